@@ -1,0 +1,1 @@
+//! The only arithmetic that shared code may use.

@@ -1,0 +1,1 @@
+//! Post-pass and verifier.

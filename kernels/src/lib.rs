@@ -1,0 +1,2 @@
+//! Entry points.
+#![cfg_attr(target_arch = "spirv", no_std)]
