@@ -12,6 +12,7 @@
 //! | [`recip`], [`rsqrt`] | same bits, within 7e-6 relative | Newton steps, the same code on both sides |
 //! | [`min`], [`max`], [`clamp`], [`abs`] | exact | compare and select, bit masks |
 //! | [`flush`], [`floor_u32`] | exact | compare and select, truncation |
+//! | [`exponent`], [`significand`], [`pow2`] | exact | the bits themselves |
 //! | [`hash`], [`unit_f32`] | exact | 32-bit integers |
 //!
 //! Two conditions hold for every function unless it says otherwise: arguments are neither NaN nor infinite, and a
@@ -21,11 +22,13 @@ mod div;
 mod hash;
 mod order;
 mod root;
+mod scale;
 
 pub use div::{div, div_emulated, recip};
 pub use hash::{hash, unit_f32};
 pub use order::{abs, clamp, floor_u32, flush, max, min, order_key};
 pub use root::{rsqrt, sqrt, sqrt_emulated};
+pub use scale::{exponent, pow2, significand};
 
 /// The sign bit of an `f32`.
 const SIGN: u32 = 0x8000_0000;
