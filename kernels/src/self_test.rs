@@ -23,6 +23,7 @@ pub use operands::operands;
 use crate::invocation;
 use bytemuck::{Pod, Zeroable};
 use glam::UVec3;
+use lightbvh::exact;
 use spirv_std::spirv;
 
 /// Three operands as `f32` bit patterns, so that loading them changes no bit.
@@ -63,7 +64,8 @@ pub fn self_test(
         association(a, b, c, answers, at + 6);
         rounding(a, b, c, answers, at + 15);
         conversion(a, b, c, answers, at + 21);
-        freedoms(a, b, c, answers, at + 26);
+        root_and_quotient(a, b, answers, at + 26);
+        freedoms(a, b, c, answers, at + 30);
     }
 }
 
@@ -136,6 +138,17 @@ fn conversion(a: f32, b: f32, c: f32, out: &mut [u32], at: usize) {
     out[at + 3] = (-wide) as i32 as u32;
     let mixed = a.to_bits().wrapping_mul(0x9e37_79b9) ^ (b.to_bits() >> (c.to_bits() & 31));
     out[at + 4] = mixed.wrapping_add((mixed as i32 >> 7) as u32) ^ mixed.leading_zeros();
+}
+
+/// Four words of the division, root and reciprocals of [`lightbvh::exact`], on magnitudes.
+#[inline]
+fn root_and_quotient(a: f32, b: f32, out: &mut [u32], at: usize) {
+    let x = exact::abs(a);
+    let y = exact::abs(b);
+    out[at] = exact::div(x, y).to_bits();
+    out[at + 1] = exact::sqrt(x).to_bits();
+    out[at + 2] = exact::recip(x).to_bits();
+    out[at + 3] = exact::rsqrt(y).to_bits();
 }
 
 /// Eight words that a conformant device may answer in its own way; they never count.

@@ -36,7 +36,10 @@ pub(crate) fn float_operations(module: &Module) -> impl Iterator<Item = &Instruc
 
 /// The ids that carry `NoContraction`.
 pub(crate) fn uncontracted(module: &Module) -> HashSet<u32> {
-    let decorations = module.annotations.iter().filter(|inst| inst.class.opcode == Op::Decorate);
+    let decorations = module
+        .annotations
+        .iter()
+        .filter(|inst| inst.class.opcode == Op::Decorate);
     decorations
         .filter_map(|inst| match inst.operands.as_slice() {
             [Operand::IdRef(id), Operand::Decoration(Decoration::NoContraction)] => Some(*id),
@@ -82,8 +85,10 @@ pub(crate) fn float_types(module: &Module) -> HashSet<u32> {
 
 fn forbid_contraction(module: &mut Module) {
     let done = uncontracted(module);
-    let missing: Vec<u32> =
-        float_operations(module).filter_map(|inst| inst.result_id).filter(|id| !done.contains(id)).collect();
+    let missing: Vec<u32> = float_operations(module)
+        .filter_map(|inst| inst.result_id)
+        .filter(|id| !done.contains(id))
+        .collect();
     module.annotations.extend(missing.into_iter().map(|id| {
         let operands = vec![Operand::IdRef(id), Operand::Decoration(Decoration::NoContraction)];
         Instruction::new(Op::Decorate, None, None, operands)
@@ -96,7 +101,11 @@ fn strip_debug(module: &mut Module) {
     module.debug_module_processed.clear();
     let is_line = |inst: &Instruction| matches!(inst.class.opcode, Op::Line | Op::NoLine);
     module.types_global_values.retain(|inst| !is_line(inst));
-    for block in module.functions.iter_mut().flat_map(|function| &mut function.blocks) {
+    for block in module
+        .functions
+        .iter_mut()
+        .flat_map(|function| &mut function.blocks)
+    {
         block.instructions.retain(|inst| !is_line(inst));
     }
 }
@@ -105,7 +114,11 @@ fn strip_debug(module: &mut Module) {
 /// because `spirv-opt` leaves float algebra alone in a module that has it.
 fn strip_brake(module: &mut Module) {
     let mode = Operand::ExecutionMode(ExecutionMode::SignedZeroInfNanPreserve);
-    if !module.execution_modes.iter().any(|inst| inst.operands.contains(&mode)) {
+    if !module
+        .execution_modes
+        .iter()
+        .any(|inst| inst.operands.contains(&mode))
+    {
         let brake = Operand::Capability(Capability::SignedZeroInfNanPreserve);
         module.capabilities.retain(|inst| !inst.operands.contains(&brake));
     }

@@ -22,7 +22,9 @@ pub mod compile;
 
 /// Reads SPIR-V words into a module.
 fn load(words: &[u32]) -> Result<rspirv::dr::Module, Unreadable> {
-    rspirv::dr::load_words(words).map_err(|state| Unreadable { reason: state.to_string() })
+    rspirv::dr::load_words(words).map_err(|state| Unreadable {
+        reason: state.to_string(),
+    })
 }
 
 /// Words that are not a SPIR-V module.

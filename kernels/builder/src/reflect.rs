@@ -61,17 +61,25 @@ pub enum ReflectError {
 pub fn reflect(words: &[u32]) -> Result<Interface, ReflectError> {
     let module = load(words)?;
     let [entry] = module.entry_points.as_slice() else {
-        return Err(ReflectError::EntryPoints { found: module.entry_points.len() });
+        return Err(ReflectError::EntryPoints {
+            found: module.entry_points.len(),
+        });
     };
     let entry_point = entry.operands.iter().find_map(literal_string).unwrap_or_default();
-    let workgroup =
-        local_size(&module).ok_or_else(|| ReflectError::NoLocalSize { entry_point: entry_point.clone() })?;
+    let workgroup = local_size(&module).ok_or_else(|| ReflectError::NoLocalSize {
+        entry_point: entry_point.clone(),
+    })?;
     let bindings = count_bindings(&module, &entry_point)?;
     let push_constant_bytes = variables(&module, StorageClass::PushConstant)
         .map(|variable| pointee_size(&module, variable))
         .max()
         .unwrap_or(0);
-    Ok(Interface { entry_point, workgroup, bindings, push_constant_bytes })
+    Ok(Interface {
+        entry_point,
+        workgroup,
+        bindings,
+        push_constant_bytes,
+    })
 }
 
 fn literal_string(operand: &Operand) -> Option<String> {
@@ -89,9 +97,8 @@ fn literal(operand: &Operand) -> Option<u32> {
 }
 
 fn local_size(module: &Module) -> Option<[u32; 3]> {
-    let is_size = |inst: &&Instruction| {
-        inst.operands.get(1) == Some(&Operand::ExecutionMode(ExecutionMode::LocalSize))
-    };
+    let is_size =
+        |inst: &&Instruction| inst.operands.get(1) == Some(&Operand::ExecutionMode(ExecutionMode::LocalSize));
     let size = module.execution_modes.iter().find(is_size)?;
     let dims: Vec<u32> = size.operands.iter().filter_map(literal).collect();
     dims.try_into().ok()
@@ -105,12 +112,17 @@ fn variables(module: &Module, class: StorageClass) -> impl Iterator<Item = &Inst
 
 /// The literal of a decoration with one, such as `Binding`.
 fn decoration(module: &Module, id: u32, kind: Decoration) -> Option<u32> {
-    module.annotations.iter().find_map(|inst| match inst.operands.as_slice() {
-        [Operand::IdRef(target), Operand::Decoration(found), value] if *target == id && *found == kind => {
-            literal(value)
-        }
-        _ => None,
-    })
+    module
+        .annotations
+        .iter()
+        .find_map(|inst| match inst.operands.as_slice() {
+            [Operand::IdRef(target), Operand::Decoration(found), value]
+                if *target == id && *found == kind =>
+            {
+                literal(value)
+            }
+            _ => None,
+        })
 }
 
 fn count_bindings(module: &Module, entry_point: &str) -> Result<u32, ReflectError> {
@@ -123,7 +135,12 @@ fn count_bindings(module: &Module, entry_point: &str) -> Result<u32, ReflectErro
     seen.sort_unstable();
     for (expected, &(binding, set, id)) in seen.iter().enumerate() {
         if set != 0 || binding as usize != expected {
-            return Err(ReflectError::Binding { entry_point: entry_point.to_owned(), id, set, binding });
+            return Err(ReflectError::Binding {
+                entry_point: entry_point.to_owned(),
+                id,
+                set,
+                binding,
+            });
         }
     }
     Ok(seen.len() as u32)
@@ -131,8 +148,11 @@ fn count_bindings(module: &Module, entry_point: &str) -> Result<u32, ReflectErro
 
 /// Size in bytes of what the variable's pointer points at.
 fn pointee_size(module: &Module, variable: &Instruction) -> u32 {
-    let types: HashMap<u32, &Instruction> =
-        module.types_global_values.iter().filter_map(|inst| Some((inst.result_id?, inst))).collect();
+    let types: HashMap<u32, &Instruction> = module
+        .types_global_values
+        .iter()
+        .filter_map(|inst| Some((inst.result_id?, inst)))
+        .collect();
     let pointer = variable.result_type.and_then(|id| types.get(&id));
     match pointer.and_then(|inst| inst.operands.get(1)) {
         Some(Operand::IdRef(pointee)) => size(module, &types, *pointee),
@@ -149,7 +169,10 @@ fn size(module: &Module, types: &HashMap<u32, &Instruction>, id: u32) -> u32 {
             size(module, types, *part).saturating_mul(*count)
         }
         (Op::TypeArray, [_, Operand::IdRef(length)]) => {
-            let count = types.get(length).and_then(|inst| inst.operands.first()).and_then(literal);
+            let count = types
+                .get(length)
+                .and_then(|inst| inst.operands.first())
+                .and_then(literal);
             let stride = decoration(module, id, Decoration::ArrayStride);
             stride.unwrap_or(0).saturating_mul(count.unwrap_or(0))
         }

@@ -8,40 +8,98 @@ const ONE: u32 = 0x3f80_0000;
 /// Triples made so that each kind of defect shows in at least one word of at least one of them.
 const HAND_MADE: [Operands; 12] = [
     // (1 + 2^-12)^2 = 1 + 2^-11 + 2^-24: the product drops its last bit, a fused multiply-add of -(1 + 2^-11) keeps it.
-    Operands { a: ONE + 0x800, b: ONE + 0x800, c: 0xbf80_1000 },
+    Operands {
+        a: ONE + 0x800,
+        b: ONE + 0x800,
+        c: 0xbf80_1000,
+    },
     // The same with the sign turned, for negated forms.
-    Operands { a: ONE + 0x800, b: 0xbf80_0800, c: ONE + 0x1000 },
+    Operands {
+        a: ONE + 0x800,
+        b: 0xbf80_0800,
+        c: ONE + 0x1000,
+    },
     // 2^24 + 1 - 2^24: a tie that goes to even, so real algebra and rounding disagree.
-    Operands { a: 0x4b80_0000, b: ONE, c: 0xcb80_0000 },
-    Operands { a: ONE, b: 0x4b80_0000, c: ONE },
+    Operands {
+        a: 0x4b80_0000,
+        b: ONE,
+        c: 0xcb80_0000,
+    },
+    Operands {
+        a: ONE,
+        b: 0x4b80_0000,
+        c: ONE,
+    },
     // Ties to even downwards and upwards, and just beside a tie.
-    Operands { a: ONE, b: 0x3380_0000, c: 0x3400_0000 },
-    Operands { a: ONE + 1, b: 0x3380_0000, c: 0xb380_0000 },
-    Operands { a: ONE, b: 0x3380_0001, c: 0x337f_ffff },
+    Operands {
+        a: ONE,
+        b: 0x3380_0000,
+        c: 0x3400_0000,
+    },
+    Operands {
+        a: ONE + 1,
+        b: 0x3380_0000,
+        c: 0xb380_0000,
+    },
+    Operands {
+        a: ONE,
+        b: 0x3380_0001,
+        c: 0x337f_ffff,
+    },
     // The same below zero: tells rounding towards zero from rounding down.
-    Operands { a: 0xbf80_0000, b: 0xb380_0001, c: 0xb37f_ffff },
-    Operands { a: 0xbf80_0001, b: 0xb380_0000, c: 0x3380_0000 },
+    Operands {
+        a: 0xbf80_0000,
+        b: 0xb380_0001,
+        c: 0xb37f_ffff,
+    },
+    Operands {
+        a: 0xbf80_0001,
+        b: 0xb380_0000,
+        c: 0x3380_0000,
+    },
     // Thirds and tenths: every product and quotient is inexact.
-    Operands { a: 0x3eaa_aaab, b: 0x3dcc_cccd, c: 0x4040_0000 },
+    Operands {
+        a: 0x3eaa_aaab,
+        b: 0x3dcc_cccd,
+        c: 0x4040_0000,
+    },
     // The largest fraction, where roots and quotients are hardest to round.
-    Operands { a: ONE | 0x007f_ffff, b: 0x3fff_fffe, c: 0x3f7f_ffff },
+    Operands {
+        a: ONE | 0x007f_ffff,
+        b: 0x3fff_fffe,
+        c: 0x3f7f_ffff,
+    },
     // Equal operands: differences vanish, comparisons tie.
-    Operands { a: 0x4049_0fdb, b: 0x4049_0fdb, c: 0x4049_0fdb },
+    Operands {
+        a: 0x4049_0fdb,
+        b: 0x4049_0fdb,
+        c: 0x4049_0fdb,
+    },
 ];
 
 /// `count` operand triples: the hand-made ones first, then hashed ones with magnitudes in [2^-20, 2^20) and both
 /// signs, every other one with `c` close to `-(a * b)`, where a contraction shows most. The same on every call.
 #[must_use]
 pub fn operands(count: u32) -> Vec<Operands> {
-    (0..count).map(|i| HAND_MADE.get(i as usize).copied().unwrap_or_else(|| hashed(i))).collect()
+    (0..count)
+        .map(|i| HAND_MADE.get(i as usize).copied().unwrap_or_else(|| hashed(i)))
+        .collect()
 }
 
 /// The triple that belongs to index `i`.
 fn hashed(i: u32) -> Operands {
     let a = number(hash(3 * i));
     let b = number(hash(3 * i + 1));
-    let c = if i.is_multiple_of(2) { -(a * b) } else { number(hash(3 * i + 2)) };
-    Operands { a: a.to_bits(), b: b.to_bits(), c: c.to_bits() }
+    let c = if i.is_multiple_of(2) {
+        -(a * b)
+    } else {
+        number(hash(3 * i + 2))
+    };
+    Operands {
+        a: a.to_bits(),
+        b: b.to_bits(),
+        c: c.to_bits(),
+    }
 }
 
 /// A float with the sign and fraction of `h` and an exponent in [-20, 20) taken from its other bits.
@@ -65,7 +123,9 @@ mod tests {
     use glam::UVec3;
 
     fn answers(set: &[Operands]) -> Vec<u32> {
-        let push = SelfTestPush { count: set.len() as u32 };
+        let push = SelfTestPush {
+            count: set.len() as u32,
+        };
         let mut out = vec![0xffff_ffff; set.len() * CHECK_COUNT as usize];
         for i in 0..push.count + 3 {
             self_test(UVec3::new(i, 0, 0), &push, set, &mut out);
@@ -74,7 +134,10 @@ mod tests {
     }
 
     fn word(name: &str) -> usize {
-        CHECKS.iter().position(|check| check.name == name).expect("a check of that name")
+        CHECKS
+            .iter()
+            .position(|check| check.name == name)
+            .expect("a check of that name")
     }
 
     /// Answers worked out by hand: the CPU must give them, whatever it was compiled with.
@@ -106,7 +169,12 @@ mod tests {
         let mut out = answers(&set);
         assert!(out.iter().all(|&word| word != 0xffff_ffff));
         out.push(7);
-        self_test(UVec3::new(100, 0, 0), &SelfTestPush { count: 100 }, &set, &mut out);
+        self_test(
+            UVec3::new(100, 0, 0),
+            &SelfTestPush { count: 100 },
+            &set,
+            &mut out,
+        );
         assert_eq!(out.last(), Some(&7));
     }
 
@@ -126,7 +194,10 @@ mod tests {
         for o in operands(5000) {
             for bits in [o.a, o.b, o.c] {
                 let magnitude = f32::from_bits(bits).abs();
-                assert!((2f32.powi(-41)..2f32.powi(41)).contains(&magnitude), "{magnitude}");
+                assert!(
+                    (2f32.powi(-41)..2f32.powi(41)).contains(&magnitude),
+                    "{magnitude}"
+                );
             }
         }
     }
