@@ -135,7 +135,8 @@ fn conversion(a: f32, b: f32, c: f32, out: &mut [u32], at: usize) {
     let exponent = 127 + (b.to_bits() >> 23) % 24;
     let wide = f32::from_bits((exponent << 23) | (c.to_bits() & 0x007f_ffff));
     out[at + 2] = wide as u32;
-    out[at + 3] = (-wide) as i32 as u32;
+    // One less, so that no answer is the word of ones that the host fills buffers with.
+    out[at + 3] = ((-wide) as i32).wrapping_sub(1) as u32;
     let mixed = a.to_bits().wrapping_mul(0x9e37_79b9) ^ (b.to_bits() >> (c.to_bits() & 31));
     out[at + 4] = mixed.wrapping_add((mixed as i32 >> 7) as u32) ^ mixed.leading_zeros();
 }

@@ -6,7 +6,7 @@ use lightbvh_kernels_builder::manifest::{self, ManifestError};
 use lightbvh_kernels_builder::reflect::reflect;
 use lightbvh_kernels_builder::verify::{VerifyError, verify};
 use rspirv::binary::Assemble;
-use rspirv::dr::{Builder, Operand};
+use rspirv::dr::{Builder, Instruction, Operand};
 use rspirv::spirv::{
     AddressingModel, Capability, ExecutionMode, ExecutionModel, FunctionControl, GlslStd450Op, MemoryModel,
     Op, StorageClass,
@@ -284,10 +284,17 @@ fn debug_information_and_the_optimiser_brake_do_not_survive_decoration() {
 #[test]
 fn a_buffer_outside_the_common_layout_is_refused() {
     let words = module(|b, t| {
-        let pointer = b.type_pointer(None, StorageClass::StorageBuffer, t.uint);
-        b.variable(pointer, None, StorageClass::StorageBuffer, None);
+        b.type_pointer(None, StorageClass::StorageBuffer, t.uint);
     });
-    assert!(reflect(&words).unwrap_err().to_string().contains("set 0"));
+    let mut module = rspirv::dr::load_words(&words).unwrap();
+    let pointer = module.types_global_values.last().and_then(|inst| inst.result_id);
+    let class = Operand::StorageClass(StorageClass::StorageBuffer);
+    // A buffer without a descriptor set and binding.
+    module
+        .types_global_values
+        .push(Instruction::new(Op::Variable, pointer, Some(999), vec![class]));
+    let error = reflect(&module.assemble()).unwrap_err().to_string();
+    assert!(error.contains("%999") && error.contains("set 0"), "{error}");
 }
 
 #[test]

@@ -194,9 +194,6 @@ fn source_files(root: &Path, module: &Path) -> Result<Vec<String>, CompileError>
         .join(spvs.file_stem().unwrap_or_default())
         .with_extension("spv.d");
     let text = String::from_utf8_lossy(&files::read(&list)?).replace("\\ ", "\0");
-    let root = root
-        .canonicalize()
-        .map_err(|source| FileError::new("resolve", root, source))?;
     let mut found: BTreeSet<String> = ALWAYS.iter().map(|&file| file.to_owned()).collect();
     for path in text
         .split_whitespace()
