@@ -1,2 +1,5 @@
 //! Entry points.
 #![cfg_attr(target_arch = "spirv", no_std)]
+
+pub mod render;
+pub mod shading;
