@@ -9,6 +9,9 @@ use lightbvh::exact::{abs, flush, pow2};
 
 /// The grid's step, metres.
 pub const STEP: f32 = pow2(-40);
+/// Largest magnitude of a coordinate that is rendered, metres: 2^30, so that the squared length of a cross product of two
+/// edges stays below 2^127.
+pub const MAX_COORDINATE: f32 = pow2(30);
 /// Components of a cross product of two lengths below this, m², count as zero.
 pub const TINY_AREA: f32 = pow2(-60);
 /// Products of three or four lengths, and weights, below this count as zero.

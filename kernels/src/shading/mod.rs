@@ -10,9 +10,9 @@
 //! | [`pick`] | the choice of a light: the trait, uniform and by power |
 //! | [`pixel`] | all of it together, for one pixel |
 //!
-//! Results agree to the bit between processors in this domain: coordinates at most 2^24 m in magnitude and on the grid
-//! (the host's ray-BVH builder sees to both), radiances as in [`lightbvh::light`], albedo and specular weight in [0, 1].
-//! Outside of it nothing panics, and every loop still ends.
+//! Results agree to the bit between processors in this domain: coordinates at most [`grid::MAX_COORDINATE`] in magnitude
+//! and on the grid (the host's ray-BVH builder sees to both), radiances as in [`lightbvh::light`], albedo and specular
+//! weight in [0, 1]. Outside of it nothing panics, and every loop still ends.
 
 pub mod area;
 pub mod camera;
