@@ -11,7 +11,9 @@
 //! - the workgroup is [`WORKGROUP`] × 1 × 1 invocations, and [`invocation`] numbers them.
 #![cfg_attr(target_arch = "spirv", no_std)]
 
+pub mod render;
 pub mod self_test;
+pub mod shading;
 
 use glam::UVec3;
 
