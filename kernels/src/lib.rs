@@ -11,6 +11,9 @@
 //! - the workgroup is [`WORKGROUP`] × 1 × 1 invocations, and [`invocation`] numbers them.
 #![cfg_attr(target_arch = "spirv", no_std)]
 
+pub mod bvh;
+pub mod query;
+pub mod refit;
 pub mod render;
 pub mod self_test;
 pub mod shading;
