@@ -1,1 +1,5 @@
 //! Host.
+#![deny(unsafe_code)]
+
+pub mod compare;
+pub mod vulkan;

@@ -1,0 +1,28 @@
+//! The kernels' SPIR-V modules, built into the program.
+
+/// A kernel's module under the kernel's name.
+pub(crate) struct Module {
+    pub(crate) name: &'static str,
+    pub(crate) bytes: &'static [u8],
+}
+
+/// One entry of the table: the module that the kernels' builder wrote for the entry point of that name.
+macro_rules! module {
+    ($name:literal) => {
+        Module {
+            name: $name,
+            bytes: include_bytes!(concat!("../../../kernels/spirv/", $name, ".spv")),
+        }
+    };
+}
+
+/// All kernels; a new kernel is one line here.
+pub(crate) const MODULES: &[Module] = &[];
+
+/// A module's bytes as words; a ragged end is dropped and will not parse.
+pub(crate) fn words(bytes: &[u8]) -> Vec<u32> {
+    bytes
+        .chunks_exact(4)
+        .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
+        .collect()
+}
