@@ -1,6 +1,7 @@
 //! Device memory behind a buffer, and the copies in and out of it.
 
 use super::error::{CallContext, VulkanError};
+use super::retired::Retired;
 use super::shared::Shared;
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -133,7 +134,7 @@ impl Memory {
         let work = || format!("filling a buffer of {bytes} bytes");
         let done = shared.submit(work, |device, commands| {
             // SAFETY: the buffer belongs to this device, was made for transfers and is `bytes` long, a multiple of 4;
-            // it outlives the submission, or leaks with it (`drop`).
+            // it outlives the submission (`drop`).
             unsafe { device.cmd_fill_buffer(commands, buffer, 0, bytes, word) };
         });
         done.map(drop)
@@ -150,7 +151,7 @@ impl Memory {
         let work = || format!("copying {bytes} bytes");
         let done = self.shared.submit(work, |device, commands| {
             // SAFETY: both buffers belong to this device, were made for transfers, hold the regions (`chunks`), and
-            // outlive the submission, or leak with it (`drop`).
+            // outlive the submission (`drop`).
             unsafe { device.cmd_copy_buffer(commands, source, target, &regions) };
         });
         done.map(drop)
@@ -179,18 +180,8 @@ impl Memory {
 
 impl Drop for Memory {
     fn drop(&mut self) {
-        if self.shared.is_busy() {
-            // The device may still use the memory: leak it.
-            std::mem::forget(self.allocation.take());
-            return;
-        }
-        // SAFETY: the buffer belongs to this device and nothing that uses it is running: submissions borrow it until
-        // they are done, and one that ran into its time limit is caught above.
-        unsafe { self.shared.raw.destroy_buffer(self.buffer, None) };
-        if let Some(allocation) = self.allocation.take() {
-            // An error would be the allocator's own inconsistency; there is nothing to undo in a drop.
-            let _ = self.shared.allocator().free(allocation);
-        }
+        self.shared
+            .retire(Retired::Buffer(self.buffer, self.allocation.take()));
     }
 }
 

@@ -1,6 +1,6 @@
 //! Vulkan compute without a window: devices, buffers, kernels, passes, and the question whether a device is exact.
 //!
-//! The files follow a device's life: [`instance`](self) and probe, device, buffers, kernels, passes, end. All of the
+//! The files follow a device's life: instance, probe, device, buffers, kernels, passes, retirement. All of the
 //! host's `unsafe` code is in this module; what it needs to be sound is checked here and not left to callers, with one
 //! exception that Vulkan itself makes: the instructions of a SPIR-V module are trusted like any program's.
 //!
@@ -33,6 +33,7 @@ mod modules;
 mod pass;
 mod probe;
 mod queue;
+mod retired;
 mod run;
 mod self_test;
 mod shared;

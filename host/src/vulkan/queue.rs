@@ -1,6 +1,7 @@
 //! One submission at a time: record, submit, wait.
 
 use super::error::{CallContext, VulkanError};
+use super::retired::Retired;
 use super::shared::Shared;
 use ash::vk;
 use std::time::{Duration, Instant};
@@ -13,6 +14,8 @@ pub(crate) struct Queue {
     fence: vk::Fence,
     /// A submission ran into its time limit and its fence has not been seen signalled since.
     unfinished: bool,
+    /// What that submission may still use and nobody holds any more.
+    pub(super) retired: Vec<Retired>,
 }
 
 impl Queue {
@@ -28,6 +31,7 @@ impl Queue {
             commands: vk::CommandBuffer::null(),
             fence: vk::Fence::null(),
             unfinished: false,
+            retired: Vec::new(),
         };
         match queue.fill(device, name) {
             Ok(()) => Ok(queue),
@@ -106,8 +110,8 @@ impl Shared {
         let none = vk::DependencyFlags::empty();
         // SAFETY: pool, command buffer and fence belong to this device, are used under the queue's lock only, and
         // nothing is running (`idle_queue`), so resetting them is allowed. `record` is given a command buffer in the
-        // recording state; its callers keep what they record alive until this function returns, or leak it if it
-        // returns `Timeout`.
+        // recording state; its callers keep what they record alive until this function returns,
+        // and then retire it.
         unsafe {
             device
                 .reset_command_pool(queue.pool, vk::CommandPoolResetFlags::empty())

@@ -3,6 +3,7 @@
 use super::device::Device;
 use super::error::{CallContext, VulkanError};
 use super::pass::{Dispatch, Pass, groups};
+use super::retired::Retired;
 use super::shared::Shared;
 use ash::vk;
 use std::time::Duration;
@@ -160,14 +161,8 @@ impl Scratch<'_> {
 
 impl Drop for Scratch<'_> {
     fn drop(&mut self) {
-        if self.shared.is_busy() {
-            return; // Still in use by work that ran into its time limit: leaked.
-        }
-        // SAFETY: both belong to this device or are null, and nothing that uses them is running.
-        unsafe {
-            self.shared.raw.destroy_descriptor_pool(self.sets, None);
-            self.shared.raw.destroy_query_pool(self.queries, None);
-        }
+        self.shared.retire(Retired::Sets(self.sets));
+        self.shared.retire(Retired::Queries(self.queries));
     }
 }
 
@@ -193,7 +188,7 @@ fn record(
     let compute = vk::PipelineBindPoint::COMPUTE;
     // SAFETY: the command buffer is recording; pipeline, layout and set belong to this device and match in bindings and
     // push constants (`Dispatch::check`); the counts are within what every device allows. What is bound outlives the
-    // submission: the pass borrows buffers and kernels, and memory in use is leaked after a time limit.
+    // submission: the pass borrows buffers and kernels, and `retire` keeps memory that is in use after a time limit.
     unsafe {
         device.cmd_bind_pipeline(commands, compute, kernel.pipeline);
         device.cmd_bind_descriptor_sets(commands, compute, kernel.layout, 0, &[set], &[]);

@@ -93,6 +93,7 @@ impl Shared {
     pub(crate) fn idle_queue(&self) -> Result<MutexGuard<'_, Queue>, VulkanError> {
         let mut queue = self.queue();
         queue.settle(&self.raw, &self.probe.name)?;
+        self.destroy_retired(queue.retired.drain(..));
         Ok(queue)
     }
 
