@@ -46,7 +46,7 @@ pub use buffer::{Binding, Buffer, UNWRITTEN};
 pub use device::{Device, DeviceInfo, DeviceList, Options};
 pub use error::VulkanError;
 pub use kernel::Kernel;
-pub use pass::{Pass, ROW_GROUPS};
+pub use pass::Pass;
 pub use probe::{Driver, Features, FloatControls, Limits, Probe};
 pub use run::Timings;
 pub use self_test::{Exactness, Finding};

@@ -26,3 +26,24 @@ pub(crate) fn words(bytes: &[u8]) -> Vec<u32> {
         .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::spirv_interface::Interface;
+    use super::*;
+    use lightbvh_kernels::WORKGROUP;
+
+    #[test]
+    fn every_module_is_the_kernel_it_is_named_after() {
+        for module in MODULES {
+            let interface = Interface::read(&words(module.bytes)).expect(module.name);
+            assert_eq!(interface.entry_point, module.name);
+            assert_eq!(interface.workgroup, [WORKGROUP, 1, 1], "{}", module.name);
+            assert!(
+                interface.strides.iter().all(Option::is_some),
+                "{}: a binding is not used",
+                module.name
+            );
+        }
+    }
+}

@@ -4,10 +4,7 @@ use super::buffer::Binding;
 use super::error::VulkanError;
 use super::kernel::Kernel;
 use super::shared::Shared;
-
-/// Workgroups in a row of a dispatch: the least `maxComputeWorkGroupCount` that Vulkan allows a device to have, used
-/// on every device so that kernels number their invocations the same everywhere.
-pub const ROW_GROUPS: u32 = 65_535;
+use lightbvh_kernels::ROW_GROUPS;
 
 /// A list of dispatches.
 #[derive(Default)]
