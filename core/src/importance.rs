@@ -56,8 +56,9 @@ const SOFTENING: f32 = 1.0 / 12.0;
 /// Squared distances count as at least this, m²: 2^-100.
 const MIN_DISTANCE_SQUARED: f32 = pow2(-100);
 
-/// 2^-60.
-const TINY: f32 = pow2(-60);
+/// Lengths below 2^-110 m count as 0, a sixtieth power of two below the least distance: a sign that hangs on a
+/// subnormal product would not be the same on a device that flushes those.
+const TINY_LENGTH: f32 = pow2(-110);
 
 /// Eq. 4 of Freire & Pereira 2023 (after Conty Estevez & Kulla 2018, section 4.2, Eq. 3): flux, distance, orientation of
 /// the emitters and incident angle.
@@ -72,24 +73,29 @@ pub struct Eq4;
 impl ImportanceModel for Eq4 {
     #[inline(always)]
     fn importance(cluster: &Cluster, point: &ShadingPoint) -> Importance {
-        let (v, distance_squared, inverse) = direction(cluster, point);
+        let v = cluster.center - point.position();
+        let n = point.normal();
+        let d_squared = exact::max(length_squared(v), MIN_DISTANCE_SQUARED);
+        let r_squared = cluster.radius_squared;
 
-        // sin and cos of θ_u; inside the sphere the lights may be anywhere.
-        let sin_u_squared = cluster.radius_squared * (inverse * inverse);
-        let inside = sin_u_squared >= 1.0;
-        let sin_u = root(sin_u_squared);
-        let cos_u = root(exact::max(1.0 - sin_u_squared, 0.0));
+        // Lengths instead of sines and cosines: with d = |v|, d cos θ_i = n·v, d cos θ = −axis·v, d sin θ_u = r, and
+        // the others by Pythagoras. Every root then starts from d² and none waits for another.
+        let along_n = exact::flush(dot(n, v), TINY_LENGTH);
+        let along_axis = exact::flush(-dot(cluster.axis, v), TINY_LENGTH);
+        let across_n = root(d_squared - along_n * along_n);
+        let across_axis = root(d_squared - along_axis * along_axis);
+        let radius = root(r_squared);
+        let tangent = root(d_squared - r_squared);
+        let inverse = rsqrt(d_squared);
+        let inverse_squared = inverse * inverse;
+
+        // Inside the sphere the lights may be anywhere.
+        let inside = r_squared >= d_squared;
 
         // cos θ'_i = cos max(0, θ_i − θ_u), and 1 in a volume.
-        let n = point.normal();
         let in_volume = n.x == 0.0 && n.y == 0.0 && n.z == 0.0;
-        let cos_i = cosine(dot(n, v) * inverse);
-        let sin_i = root(1.0 - cos_i * cos_i);
-        let towards = if cos_i >= cos_u {
-            1.0
-        } else {
-            cos_i * cos_u + sin_i * sin_u
-        };
+        let towards = (along_n * tangent + across_n * radius) * inverse_squared;
+        let towards = if along_n >= tangent { 1.0 } else { towards };
         let incident = if in_volume || inside {
             1.0
         } else {
@@ -97,24 +103,18 @@ impl ImportanceModel for Eq4 {
         };
 
         // cos θ' = cos max(0, θ − θ_o − θ_u), with α = θ_o + θ_u; an α above π shows in its negative sine.
-        let cos_t = cosine(-(dot(cluster.axis, v) * inverse));
-        let sin_t = root(1.0 - cos_t * cos_t);
-        let cos_alpha = cluster.cos_theta_o * cos_u - cluster.sin_theta_o * sin_u;
-        let sin_alpha = cluster.sin_theta_o * cos_u + cluster.cos_theta_o * sin_u;
-        let surrounded = inside || sin_alpha < 0.0 || cos_t >= cos_alpha;
-        let facing = if surrounded {
-            1.0
-        } else {
-            cos_t * cos_alpha + sin_t * sin_alpha
-        };
-        let reach = facing + SLACK;
+        let cos_alpha = cluster.cos_theta_o * tangent - cluster.sin_theta_o * radius;
+        let sin_alpha = cluster.sin_theta_o * tangent + cluster.cos_theta_o * radius;
+        let surrounded = inside || sin_alpha < 0.0 || along_axis >= cos_alpha;
+        let facing = (along_axis * cos_alpha + across_axis * sin_alpha) * inverse_squared;
+        let reach = if surrounded { 1.0 } else { facing } + SLACK;
         let orientation = if reach > cluster.cos_theta_e {
             positive(reach)
         } else {
             0.0
         };
 
-        over_distance(cluster, distance_squared, incident * orientation)
+        over_distance(cluster, d_squared, incident * orientation)
     }
 }
 
@@ -128,14 +128,6 @@ impl ImportanceModel for FluxOverDistance {
         let distance_squared = length_squared(cluster.center - point.position());
         over_distance(cluster, distance_squared, 1.0)
     }
-}
-
-/// C − X, its squared length (at least 2^-100) and the reciprocal of its length.
-#[inline(always)]
-fn direction(cluster: &Cluster, point: &ShadingPoint) -> (Vec3, f32, f32) {
-    let v = cluster.center - point.position();
-    let distance_squared = exact::max(length_squared(v), MIN_DISTANCE_SQUARED);
-    (v, distance_squared, rsqrt(distance_squared))
 }
 
 /// Φ · factor / (d² + r²/12), exponents apart.
@@ -154,18 +146,12 @@ fn over_distance(cluster: &Cluster, distance_squared: f32, factor: f32) -> Impor
     }
 }
 
-/// Square root of `x` in 0..=2 by the cheap reciprocal root; x below 2^-60 counts as 0.
+/// Square root by the cheap reciprocal root; 0 for anything below 2^-124.
 #[inline(always)]
 fn root(x: f32) -> f32 {
-    let bounded = exact::max(x, TINY);
-    if x < TINY { 0.0 } else { bounded * rsqrt(bounded) }
-}
-
-/// A computed cosine brought into −1..=1. Below 2^-60 it is +0: a sign that hangs on a subnormal product would not be
-/// the same on a device that flushes those.
-#[inline(always)]
-fn cosine(x: f32) -> f32 {
-    exact::clamp(exact::flush(x, TINY), -1.0, 1.0)
+    const LEAST: f32 = pow2(-124);
+    let bounded = exact::max(x, LEAST);
+    if x < LEAST { 0.0 } else { bounded * rsqrt(bounded) }
 }
 
 /// `x` if above zero, else +0.

@@ -17,7 +17,17 @@ macro_rules! module {
 }
 
 /// All kernels; a new kernel is one line here.
-pub(crate) const MODULES: &[Module] = &[module!("self_test")];
+pub(crate) const MODULES: &[Module] = &[
+    module!("refit_leaves"),
+    module!("refit_level"),
+    module!("refit_mesh_leaves"),
+    module!("sample"),
+    module!("pmf"),
+    module!("render_uniform"),
+    module!("render_power"),
+    module!("render_bvh"),
+    module!("self_test"),
+];
 
 /// A module's bytes as words; a ragged end is dropped and will not parse.
 pub(crate) fn words(bytes: &[u8]) -> Vec<u32> {
