@@ -1,6 +1,7 @@
 //! Runs lightbvh on the CPU and on Vulkan devices and compares the results bit for bit.
 #![deny(unsafe_code)]
 
+pub mod backend;
 pub mod compare;
 pub mod render;
 pub mod vulkan;

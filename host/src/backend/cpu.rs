@@ -1,0 +1,178 @@
+//! The passes on the CPU, over all cores of the current rayon pool.
+
+use std::time::Instant;
+
+use lightbvh::{ImportanceModel, Lights, ShadingPoint, refit, traverse};
+use lightbvh_kernels::bvh::{BvhPicker, Importance, Node, WIDTH};
+use lightbvh_kernels::query::{Query, Sampled};
+use lightbvh_kernels::render::RenderParams;
+use lightbvh_kernels::shading::pick::{Power, Uniform};
+use rayon::prelude::*;
+
+use super::{Backend, Bvh, Sampler, SceneArrays, Timed};
+use crate::render::render;
+use crate::vulkan::VulkanError;
+
+/// Nodes below which a level is not worth handing to other threads.
+const SERIAL: usize = 2048;
+
+/// The CPU as a backend: the reference that devices are compared with.
+pub struct CpuBackend {
+    bvh: Bvh,
+    lights: Lights,
+}
+
+impl CpuBackend {
+    /// Takes a BVH over `lights`.
+    #[must_use]
+    pub fn new(bvh: Bvh, lights: Lights) -> Self {
+        Self { bvh, lights }
+    }
+
+    /// The BVH as last refitted.
+    #[must_use]
+    pub fn bvh(&self) -> &Bvh {
+        &self.bvh
+    }
+
+    /// The lights as last refitted to.
+    #[must_use]
+    pub fn lights(&self) -> &Lights {
+        &self.lights
+    }
+}
+
+impl Backend for CpuBackend {
+    fn name(&self) -> &str {
+        "cpu"
+    }
+
+    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<Node>>, VulkanError> {
+        self.lights = lights.clone();
+        let start = Instant::now();
+        refit_parallel(&mut self.bvh, lights);
+        Ok(Timed {
+            time: start.elapsed(),
+            value: self.bvh.nodes().to_vec(),
+        })
+    }
+
+    fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<Sampled>>, VulkanError> {
+        let start = Instant::now();
+        let value = queries
+            .par_iter()
+            .with_min_len(256)
+            .map(|query| sample_one::<Importance>(&self.bvh, &query.point, query.random_or_light))
+            .collect();
+        Ok(Timed {
+            value,
+            time: start.elapsed(),
+        })
+    }
+
+    fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, VulkanError> {
+        let start = Instant::now();
+        let value = queries
+            .par_iter()
+            .with_min_len(256)
+            .map(|query| {
+                self.bvh
+                    .pmf::<Importance>(&self.lights, &query.point, query.random_or_light)
+            })
+            .collect();
+        Ok(Timed {
+            value,
+            time: start.elapsed(),
+        })
+    }
+
+    fn render(
+        &mut self,
+        scene: &SceneArrays,
+        params: &RenderParams,
+        sampler: Sampler,
+    ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
+        let start = Instant::now();
+        let view = scene.view();
+        let value = match sampler {
+            Sampler::Uniform => {
+                let picker = Uniform {
+                    count: scene.lights.triangles().len() as u32,
+                };
+                render(&view, &scene.camera, params, &picker)
+            }
+            Sampler::Power => render(
+                &view,
+                &scene.camera,
+                params,
+                &Power {
+                    thresholds: &scene.thresholds,
+                },
+            ),
+            Sampler::SingleLevel | Sampler::TwoLevel => render(
+                &view,
+                &scene.camera,
+                params,
+                &BvhPicker {
+                    tree: self.bvh.tree(),
+                },
+            ),
+        };
+        Ok(Timed {
+            value,
+            time: start.elapsed(),
+        })
+    }
+}
+
+fn sample_one<I: ImportanceModel>(bvh: &Bvh, point: &ShadingPoint, random: u32) -> Sampled {
+    let sampled = traverse::sample::<Node, I, WIDTH>(&bvh.tree(), point, random);
+    Sampled {
+        light: sampled.light,
+        pmf: sampled.pmf,
+    }
+}
+
+/// [`lightbvh::LightBvh::refit`] with the nodes of a pass computed in parallel: they do not depend on each other, and are
+/// written after all are known.
+fn refit_parallel(bvh: &mut Bvh, lights: &Lights) {
+    let (bottom, top) = (bvh.bottom_levels().clone(), bvh.top_levels().clone());
+    let meshes = bvh.tree().meshes.to_vec();
+    let nodes = bvh.nodes().len() as u32;
+    let top_start = if bvh.is_two_level() {
+        bvh.tree().root
+    } else {
+        nodes
+    };
+
+    let all: Vec<u32> = (0..nodes).collect();
+    let (bottom_nodes, top_nodes) = all.split_at(top_start as usize);
+    run_pass(bvh, bottom_nodes, |nodes, i| {
+        refit::leaves(nodes, lights.triangles(), i)
+    });
+    for range in bottom.ranges() {
+        run_pass(bvh, &bottom.nodes()[range], refit::level);
+    }
+    run_pass(bvh, top_nodes, |nodes, i| refit::mesh_leaves(nodes, &meshes, i));
+    for range in top.ranges() {
+        run_pass(bvh, &top.nodes()[range], refit::level);
+    }
+}
+
+/// Gives each listed node the value that `node` computes from the nodes as they were before.
+fn run_pass(bvh: &mut Bvh, list: &[u32], node: impl Fn(&[Node], u32) -> Node + Sync) {
+    if list.len() < SERIAL {
+        for &i in list {
+            bvh.nodes_mut()[i as usize] = node(bvh.nodes(), i);
+        }
+    } else {
+        let new: Vec<Node> = list
+            .par_iter()
+            .with_min_len(512)
+            .map(|&i| node(bvh.nodes(), i))
+            .collect();
+        for (&i, new) in list.iter().zip(new) {
+            bvh.nodes_mut()[i as usize] = new;
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! What runs the passes: the CPU over all its cores, or a Vulkan device. Both run the same functions on the same arrays,
+//! so [`compare`](crate::compare) may ask for equal words.
+
+mod cpu;
+mod device;
+mod scene;
+
+pub use cpu::CpuBackend;
+pub use device::DeviceBackend;
+pub use scene::{Sampler, SceneArrays};
+
+use std::time::Duration;
+
+use lightbvh::{LightBvh, Lights};
+use lightbvh_kernels::bvh::{Node, WIDTH};
+use lightbvh_kernels::query::{Query, Sampled};
+use lightbvh_kernels::render::RenderParams;
+
+use crate::compare::{Field, Record};
+use crate::vulkan::VulkanError;
+
+/// The light BVH that the kernels are compiled for.
+pub type Bvh = LightBvh<Node, WIDTH>;
+
+/// A result and how long it took: on a device the kernels' own time, where it can tell.
+#[derive(Clone, Debug)]
+pub struct Timed<T> {
+    /// The result.
+    pub value: T,
+    /// Time of the work itself, without transfers.
+    pub time: Duration,
+}
+
+/// Runs the passes over one light BVH.
+pub trait Backend {
+    /// Name for tables.
+    fn name(&self) -> &str;
+
+    /// Refits to `lights`, which are those of the BVH moved or changed, and returns all nodes.
+    ///
+    /// # Errors
+    /// [`VulkanError`] from a device.
+    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<Node>>, VulkanError>;
+
+    /// Chooses a light for each query.
+    ///
+    /// # Errors
+    /// [`VulkanError`] from a device.
+    fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<Sampled>>, VulkanError>;
+
+    /// Evaluates the probability of each query's light.
+    ///
+    /// # Errors
+    /// [`VulkanError`] from a device.
+    fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, VulkanError>;
+
+    /// Renders direct lighting with lights chosen by `sampler`; the light BVH's samplers use this backend's BVH.
+    ///
+    /// # Errors
+    /// [`VulkanError`] from a device.
+    fn render(
+        &mut self,
+        scene: &SceneArrays,
+        params: &RenderParams,
+        sampler: Sampler,
+    ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError>;
+}
+
+/// Words of a node, for comparison by name.
+pub const NODE_RECORD: Record = Record {
+    name: "node",
+    fields: &[
+        Field::new("center_x", WIDTH as u32),
+        Field::new("center_y", WIDTH as u32),
+        Field::new("center_z", WIDTH as u32),
+        Field::new("extent", WIDTH as u32),
+        Field::new("axis_kind", WIDTH as u32),
+        Field::new("phi_cone", WIDTH as u32),
+        Field::new("link", WIDTH as u32),
+    ],
+};
+
+/// Words of a sampled light.
+pub const SAMPLED_RECORD: Record = Record {
+    name: "sampled light",
+    fields: &[Field::index("light"), Field::new("pmf", 1)],
+};
+
+/// Word of a pmf.
+pub const PMF_RECORD: Record = Record {
+    name: "pmf",
+    fields: &[Field::new("pmf", 1)],
+};
+
+/// Words of a pixel.
+pub const PIXEL_RECORD: Record = Record {
+    name: "pixel",
+    fields: &[Field::new("radiance", 3)],
+};

@@ -1,0 +1,84 @@
+//! A frame of a scene as the render pass reads it.
+
+use lightbvh::Lights;
+use lightbvh_kernels::shading::camera::Camera;
+use lightbvh_kernels::shading::material::Material;
+use lightbvh_kernels::shading::pixel::Scene as SceneView;
+
+use crate::render::{RayBvh, power_thresholds};
+
+/// How the renderer chooses lights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, clap::ValueEnum, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Sampler {
+    /// Every light alike.
+    Uniform,
+    /// In proportion to flux.
+    Power,
+    /// A light BVH over all triangles.
+    SingleLevel,
+    /// A light BVH over mesh lights over one over the triangles of each.
+    TwoLevel,
+}
+
+impl Sampler {
+    /// All samplers.
+    pub const ALL: [Self; 4] = [Self::Uniform, Self::Power, Self::SingleLevel, Self::TwoLevel];
+
+    /// Whether it walks a light BVH.
+    #[must_use]
+    pub fn needs_bvh(self) -> bool {
+        matches!(self, Self::SingleLevel | Self::TwoLevel)
+    }
+
+    /// As on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Uniform => "uniform",
+            Self::Power => "power",
+            Self::SingleLevel => "single-level",
+            Self::TwoLevel => "two-level",
+        }
+    }
+}
+
+/// A frame's arrays.
+#[derive(Clone, Debug)]
+pub struct SceneArrays {
+    /// What rays meet.
+    pub rays: RayBvh,
+    /// How it reflects.
+    pub materials: Vec<Material>,
+    /// What of it emits.
+    pub lights: Lights,
+    /// Table of the power sampler; empty when there are more lights than it can tell apart, or none has flux.
+    pub thresholds: Vec<u32>,
+    /// Who looks.
+    pub camera: Camera,
+}
+
+impl SceneArrays {
+    /// Gathers a frame; the power table is made here.
+    #[must_use]
+    pub fn new(rays: RayBvh, materials: Vec<Material>, lights: Lights, camera: Camera) -> Self {
+        let thresholds = power_thresholds(lights.triangles()).unwrap_or_default();
+        Self {
+            rays,
+            materials,
+            lights,
+            thresholds,
+            camera,
+        }
+    }
+
+    /// The arrays as the kernels' functions take them.
+    #[must_use]
+    pub fn view(&self) -> SceneView<'_> {
+        SceneView {
+            surfaces: self.rays.surfaces(),
+            materials: &self.materials,
+            lights: self.lights.triangles(),
+        }
+    }
+}
