@@ -69,7 +69,7 @@ proptest! {
             if index % 2 == 0 {
                 surface.light = lights.len() as u32;
                 let radiance = in_cube(&mut random, 1.0).map(|c| (c * c + 0.01) * exact::pow2(bright));
-                lights.push(EmissiveTriangle { p: surface.p, radiance, mesh: 0, flags: index as u32 / 2 & 1 });
+                lights.push(EmissiveTriangle { p: surface.p, radiance, mesh: 0, flags: (index as u32 / 2) & 1 });
             }
         }
         let bvh = RayBvh::build(&surfaces).unwrap();
