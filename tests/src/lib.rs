@@ -1,5 +1,6 @@
-//! Generators, oracles and statistics shared by the tests.
+//! Generators, oracles, statistics and devices shared by the tests.
 
+pub mod devices;
 pub mod generate;
 pub mod soup;
 pub mod statistics;
