@@ -6,7 +6,7 @@ use lightbvh::{CompactNode, Eq4, LightTree, MeshLight, ShadingPoint, traverse};
 use crate::shading::pick::{PickLight, Picked};
 
 /// Children per node.
-pub const WIDTH: usize = 2;
+pub const WIDTH: usize = 4;
 /// Node layout.
 pub type Node = CompactNode<WIDTH>;
 /// Importance.

@@ -15,8 +15,8 @@ pub const FAR: f32 = pow2(40);
 /// Determinants up to this, m³, are misses: the triangle is seen edge-on, or its area is below 2^-55 m².
 const MIN_DETERMINANT: f32 = pow2(-54);
 
-/// The distances to two sides of a box are off by three roundings of 2^-24 each; widening by more than all six keeps the
-/// test conservative (T. Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013).
+/// Box distances are off by three roundings at most, 2^-24 each; widening by twice that keeps the test conservative
+/// (T. Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013).
 const WIDEN: f32 = 1.0 + 8.0 * pow2(-24);
 
 /// The part `0 < t < t_max` of the line `origin + t direction`.
