@@ -1,12 +1,12 @@
-//! Light: estimates against closed forms, reflectances that add no energy, probabilities that are exact.
+//! Light: estimates against closed forms, shadows only where something is between.
 
 use glam::{DVec3, Vec3};
 use lightbvh::{EmissiveTriangle, ShadingPoint};
-use lightbvh_host::render::{RayBvh, View, camera, flux, power_thresholds, render};
+use lightbvh_host::render::{RayBvh, View, camera, power_thresholds, render};
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::area::{connect, offset_distance, sample_triangle};
 use lightbvh_kernels::shading::material::Material;
-use lightbvh_kernels::shading::pick::{MAX_PICKABLE, PickLight, Power, Uniform};
+use lightbvh_kernels::shading::pick::{Power, Uniform};
 use lightbvh_kernels::shading::pixel::{Scene, see};
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 use lightbvh_tests::generate::Random;
@@ -132,180 +132,6 @@ fn no_light_comes_from_behind_below_or_nowhere() {
         let connection = connect(&point, Vec3::Y, &WHITE, &light, pmf, uv);
         assert_eq!(connection.contribution.to_array().map(f32::to_bits), [0; 3]);
         assert!(connection.target.is_finite());
-    }
-}
-
-/// Reflected part of light from everywhere, by quadrature over the hemisphere.
-fn albedo(material: &Material, cos_o: f32) -> f64 {
-    let wo = Vec3::new((1.0 - cos_o * cos_o).sqrt(), 0.0, cos_o);
-    let side = 400;
-    let mut sum = 0.0;
-    for i in 0..side {
-        for j in 0..side {
-            // Uniform in the square of the sine: the density is cos / pi, which cancels the cosine.
-            let sin = ((i as f32 + 0.5) / side as f32).sqrt();
-            let phi = (j as f32 + 0.5) / side as f32 * std::f32::consts::TAU;
-            let wi = Vec3::new(sin * phi.cos(), sin * phi.sin(), (1.0 - sin * sin).sqrt());
-            sum += f64::from(material.eval(Vec3::Z, wi, wo).x) * std::f64::consts::PI;
-        }
-    }
-    sum / f64::from(side * side)
-}
-
-#[test]
-fn materials_reflect_no_more_than_arrives() {
-    for exponent_log2 in 0..=10 {
-        let gloss = Material {
-            albedo: [1.0; 3],
-            specular: 1.0,
-            exponent_log2,
-        };
-        for cos_o in [1.0, 0.9, 0.5, 0.1] {
-            let reflected = albedo(&gloss, cos_o);
-            assert!(
-                reflected <= 1.0 + 2e-3,
-                "2^{exponent_log2} at {cos_o}: {reflected}"
-            );
-        }
-        assert!(
-            albedo(&gloss, 1.0) > 0.79,
-            "2^{exponent_log2} loses too much: {}",
-            albedo(&gloss, 1.0)
-        );
-    }
-    assert!((albedo(&WHITE, 0.5) - 1.0).abs() < 1e-5);
-    let half = Material {
-        specular: 0.5,
-        ..WHITE
-    };
-    let both = Material {
-        specular: 7.0,
-        exponent_log2: u32::MAX,
-        ..WHITE
-    };
-    assert!(albedo(&half, 0.5) <= 1.0);
-    assert!(both.eval(Vec3::Z, Vec3::Z, Vec3::Z).is_finite());
-}
-
-#[test]
-fn materials_are_reciprocal() {
-    let mut random = Random::new(3);
-    let material = Material {
-        albedo: [0.2, 0.5, 0.8],
-        specular: 0.3,
-        exponent_log2: 5,
-    };
-    for _ in 0..1000 {
-        let [a, b] = [0; 2].map(|_| {
-            let v = Vec3::from(in_cube(&mut random, 1.0)).normalize();
-            Vec3::new(v.x, v.y, v.z.abs())
-        });
-        assert_eq!(material.eval(Vec3::Z, a, b), material.eval(Vec3::Z, b, a));
-    }
-}
-
-/// The lights that all 2^24 distinct random numbers lead to, each with its pmf, in order.
-fn every_choice(picker: &impl PickLight) -> Vec<(u32, u32, f32)> {
-    let mut runs: Vec<(u32, u32, f32)> = Vec::new();
-    for random in 0..1_u32 << 24 {
-        let picked = picker.pick(&floor(0.0, 0.0), (random << 8) | (random & 0xff));
-        match runs.last_mut() {
-            Some((light, chances, pmf)) if *light == picked.light => {
-                assert_eq!(*pmf, picked.pmf);
-                *chances += 1;
-            }
-            _ => runs.push((picked.light, 1, picked.pmf)),
-        }
-    }
-    runs
-}
-
-#[test]
-fn uniform_pmfs_are_the_exact_frequencies() {
-    for count in [1, 2, 3, 7, 1000, 65_537, 1 << 20] {
-        let choices = every_choice(&Uniform { count });
-        assert_eq!(choices.len(), count as usize);
-        let least = MAX_PICKABLE / count;
-        for (index, &(light, chances, pmf)) in choices.iter().enumerate() {
-            assert_eq!(light as usize, index);
-            assert!(chances == least || chances == least + 1);
-            assert_eq!(f64::from(pmf), f64::from(chances) / f64::from(MAX_PICKABLE));
-        }
-    }
-    assert_eq!(Uniform { count: 0 }.pick(&floor(0.0, 0.0), 5).light, NONE);
-    assert!(Uniform { count: u32::MAX }.pick(&floor(0.0, 0.0), u32::MAX).light < MAX_PICKABLE);
-}
-
-/// Triangles whose fluxes span twelve orders of magnitude; every fifth is black, every seventh flat.
-fn many_lights(count: usize) -> Vec<EmissiveTriangle> {
-    let mut random = Random::new(11);
-    (0..count)
-        .map(|i| {
-            let radiance = if i % 5 == 0 {
-                0.0
-            } else {
-                10f32.powf(12.0 * random.unit() - 6.0)
-            };
-            let p = [
-                in_cube(&mut random, 1.0),
-                in_cube(&mut random, 1.0),
-                in_cube(&mut random, 1.0),
-            ];
-            let p = if i % 7 == 0 { [p[0], p[1], p[1]] } else { p };
-            EmissiveTriangle {
-                p,
-                radiance: [radiance; 3],
-                mesh: 0,
-                flags: i as u32 & 1,
-            }
-        })
-        .collect()
-}
-
-#[test]
-fn power_pmfs_are_the_exact_frequencies_and_sum_to_one() {
-    let lights = many_lights(10_000);
-    let thresholds = power_thresholds(&lights).unwrap();
-    let choices = every_choice(&Power {
-        thresholds: &thresholds,
-    });
-    let emitters: Vec<usize> = (0..lights.len()).filter(|&i| flux(&lights[i]) > 0.0).collect();
-    assert_eq!(choices.iter().map(|c| c.0 as usize).collect::<Vec<_>>(), emitters);
-    let total: f64 = lights.iter().map(flux).sum();
-    let mut sum = 0.0_f64;
-    for &(light, chances, pmf) in &choices {
-        assert_eq!(f64::from(pmf), f64::from(chances) / f64::from(MAX_PICKABLE));
-        sum += f64::from(pmf);
-        // One unit for itself, its part of the rest, and less than one by rounding at either end.
-        let rest = f64::from(MAX_PICKABLE) - emitters.len() as f64;
-        let expected = 1.0 + flux(&lights[light as usize]) / total * rest;
-        assert!(
-            (f64::from(chances) - expected).abs() < 1.0 + 1e-3,
-            "light {light}: {chances} {expected}"
-        );
-    }
-    assert_eq!(sum, 1.0);
-}
-
-#[test]
-fn power_tables_at_the_edges() {
-    let pick = |thresholds: &[u32], random| Power { thresholds }.pick(&floor(0.0, 0.0), random);
-    let one = power_thresholds(&[lamp(true, 0)]).unwrap();
-    assert_eq!((pick(&one, u32::MAX).light, pick(&one, 0).pmf), (0, 1.0));
-    let dark = EmissiveTriangle {
-        radiance: [0.0; 3],
-        ..lamp(true, 0)
-    };
-    for hostile in [
-        power_thresholds(&[dark, dark]).unwrap(),
-        power_thresholds(&[]).unwrap(),
-        vec![],
-        vec![5],
-        vec![u32::MAX; 9],
-        vec![9, 8, 7, 6, 5, 4],
-        vec![0, u32::MAX],
-    ] {
-        assert_eq!(pick(&hostile, 0x1234_5678).light, NONE, "{hostile:?}");
     }
 }
 

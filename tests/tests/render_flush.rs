@@ -1,0 +1,94 @@
+//! No subnormal number comes up while rendering: the processor's own flush-to-zero mode changes no word. Devices that
+//! flush then agree with those that do not.
+#![cfg(target_arch = "x86_64")]
+
+use lightbvh::{EmissiveTriangle, exact};
+use lightbvh_host::render::{RayBvh, View, camera, power_thresholds};
+use lightbvh_kernels::render::{RenderParams, render_pixel};
+use lightbvh_kernels::shading::camera::Camera;
+use lightbvh_kernels::shading::material::Material;
+use lightbvh_kernels::shading::pick::Power;
+use lightbvh_kernels::shading::pixel::Scene;
+use lightbvh_tests::generate::Random;
+use lightbvh_tests::soup::{in_cube, soup};
+use proptest::prelude::*;
+
+/// Default of the control and status register: every exception masked, round to nearest.
+const IEEE: u32 = 0x1f80;
+/// The same, subnormal results flushed to zero (bit 15) and subnormal operands read as zero (bit 6).
+const FLUSHING: u32 = 0x9fc0;
+
+/// All pixels, computed in one thread under the given mode.
+#[inline(never)]
+fn render_under(
+    mode: u32,
+    scene: &Scene<'_>,
+    camera: &Camera,
+    params: &RenderParams,
+    picker: &Power<'_>,
+) -> Vec<u32> {
+    // SAFETY: loads the register from a live u32; the mode before is restored before anything else of this thread runs.
+    unsafe { core::arch::asm!("ldmxcsr [{}]", in(reg) &mode) }
+    let words = (0..params.width * params.height)
+        .flat_map(|pixel| {
+            render_pixel(scene, camera, params, picker, std::hint::black_box(pixel)).map(f32::to_bits)
+        })
+        .collect();
+    // SAFETY: as above.
+    unsafe { core::arch::asm!("ldmxcsr [{}]", in(reg) &IEEE) }
+    words
+}
+
+#[test]
+fn the_flushing_mode_flushes() {
+    let tiny = std::hint::black_box(f32::MIN_POSITIVE);
+    // SAFETY: as above.
+    unsafe { core::arch::asm!("ldmxcsr [{}]", in(reg) &FLUSHING) }
+    let flushed = std::hint::black_box(tiny) * std::hint::black_box(0.5);
+    // SAFETY: as above.
+    unsafe { core::arch::asm!("ldmxcsr [{}]", in(reg) &IEEE) }
+    assert_eq!(flushed.to_bits(), 0);
+    assert_ne!(
+        (std::hint::black_box(tiny) * std::hint::black_box(0.5)).to_bits(),
+        0
+    );
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(3000))]
+
+    #[test]
+    fn no_word_depends_on_subnormal_numbers(
+        seed: u32, scale in -60_i32..26, edge in -8_i32..2, grid: bool, bright in -90_i32..90, specular: bool,
+    ) {
+        let mut random = Random::new(seed);
+        let size = exact::pow2(scale);
+        let mut surfaces = soup(&mut random, 40, size, size * exact::pow2(edge), grid && scale > 0);
+        let mut lights = Vec::new();
+        for (index, surface) in surfaces.iter_mut().enumerate() {
+            if index % 2 == 0 {
+                surface.light = lights.len() as u32;
+                let radiance = in_cube(&mut random, 1.0).map(|c| (c * c + 0.01) * exact::pow2(bright));
+                lights.push(EmissiveTriangle { p: surface.p, radiance, mesh: 0, flags: (index as u32 / 2) & 1 });
+            }
+        }
+        let bvh = RayBvh::build(&surfaces).unwrap();
+        let thresholds = power_thresholds(&lights).unwrap();
+        let material = Material {
+            albedo: [0.8, exact::pow2(-110), 1e-3],
+            specular: if specular { 0.5 } else { 0.0 },
+            exponent_log2: seed % 17,
+        };
+        let scene = Scene { surfaces: bvh.surfaces(), materials: &[material], lights: &lights };
+        let view = View {
+            eye: [0.0, 0.0, 2.0 * size], right: [1.0, 0.0, 0.0], up: [0.0, 1.0, 0.0], forward: [0.0, 0.0, -1.0], yfov: 1.0,
+        };
+        let params = RenderParams { width: 16, height: 16, samples: 4, seed, jitter: seed, background: [0.0; 3] };
+        let camera = camera(&view, 16, 16);
+        let picker = Power { thresholds: &thresholds };
+        let plain = render_under(IEEE, &scene, &camera, &params, &picker);
+        let flushed = render_under(FLUSHING, &scene, &camera, &params, &picker);
+        prop_assert!(plain.iter().all(|&word| f32::from_bits(word).is_finite()));
+        prop_assert_eq!(plain, flushed);
+    }
+}
