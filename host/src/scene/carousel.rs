@@ -9,7 +9,8 @@ mod ground;
 mod rides;
 mod wheel;
 
-use super::builder::{Dice, SceneBuilder};
+use super::builder::SceneBuilder;
+use super::dice::Dice;
 use super::error::SceneError;
 use super::model::{Material, Scene};
 use super::shapes::{Shape, on_circle};

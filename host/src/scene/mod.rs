@@ -19,6 +19,7 @@ mod animate;
 mod builder;
 mod camera;
 mod check;
+mod dice;
 mod error;
 mod frame;
 mod glb_out;
@@ -27,6 +28,7 @@ mod load;
 mod model;
 mod reach;
 mod shapes;
+mod track;
 mod transform;
 
 pub mod carousel;

@@ -99,19 +99,16 @@ impl Default for Material {
     }
 }
 
-/// A material as the reference renderer shades it: a diffuse and a Blinn-Phong lobe.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A material as the reference renderer shades it: a diffuse lobe and a glossy one that takes its share from it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct SurfaceMaterial {
     /// Diffuse albedo, linear RGB, each in [0, 1].
-    pub diffuse: [f32; 3],
-    /// Weight of the glossy lobe, in [0, 1].
+    pub albedo: [f32; 3],
+    /// The part of the light that the glossy lobe takes from the diffuse one, in [0, 1].
     pub specular: f32,
-    /// Blinn-Phong exponent, a whole power of two in [1, 1024], so that it can be raised by squaring alone.
-    pub exponent: u32,
-    /// Emitted radiance of the material, W/(m² sr); textured emission is found in the frame's emissive records.
-    pub radiance: [f32; 3],
-    /// 1 where the back side reflects and emits too.
-    pub double_sided: u32,
+    /// Binary logarithm of the Blinn-Phong exponent, 0 to 10: a power of two is taken by squaring alone.
+    pub exponent_log2: u32,
 }
 
 impl Material {
@@ -119,7 +116,8 @@ impl Material {
     ///
     /// Normal-incidence reflectance is 0.04 for dielectrics and the base colour for metals (glTF 2.0, appendix B.2).
     /// The exponent follows Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces",
-    /// section 5.2: n = 2/α² - 2 with α = roughness², rounded down to a power of two.
+    /// section 5.2: n = 2/α² - 2 with α = roughness², rounded down to a power of two. The glossy lobe is white in the
+    /// reference renderer, so a metal keeps its colour in the diffuse lobe that is left.
     #[must_use]
     pub fn surface(&self) -> SurfaceMaterial {
         let [r, g, b] = self.base_color;
@@ -127,11 +125,9 @@ impl Material {
         let alpha = (self.roughness * self.roughness).max(1.0 / 32.0);
         let exponent = (2.0 / (alpha * alpha) - 2.0).clamp(1.0, 1024.0) as u32;
         SurfaceMaterial {
-            diffuse: self.base_color.map(|c| c * (1.0 - self.metallic)),
+            albedo: self.base_color,
             specular: 0.04 * (1.0 - self.metallic) + luminance * self.metallic,
-            exponent: 1 << exponent.ilog2(),
-            radiance: self.radiance,
-            double_sided: u32::from(self.double_sided),
+            exponent_log2: exponent.ilog2(),
         }
     }
 }

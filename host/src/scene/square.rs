@@ -10,7 +10,8 @@ mod buildings;
 mod motion;
 mod park;
 
-use super::builder::{Dice, SceneBuilder};
+use super::builder::SceneBuilder;
+use super::dice::Dice;
 use super::error::SceneError;
 use super::model::{Material, Scene};
 use super::shapes::Shape;

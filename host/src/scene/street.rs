@@ -10,7 +10,8 @@ mod facades;
 mod lamps;
 mod traffic;
 
-use super::builder::{Dice, SceneBuilder};
+use super::builder::SceneBuilder;
+use super::dice::Dice;
 use super::error::SceneError;
 use super::model::{Material, Scene};
 use super::shapes::Shape;

@@ -1,6 +1,7 @@
 //! The fairground: paving, booths with lit fronts, masts with strings of bulbs.
 
-use super::super::builder::{Dice, SceneBuilder};
+use super::super::builder::SceneBuilder;
+use super::super::dice::Dice;
 use super::super::shapes::{Shape, on_circle};
 use super::{Palette, bulb_line};
 

@@ -1,6 +1,7 @@
 //! The carousel itself, the swing ride, the cups and the gyroscope.
 
-use super::super::builder::{Dice, STILL, SceneBuilder};
+use super::super::builder::{STILL, SceneBuilder};
+use super::super::dice::Dice;
 use super::super::shapes::{Shape, on_circle, rotation};
 use super::{Palette, UP, bulb_circle, bulb_line};
 

@@ -1,6 +1,7 @@
 //! Houses around the square; about every third window is lit.
 
-use super::super::builder::{Dice, SceneBuilder};
+use super::super::builder::SceneBuilder;
+use super::super::dice::Dice;
 use super::super::shapes::{Shape, on_circle};
 use super::FRONTS;
 

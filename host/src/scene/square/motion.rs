@@ -1,7 +1,9 @@
 //! What moves: cars round the park, drones above it, fireflies in it.
 
-use super::super::builder::{Dice, STILL, SceneBuilder, Track};
+use super::super::builder::{STILL, SceneBuilder};
+use super::super::dice::Dice;
 use super::super::shapes::{Shape, on_circle};
+use super::super::track::Track;
 use super::PARK;
 
 const CARS: u32 = 84;

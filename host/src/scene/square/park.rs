@@ -1,6 +1,7 @@
 //! Trees with fairy lights, path lamps and a fountain.
 
-use super::super::builder::{Dice, SceneBuilder};
+use super::super::builder::SceneBuilder;
+use super::super::dice::Dice;
 use super::super::shapes::{Shape, on_circle};
 use super::PARK;
 

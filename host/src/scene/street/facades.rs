@@ -1,6 +1,7 @@
 //! Houses with windows, some of them lit, shop fronts, awnings and café tables.
 
-use super::super::builder::{Dice, SceneBuilder};
+use super::super::builder::SceneBuilder;
+use super::super::dice::Dice;
 use super::super::shapes::Shape;
 use super::{FACADE, HALF_LENGTH, Palette};
 

@@ -1,6 +1,7 @@
 //! Street lamps, strings of bulbs, paper lanterns and neon signs.
 
-use super::super::builder::{Dice, STILL, SceneBuilder};
+use super::super::builder::{STILL, SceneBuilder};
+use super::super::dice::Dice;
 use super::super::shapes::Shape;
 use super::{FACADE, HALF_LENGTH, Palette};
 

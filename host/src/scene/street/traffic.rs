@@ -1,7 +1,9 @@
 //! Carts and bicycles that carry their lamps along the street and back.
 
-use super::super::builder::{Dice, SceneBuilder, Track};
+use super::super::builder::SceneBuilder;
+use super::super::dice::Dice;
 use super::super::shapes::Shape;
+use super::super::track::Track;
 use super::Palette;
 
 /// How many go round.
