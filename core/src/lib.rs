@@ -1,7 +1,105 @@
-//! A two-level light BVH.
+//! A two-level light BVH for sampling one of many moving lights in real-time ray tracing — one source for CPU and GPU.
+//!
+//! A **light BVH** is a tree over lights whose nodes bound where the lights below are, which way they face and how much
+//! they emit (Conty Estevez & Kulla 2018). To light a point, a walk from the root chooses at each node among the
+//! children by their *importance*, a bound on what they may contribute there, and ends at one light with a known
+//! probability: a low-variance estimate of the light of all, for the price of a walk.
+//!
+//! **Two levels** make it fit for moving lights (Moreau, Pharr & Clarberg 2019; Freire & Pereira 2023): each emissive
+//! mesh has a bottom-level tree over its triangles that is only refitted, and a small top-level tree over the meshes is
+//! refitted or rebuilt every frame.
+//!
+//! **The bits agree.** Nodes, refit and traversal are written with operations that Vulkan defines exactly ([`exact`]), in
+//! a fixed order, so the same source compiled by rust-gpu gives the same words on a device as natively.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`exact`], [`vector`] | the arithmetic |
+//! | [`light`], [`bounds`], [`cone`], [`point`] | lights and what is known of sets of them; the receiver |
+//! | [`importance`] | what children are chosen by |
+//! | [`node`], [`tree`], [`trail`] | layout of nodes, links, bit trails |
+//! | [`refit`] | new bounds on an unchanged topology |
+//! | [`traverse`] | sampling, and the probability of any light |
+//! | `lights`, `build`, `bvh`, `validate` (feature `alloc`) | checked input, builders, owned trees, invariants |
+//!
+#![cfg_attr(
+    feature = "alloc",
+    doc = r#"
+```
+use lightbvh::{BuildParams, CompactNode, EmissiveTriangle, Eq4, LightBvh, Lights, ShadingPoint};
+
+// A thousand small lamps in a row, each a mesh light of one triangle that shines down.
+let lamp = |i: u32| {
+    let x = i as f32;
+    EmissiveTriangle {
+        p: [[x, 3.0, 0.0], [x + 0.1, 3.0, 0.0], [x, 3.0, 0.1]],
+        radiance: [10.0, 8.0, 5.0],
+        mesh: i,
+        flags: 0,
+    }
+};
+let lights = Lights::new((0..1000).map(lamp).collect())?;
+let bvh = LightBvh::<CompactNode<2>, 2>::two_level(&lights, &BuildParams::default());
+
+// One light for a point on the floor, chosen by 32 random bits.
+let floor = ShadingPoint { p: [500.0, 0.0, 0.0], n: [0.0, 1.0, 0.0] };
+let sampled = bvh.sample::<Eq4>(&floor, 0x1234_5678);
+assert!(sampled.pmf > 0.0);
+
+// The probability of any light is known, and to the bit the one it was sampled with.
+let pmf = bvh.pmf::<Eq4>(&lights, &floor, sampled.light);
+assert_eq!(sampled.pmf.to_bits(), pmf.to_bits());
+# Ok::<(), lightbvh::LightsError>(())
+```
+"#
+)]
+//!
+//! # Papers
+//! - A. Conty Estevez, C. Kulla. Importance sampling of many lights with adaptive tree splitting. HPG 2018.
+//! - P. Moreau, M. Pharr, P. Clarberg. Dynamic many-light sampling for real-time ray tracing. HPG 2019.
+//! - P. Freire, J. M. Pereira. Dynamic many-light importance sampling for real-time ray tracing. 2023 ("the paper").
+//! - M. Pharr, W. Jakob, G. Humphreys. Physically based rendering, 4th edition, section 12.6. 2023.
 #![no_std]
 #![forbid(unsafe_code)]
+// Device code indexes: iterators over arrays do not survive rust-gpu's pointer rules (no array-to-slice unsizing).
+// `clamp` panics where the bounds cross, and a panic path in a kernel costs registers and inlining.
+#![allow(clippy::needless_range_loop, clippy::manual_clamp)]
 #[cfg(feature = "alloc")]
 extern crate alloc;
+#[cfg(feature = "std")]
+extern crate std;
 
+pub mod bounds;
+pub mod cone;
 pub mod exact;
+pub mod importance;
+pub mod light;
+pub mod node;
+pub mod point;
+pub mod refit;
+pub mod trail;
+pub mod traverse;
+pub mod tree;
+pub mod vector;
+
+#[cfg(feature = "alloc")]
+pub mod build;
+#[cfg(feature = "alloc")]
+pub mod bvh;
+#[cfg(feature = "alloc")]
+pub mod lights;
+
+#[cfg(feature = "alloc")]
+pub use build::{BuildParams, Heuristic};
+#[cfg(feature = "alloc")]
+pub use bvh::LightBvh;
+#[cfg(feature = "alloc")]
+pub use lights::{Lights, LightsError};
+
+pub use bounds::LightBounds;
+pub use importance::{Eq4, FluxOverDistance, ImportanceModel};
+pub use light::{EmissiveTriangle, LightError};
+pub use node::{CompactNode, FullNode, LightNode};
+pub use point::ShadingPoint;
+pub use traverse::SampledLight;
+pub use tree::{INVALID, LightTree, MeshLight};

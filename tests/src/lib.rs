@@ -1,1 +1,4 @@
-//! Tests.
+//! Generators, oracles and statistics shared by the tests.
+
+pub mod generate;
+pub mod statistics;

@@ -1,0 +1,151 @@
+//! What is known of a set of lights: where they are, which way they face, how much they emit.
+
+use glam::Vec3;
+
+use crate::cone::{Cone, normalized};
+use crate::exact::{self, exponent, pow2, significand};
+use crate::light::EmissiveTriangle;
+use crate::vector::{cross, dot};
+
+/// Smallest flux that is not zero, W: smaller ones count as this much.
+pub const MIN_PHI: f32 = pow2(-100);
+/// Largest flux of one light, W; larger ones count as this much.
+pub const MAX_PHI: f32 = pow2(100);
+/// Largest flux of a set of lights, W: 2^126. Sums stop there.
+const MAX_SUM: f32 = pow2(126);
+
+/// Bounds of the emission of a set of lights (Conty Estevez & Kulla 2018, section 4.1; pbrt-v4 `LightBounds`).
+///
+/// A set whose flux is zero cannot contribute: its box and cone mean nothing and are ignored by [`merge`](Self::merge).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightBounds {
+    /// Least corner of the axis-aligned box, metres.
+    pub min: Vec3,
+    /// Greatest corner of the axis-aligned box, metres.
+    pub max: Vec3,
+    /// Unit axis of the cone that holds the normals.
+    pub axis: Vec3,
+    /// cos θ_o: the normals lie within θ_o of the axis; −1..=1.
+    pub cos_theta_o: f32,
+    /// cos θ_e: emission reaches up to θ_e from a normal; 0 for the diffuse emitters of this crate.
+    pub cos_theta_e: f32,
+    /// Radiant flux Φ, W, weighted by luminance; zero, or in [`MIN_PHI`]`..2^126`.
+    pub phi: f32,
+}
+
+impl LightBounds {
+    /// The bounds of no light at all.
+    pub const EMPTY: Self = Self {
+        min: Vec3::new(0.0, 0.0, 0.0),
+        max: Vec3::new(0.0, 0.0, 0.0),
+        axis: Cone::SPHERE.axis,
+        cos_theta_o: 1.0,
+        cos_theta_e: 0.0,
+        phi: 0.0,
+    };
+
+    /// Bounds of one emissive triangle: its box, its normal, and Φ = π · area · luminance, twice that for two sides
+    /// (a diffuse emitter: pbrt-v4 `DiffuseAreaLight::Phi`).
+    ///
+    /// The triangle has no flux when its luminance is zero or its area is below 2^-100 of its longest edge squared.
+    #[must_use]
+    pub fn of_triangle(triangle: &EmissiveTriangle) -> Self {
+        let (p0, p1, p2) = (triangle.vertex(0), triangle.vertex(1), triangle.vertex(2));
+        let (e1, e2) = (p1 - p0, p2 - p0);
+
+        // Scale the edges, then their cross product, to about 1 by powers of two, so that no product leaves the range.
+        let edge_scale = max_exponent(e1, max_exponent(e2, -127));
+        let to_one = pow2(-edge_scale);
+        let across = cross(e1 * to_one, e2 * to_one);
+        let across_scale = max_exponent(across, -127);
+        let has_area = across_scale >= -100 && edge_scale > -127;
+        let n = if has_area {
+            across * pow2(-across_scale)
+        } else {
+            Vec3::new(0.0, 0.0, 1.0)
+        };
+        let length = exact::sqrt(dot(n, n));
+
+        // Φ = significand · 2^exponent, put together once, within the stated range.
+        let luminance = triangle.luminance();
+        let faces = if triangle.is_two_sided() { 2.0 } else { 1.0 };
+        let shine = significand(luminance) * length * (core::f32::consts::FRAC_PI_2 * faces);
+        let shine_scale = exponent(luminance) + across_scale + edge_scale + edge_scale;
+        let scale = if shine_scale < -110 {
+            -110
+        } else if shine_scale > 110 {
+            110
+        } else {
+            shine_scale
+        };
+        let phi = exact::clamp(shine * pow2(scale), MIN_PHI, MAX_PHI);
+        let emits = has_area && luminance > 0.0;
+
+        Self {
+            min: min3(p0, min3(p1, p2)),
+            max: max3(p0, max3(p1, p2)),
+            axis: normalized(n),
+            cos_theta_o: if triangle.is_two_sided() { -1.0 } else { 1.0 },
+            cos_theta_e: 0.0,
+            phi: if emits { phi } else { 0.0 },
+        }
+    }
+
+    /// Bounds of both sets: the union of the boxes, the smallest cone around the cones, the sum of the flux. The order
+    /// of the arguments is part of the result's bits.
+    #[must_use]
+    pub fn merge(&self, other: &Self) -> Self {
+        let cone = self.cone().union(other.cone());
+        let both = Self {
+            min: min3(self.min, other.min),
+            max: max3(self.max, other.max),
+            axis: cone.axis,
+            cos_theta_o: cone.cos_theta_o,
+            cos_theta_e: exact::min(self.cos_theta_e, other.cos_theta_e),
+            phi: exact::min(self.phi + other.phi, MAX_SUM),
+        };
+        if other.phi == 0.0 {
+            *self
+        } else if self.phi == 0.0 {
+            *other
+        } else {
+            both
+        }
+    }
+
+    /// The orientation cone.
+    #[inline]
+    #[must_use]
+    pub fn cone(&self) -> Cone {
+        Cone {
+            axis: self.axis,
+            cos_theta_o: self.cos_theta_o,
+        }
+    }
+}
+
+/// Component-wise minimum.
+#[inline]
+#[must_use]
+pub fn min3(a: Vec3, b: Vec3) -> Vec3 {
+    Vec3::new(exact::min(a.x, b.x), exact::min(a.y, b.y), exact::min(a.z, b.z))
+}
+
+/// Component-wise maximum.
+#[inline]
+#[must_use]
+pub fn max3(a: Vec3, b: Vec3) -> Vec3 {
+    Vec3::new(exact::max(a.x, b.x), exact::max(a.y, b.y), exact::max(a.z, b.z))
+}
+
+/// The greatest exponent among the components of `v` and `floor`; −127 stands for zero.
+#[inline]
+fn max_exponent(v: Vec3, floor: i32) -> i32 {
+    let x = if exponent(v.x) > floor {
+        exponent(v.x)
+    } else {
+        floor
+    };
+    let y = if exponent(v.y) > x { exponent(v.y) } else { x };
+    if exponent(v.z) > y { exponent(v.z) } else { y }
+}

@@ -1,0 +1,132 @@
+//! Orientation cones and their union, without a single trigonometric function.
+//!
+//! Every angle is carried as its cosine and sine; sums of angles are products. What the union computes is the smallest
+//! cone around two cones (pbrt-v4, `DirectionCone` and `Union`; Conty Estevez & Kulla 2018, Algorithm 1), widened so
+//! that rounding never leaves an emitter outside.
+
+use glam::Vec3;
+
+use crate::exact;
+use crate::vector::{dot, length_squared};
+
+/// Angle by which a union is widened, 2^-11 rad: its sine, and 1 − cosine rounded up. Cosines of f32 near 1 resolve
+/// about 2^-11.5 rad; `tests/tests/bounds.rs` checks in f64 that unions contain their parts.
+const WIDEN_SIN: f32 = exact::pow2(-11);
+const WIDEN_COS_DEFECT: f32 = exact::pow2(-23);
+
+/// Below this squared sine two axes count as parallel: 2^-40.
+const PARALLEL: f32 = exact::pow2(-40);
+
+/// All directions within the angle θ_o of an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cone {
+    /// Unit axis; any unit vector when the cone is the whole sphere.
+    pub axis: Vec3,
+    /// cos θ_o in −1..=1; −1 is the whole sphere.
+    pub cos_theta_o: f32,
+}
+
+/// sin of the angle in `[0, π]` whose cosine is given.
+#[inline]
+#[must_use]
+pub fn sine_of(cosine: f32) -> f32 {
+    exact::sqrt(exact::max(1.0 - cosine * cosine, 0.0))
+}
+
+/// cos(θ + δ), −1 from θ + δ = π on. `cosine` is cos θ; δ is small and given by its sine and 1 − cos δ.
+#[inline]
+#[must_use]
+pub fn widened(cosine: f32, delta_sin: f32, delta_cos_defect: f32) -> f32 {
+    let sine = sine_of(cosine);
+    let sum_sin = sine * (1.0 - delta_cos_defect) + cosine * delta_sin;
+    let sum_cos = (cosine - cosine * delta_cos_defect) - sine * delta_sin;
+    if sum_sin <= 0.0 || sum_cos < -1.0 {
+        -1.0
+    } else {
+        sum_cos
+    }
+}
+
+impl Cone {
+    /// Every direction.
+    pub const SPHERE: Self = Self {
+        axis: Vec3::new(0.0, 0.0, 1.0),
+        cos_theta_o: -1.0,
+    };
+
+    /// The smallest cone around `self` and `other`, widened by 2^-11 rad. The order of the arguments is part of the
+    /// result's bits.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        let (cos_a, cos_b) = (self.cos_theta_o, other.cos_theta_o);
+        let (sin_a, sin_b) = (sine_of(cos_a), sine_of(cos_b));
+        let cos_d = exact::clamp(dot(self.axis, other.axis), -1.0, 1.0);
+        // The part of the other axis across this one: its length is sin θ_d, precise where 1 − cos² is not.
+        let across = Vec3::new(
+            other.axis.x - self.axis.x * cos_d,
+            other.axis.y - self.axis.y * cos_d,
+            other.axis.z - self.axis.z * cos_d,
+        );
+        let sin_d_squared = exact::min(length_squared(across), 1.0);
+        let parallel = sin_d_squared < PARALLEL;
+        let sin_d = exact::sqrt(exact::max(sin_d_squared, PARALLEL));
+
+        // One contains the other when θ_d + θ_other ≤ θ_own. A sum above π shows in its negative sine.
+        let (cos_db, sin_db) = (cos_d * cos_b - sin_d * sin_b, sin_d * cos_b + cos_d * sin_b);
+        let (cos_da, sin_da) = (cos_d * cos_a - sin_d * sin_a, sin_d * cos_a + cos_d * sin_a);
+        let contains_other = cos_a <= -1.0 || (sin_db >= 0.0 && cos_db >= cos_a);
+        let contained = cos_b <= -1.0 || (sin_da >= 0.0 && cos_da >= cos_b);
+
+        // Half of x = θ_a + θ_d + θ_b, by the half-angle formula; x beyond 2π means everything.
+        let (cos_x, sin_x) = (cos_db * cos_a - sin_db * sin_a, sin_db * cos_a + cos_db * sin_a);
+        let beyond_pi = sin_db < 0.0 || sin_x < 0.0;
+        let everything = sin_db < 0.0 && sin_x >= 0.0;
+        let half = exact::sqrt(exact::max(0.5 + 0.5 * cos_x, 0.0));
+        let cos_o = if beyond_pi { -half } else { half };
+        let sin_o = sine_of(cos_o);
+        // The new axis is this axis turned towards the other by θ_o − θ_a.
+        let (cos_r, sin_r) = (cos_o * cos_a + sin_o * sin_a, sin_o * cos_a - cos_o * sin_a);
+        let turn = sin_r * exact::recip(sin_d);
+        let axis = Vec3::new(
+            self.axis.x * cos_r + across.x * turn,
+            self.axis.y * cos_r + across.y * turn,
+            self.axis.z * cos_r + across.z * turn,
+        );
+        let turned = Self {
+            axis: normalized(axis),
+            cos_theta_o: cos_o,
+        };
+
+        // Parallel axes: the wider of the two; opposite axes: everything.
+        let wider = if cos_a <= cos_b { self } else { other };
+        let chosen = if contains_other {
+            self
+        } else if contained {
+            other
+        } else if parallel && cos_d > 0.0 {
+            wider
+        } else if parallel || everything {
+            Self::SPHERE
+        } else {
+            turned
+        };
+        Self {
+            axis: chosen.axis,
+            cos_theta_o: widened(chosen.cos_theta_o, WIDEN_SIN, WIDEN_COS_DEFECT),
+        }
+    }
+}
+
+/// `v` scaled to unit length; `v` need only be within a factor of 2^20 of it. Components below 2^-60 become +0, so that
+/// a device that flushes subnormal numbers agrees.
+#[inline]
+#[must_use]
+pub fn normalized(v: Vec3) -> Vec3 {
+    const TINY: f32 = exact::pow2(-60);
+    let length = exact::sqrt(exact::max(length_squared(v), 1e-30));
+    Vec3::new(
+        exact::flush(exact::div(v.x, length), TINY),
+        exact::flush(exact::div(v.y, length), TINY),
+        exact::flush(exact::div(v.z, length), TINY),
+    )
+}

@@ -1,1 +1,0 @@
-//! The only arithmetic that shared code may use.

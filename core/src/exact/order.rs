@@ -1,0 +1,63 @@
+//! Order, by comparison and select: SPIR-V's own `FMin`, `FMax` and `FClamp` leave signed zeros and NaN open.
+
+use super::SIGN;
+
+/// The smaller one; `b` where they are equal (so of two zeros, the second).
+#[inline]
+#[must_use]
+pub fn min(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+/// The larger one; `b` where they are equal (so of two zeros, the second).
+#[inline]
+#[must_use]
+pub fn max(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// `x` moved into `[lo, hi]`. `lo` wins where they cross; nothing panics.
+#[inline]
+#[must_use]
+pub fn clamp(x: f32, lo: f32, hi: f32) -> f32 {
+    if x < lo {
+        lo
+    } else if x > hi {
+        hi
+    } else {
+        x
+    }
+}
+
+/// `|x|`, by its sign bit: unlike SPIR-V's `FAbs` this never flushes.
+#[inline]
+#[must_use]
+pub fn abs(x: f32) -> f32 {
+    f32::from_bits(x.to_bits() & !SIGN)
+}
+
+/// `x`, or +0 where `|x| < tiny`.
+///
+/// Hides what devices may differ in: the sign of a zero, and whether a result below 2^-126 is flushed. Use it where a
+/// product of small numbers or a difference may come out that small; `tiny` must be normal (>= 2^-126).
+#[inline]
+#[must_use]
+pub fn flush(x: f32, tiny: f32) -> f32 {
+    if abs(x) < tiny { 0.0 } else { x }
+}
+
+/// The integer part of `x`, for `0 <= x <= 2^24`.
+#[inline]
+#[must_use]
+pub fn floor_u32(x: f32) -> u32 {
+    x as u32
+}
+
+/// An integer that sorts as `x` does, with -0 just before +0: a total order that no processor can see differently.
+#[inline]
+#[must_use]
+pub fn order_key(x: f32) -> u32 {
+    let bits = x.to_bits();
+    // All ones for a negative number, whose order on bits is reversed; only the sign bit for a positive one.
+    bits ^ (((bits as i32) >> 31) as u32 | SIGN)
+}

@@ -1,0 +1,155 @@
+//! The door: emissive triangles checked once, grouped into mesh lights.
+
+use alloc::vec::Vec;
+use core::fmt;
+use core::ops::Range;
+
+use crate::light::{EmissiveTriangle, LightError};
+
+/// Most triangles that one light BVH holds: 2^30, so that every index and word address fits 32 bits.
+pub const MAX_LIGHTS: usize = 1 << 30;
+
+/// Emissive triangles within the domain of this crate, ordered by mesh light. Everything behind this type may rely on
+/// that.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lights {
+    triangles: Vec<EmissiveTriangle>,
+    /// First triangle of each mesh light, then the number of triangles.
+    starts: Vec<u32>,
+}
+
+impl Lights {
+    /// Takes triangles ordered by mesh light: `mesh` starts at 0 and grows by at most one from triangle to triangle.
+    ///
+    /// # Errors
+    /// [`LightsError`], naming the triangle, when one is outside the domain or out of order, when there is none, and
+    /// when there are more than [`MAX_LIGHTS`].
+    pub fn new(mut triangles: Vec<EmissiveTriangle>) -> Result<Self, LightsError> {
+        if triangles.is_empty() {
+            return Err(LightsError::Empty);
+        }
+        if triangles.len() > MAX_LIGHTS {
+            return Err(LightsError::TooMany {
+                count: triangles.len(),
+            });
+        }
+        let mut starts = Vec::new();
+        for (index, triangle) in triangles.iter_mut().enumerate() {
+            *triangle = triangle
+                .checked()
+                .map_err(|error| LightsError::Light { index, error })?;
+            let next = starts.len() as u32;
+            if triangle.mesh == next {
+                starts.push(index as u32);
+            } else if triangle.mesh.wrapping_add(1) != next {
+                return Err(LightsError::Order {
+                    index,
+                    expected: next,
+                    found: triangle.mesh,
+                });
+            }
+        }
+        starts.push(triangles.len() as u32);
+        Ok(Self { triangles, starts })
+    }
+
+    /// The same lights moved or changed: as many triangles, of the same mesh lights.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), and [`LightsError::Changed`] when the triangles are not those of the same mesh lights;
+    /// `self` is then as before.
+    pub fn update(&mut self, triangles: Vec<EmissiveTriangle>) -> Result<(), LightsError> {
+        let new = Self::new(triangles)?;
+        if new.starts != self.starts {
+            return Err(LightsError::Changed {
+                expected: self.triangles.len(),
+                found: new.triangles.len(),
+            });
+        }
+        *self = new;
+        Ok(())
+    }
+
+    /// The triangles.
+    #[must_use]
+    pub fn triangles(&self) -> &[EmissiveTriangle] {
+        &self.triangles
+    }
+
+    /// Number of mesh lights.
+    #[must_use]
+    pub fn mesh_count(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// The triangles of mesh light `mesh`, below [`mesh_count`](Self::mesh_count).
+    #[must_use]
+    pub fn mesh(&self, mesh: usize) -> Range<usize> {
+        self.starts[mesh] as usize..self.starts[mesh + 1] as usize
+    }
+}
+
+/// Why triangles are refused as lights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LightsError {
+    /// There is no triangle.
+    Empty,
+    /// More than [`MAX_LIGHTS`] triangles.
+    TooMany {
+        /// How many there are.
+        count: usize,
+    },
+    /// A triangle is outside the domain.
+    Light {
+        /// Its index.
+        index: usize,
+        /// What is wrong with it.
+        error: LightError,
+    },
+    /// A triangle names a mesh light out of order.
+    Order {
+        /// Index of the triangle.
+        index: usize,
+        /// The mesh light that may begin here; the one before it may go on.
+        expected: u32,
+        /// What the triangle names.
+        found: u32,
+    },
+    /// An update is not of the same mesh lights.
+    Changed {
+        /// Number of triangles before.
+        expected: usize,
+        /// Number of triangles in the update.
+        found: usize,
+    },
+}
+
+impl fmt::Display for LightsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Empty => write!(f, "there is no emissive triangle; give the scene a light"),
+            Self::TooMany { count } => {
+                write!(
+                    f,
+                    "{count} emissive triangles, expected at most 2^30; split the scene"
+                )
+            }
+            Self::Light { index, error } => write!(f, "emissive triangle {index}: {error}"),
+            Self::Order {
+                index,
+                expected,
+                found,
+            } => write!(
+                f,
+                "emissive triangle {index} belongs to mesh light {found}, expected {expected} or the one before it; \
+                 order the triangles by mesh light"
+            ),
+            Self::Changed { expected, found } => write!(
+                f,
+                "an update has {found} emissive triangles in other mesh lights than the {expected} before; build anew"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for LightsError {}

@@ -1,0 +1,266 @@
+//! Dead branches: children of positive importance below which no light can be reached.
+//!
+//! Let a child be *live* at a point when its importance is positive and it is a light, or a child of its node is live.
+//! The probability of a maximal dead child (one whose node is live) passes on whole, to one light: the first reachable
+//! light of the next live slot to its right, or, if there is none, the last reachable light of the next live slot to
+//! its left. Seen from a light: it takes over its dead neighbours, leftwards up to the first live one, and rightwards
+//! too where no live one follows among the siblings. Neighbours are mostly live and near, so one look on each side is
+//! the usual cost.
+
+use super::descend::{Descent, Guide, descend, enter};
+use crate::exact;
+use crate::importance::ImportanceModel;
+use crate::node::{LightNode, kind};
+use crate::point::ShadingPoint;
+use crate::trail::{Path, max_levels};
+use crate::tree::{INVALID, LightTree};
+
+/// A child beside a way down.
+#[derive(Clone, Copy)]
+pub(super) struct Neighbor {
+    /// [`kind`] of the child; `EMPTY` for no neighbour.
+    pub kind: u32,
+    /// Its link.
+    pub link: u32,
+    /// Mesh light that its node lies in, or [`INVALID`].
+    pub mesh: u32,
+    /// Position of the node that it is a child of.
+    pub position: u32,
+    /// Its slot there.
+    pub slot: u32,
+    /// Probability of reaching that node.
+    pub before: f32,
+    /// Its weight among the node's children.
+    pub weight: f32,
+    /// The sum of their weights.
+    pub sum: f32,
+}
+
+impl Neighbor {
+    /// No neighbour.
+    pub const NONE: Self = Self {
+        kind: kind::EMPTY,
+        link: 0,
+        mesh: INVALID,
+        position: 0,
+        slot: 0,
+        before: 0.0,
+        weight: 0.0,
+        sum: 1.0,
+    };
+
+    /// Probability of entering it; divided only here, since few neighbours turn out dead.
+    #[inline(always)]
+    pub fn mass(&self) -> f32 {
+        self.before * exact::div(self.weight, self.sum)
+    }
+
+    #[inline(always)]
+    pub fn is_none(&self) -> bool {
+        self.kind == kind::EMPTY
+    }
+}
+
+/// A light found, or [`INVALID`], and its mesh light.
+#[derive(Clone, Copy)]
+pub(super) struct Found {
+    pub light: u32,
+    pub mesh: u32,
+}
+
+/// The first (`ascending`) or last reachable light below `start`, which has importance.
+///
+/// A depth-first search without a stack: after a dead end it starts over along the trail, changed at the deepest
+/// alternative (the restart trail of Laine 2010). In any well-formed tree it ends within the bound; hostile words end
+/// at it.
+fn find_live<N: LightNode<W>, I: ImportanceModel, const W: usize>(
+    tree: &LightTree<'_, N>,
+    point: &ShadingPoint,
+    start: &Neighbor,
+    ascending: bool,
+) -> Found {
+    let (first_index, first_position, first_mesh) =
+        enter::<N, W>(tree, start.kind, start.link, start.position, start.mesh);
+    let at_light = start.kind == kind::LIGHT;
+    let mut found = Found {
+        light: if at_light { start.link } else { INVALID },
+        mesh: start.mesh,
+    };
+    let mut done = at_light || start.is_none();
+
+    let (mut index, mut position, mut mesh) = (first_index, first_position, first_mesh);
+    let mut path = Path::default();
+    // Positions below this one are retraced.
+    let mut retrace = first_position;
+    let (mut other_position, mut other_slot) = (INVALID, 0);
+    for _ in 0..search_bound(tree.nodes.len() as u32, 2 * max_levels(W)) {
+        if !done {
+            let valid = index < tree.nodes.len() as u32;
+            let node = &tree.nodes[if valid { index as usize } else { 0 }];
+            let (weights, _) = node.weights::<I>(point);
+
+            // The slot to enter, and the one after it in the order of search.
+            let from = if position < retrace {
+                path.slot::<W>(position)
+            } else {
+                INVALID
+            };
+            let mut chosen = INVALID;
+            let mut after = INVALID;
+            for i in 0..W {
+                let slot = if ascending { i } else { W - 1 - i };
+                let open = valid && weights[slot] > 0.0;
+                let reached = from == INVALID || chosen != INVALID || slot as u32 == from;
+                if open && reached {
+                    if chosen == INVALID {
+                        chosen = slot as u32;
+                    } else if after == INVALID {
+                        after = slot as u32;
+                    }
+                }
+            }
+            if after != INVALID {
+                other_position = position;
+                other_slot = after;
+            }
+
+            if chosen != INVALID {
+                path = path.with::<W>(position, chosen);
+                let mut to = kind::EMPTY;
+                let mut link = 0;
+                for slot in 0..W {
+                    if slot as u32 == chosen {
+                        to = node.kind(slot);
+                        link = node.link(slot);
+                    }
+                }
+                if to == kind::LIGHT {
+                    found = Found { light: link, mesh };
+                    done = true;
+                } else {
+                    let (next, next_position, next_mesh) = enter::<N, W>(tree, to, link, position, mesh);
+                    index = next;
+                    position = next_position;
+                    mesh = next_mesh;
+                }
+            } else if other_position != INVALID {
+                // Dead end: start over with the deepest alternative.
+                path = path.with::<W>(other_position, other_slot);
+                retrace = other_position + 1;
+                other_position = INVALID;
+                index = first_index;
+                position = first_position;
+                mesh = first_mesh;
+            } else {
+                done = true;
+            }
+        }
+    }
+    found
+}
+
+/// Each dead end costs at most one way down, and there are fewer dead ends than nodes.
+#[inline(always)]
+fn search_bound(nodes: u32, levels: u32) -> u32 {
+    let most = u32::MAX / levels;
+    (if nodes < most { nodes } else { most }) * levels
+}
+
+/// The neighbour after `neighbor` on the same side: the same node's next slot, or further up.
+fn next_neighbor<N: LightNode<W>, I: ImportanceModel, const W: usize>(
+    tree: &LightTree<'_, N>,
+    point: &ShadingPoint,
+    way: Path,
+    neighbor: &Neighbor,
+    right: bool,
+) -> Neighbor {
+    let path = way.with::<W>(neighbor.position, neighbor.slot);
+    let guide = Guide {
+        follow: true,
+        path,
+        last: neighbor.position,
+        random: 0,
+    };
+    let d = descend::<N, I, W>(tree, point, &guide);
+    if right { d.right } else { d.left }
+}
+
+/// The probability that the light at the end of `d` takes over from dead neighbours.
+pub(super) fn adopted<N: LightNode<W>, I: ImportanceModel, const W: usize>(
+    tree: &LightTree<'_, N>,
+    point: &ShadingPoint,
+    d: &Descent,
+) -> f32 {
+    let mut total = 0.0;
+    // Left side first, then right, in one loop so that the kernel holds the search once.
+    let mut right = false;
+    let mut neighbor = d.left;
+    // Dead slots to the right count once their node turns out to have no live one after them.
+    let mut pending = 0.0;
+    let mut pending_position = INVALID;
+    let mut done = false;
+    for _ in 0..4 * W as u32 * max_levels(W) {
+        if !done {
+            let none = neighbor.is_none();
+            let live = !none && find_live::<N, I, W>(tree, point, &neighbor, true).light != INVALID;
+            if none || live {
+                if right {
+                    total += if live && neighbor.position == pending_position {
+                        0.0
+                    } else {
+                        pending
+                    };
+                    done = true;
+                } else {
+                    right = true;
+                    neighbor = d.right;
+                }
+            } else {
+                if right {
+                    if neighbor.position != pending_position {
+                        total += pending;
+                        pending = 0.0;
+                        pending_position = neighbor.position;
+                    }
+                    pending += neighbor.mass();
+                } else {
+                    total += neighbor.mass();
+                }
+                neighbor = next_neighbor::<N, I, W>(tree, point, d.path, &neighbor, right);
+            }
+        }
+    }
+    total
+}
+
+/// The light that takes over from the dead end of `d`.
+pub(super) fn heir<N: LightNode<W>, I: ImportanceModel, const W: usize>(
+    tree: &LightTree<'_, N>,
+    point: &ShadingPoint,
+    d: &Descent,
+) -> Found {
+    let mut found = Found {
+        light: INVALID,
+        mesh: INVALID,
+    };
+    let (mut left, mut right) = (d.left, d.right);
+    let mut done = false;
+    for _ in 0..4 * W as u32 * max_levels(W) {
+        if !done {
+            // The deeper neighbour is the nearer; of one node's slots, the right ones come first.
+            let to_right = !right.is_none() && (left.is_none() || right.position >= left.position);
+            let neighbor = if to_right { right } else { left };
+            found = find_live::<N, I, W>(tree, point, &neighbor, to_right);
+            done = neighbor.is_none() || found.light != INVALID;
+            if !done {
+                let next = next_neighbor::<N, I, W>(tree, point, d.path, &neighbor, to_right);
+                if to_right {
+                    right = next;
+                } else {
+                    left = next;
+                }
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,171 @@
+//! Lights and points to test with: seeded, and with the degenerate cases in.
+
+use lightbvh::{EmissiveTriangle, Lights, ShadingPoint, exact};
+use proptest::prelude::*;
+
+/// A small stream of random numbers on the crate's own hash.
+#[derive(Clone, Debug)]
+pub struct Random(u32);
+
+impl Random {
+    /// A stream from a seed.
+    #[must_use]
+    pub fn new(seed: u32) -> Self {
+        Self(exact::hash(seed ^ 0x9e37_79b9))
+    }
+
+    /// 32 uniform bits.
+    pub fn bits(&mut self) -> u32 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9);
+        exact::hash(self.0)
+    }
+
+    /// Uniform in `[0, 1)`.
+    pub fn unit(&mut self) -> f32 {
+        exact::unit_f32(self.bits())
+    }
+
+    /// Uniform in `[low, high)`.
+    pub fn between(&mut self, low: f32, high: f32) -> f32 {
+        low + (high - low) * self.unit()
+    }
+
+    /// Uniform in `0..n`.
+    pub fn below(&mut self, n: u32) -> u32 {
+        (self.unit() * n as f32) as u32
+    }
+
+    /// A uniform direction.
+    pub fn direction(&mut self) -> [f32; 3] {
+        loop {
+            let v = [
+                self.between(-1.0, 1.0),
+                self.between(-1.0, 1.0),
+                self.between(-1.0, 1.0),
+            ];
+            let l = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+            if l > 1e-3 && l <= 1.0 {
+                return v.map(|x| x / l.sqrt());
+            }
+        }
+    }
+}
+
+/// `count` random small triangles of edge about `edge` in a box of side `side`, in meshes of `per_mesh`; the triangles
+/// of a mesh lie near each other when `clustered`.
+#[must_use]
+pub fn small_triangles(
+    count: u32,
+    per_mesh: u32,
+    side: f32,
+    edge: f32,
+    clustered: bool,
+    seed: u32,
+) -> Vec<EmissiveTriangle> {
+    let mut random = Random::new(seed);
+    let mut center = [0.0; 3];
+    (0..count)
+        .map(|i| {
+            if i % per_mesh == 0 || !clustered {
+                center = [0; 3].map(|_| random.between(0.0, side));
+            }
+            let spread = if clustered { side * 0.01 } else { 0.0 };
+            let corner = center.map(|c| c + spread * random.unit());
+            let mut vertex = || corner.map(|c| c + edge * random.unit());
+            let p = [vertex(), vertex(), vertex()];
+            let radiance = [0; 3].map(|_| 0.1 + random.unit());
+            EmissiveTriangle {
+                p,
+                radiance,
+                mesh: i / per_mesh,
+                flags: 0,
+            }
+        })
+        .collect()
+}
+
+/// A shading point in a box a little larger than `side`; one in eight is in a volume.
+pub fn point(random: &mut Random, side: f32) -> ShadingPoint {
+    let p = [0; 3].map(|_| random.between(-0.2 * side, 1.2 * side));
+    let n = if random.below(8) == 0 {
+        [0.0; 3]
+    } else {
+        random.direction()
+    };
+    ShadingPoint { p, n }
+}
+
+/// How a generated set of triangles is degenerate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// Not at all.
+    General,
+    /// All vertices on a coarse grid: many coincide, many triangles have no area.
+    Grid,
+    /// All in one plane.
+    Plane,
+    /// All along one axis.
+    Line,
+    /// All at one place.
+    Point,
+}
+
+/// Sets of 1..=`most` triangles in meshes of random size, of every [`Shape`], with flux over many orders and with
+/// zeros, partly two-sided.
+pub fn lights(most: u32) -> impl Strategy<Value = Lights> {
+    let shape = prop_oneof![
+        3 => Just(Shape::General),
+        2 => Just(Shape::Grid),
+        1 => Just(Shape::Plane),
+        1 => Just(Shape::Line),
+        1 => Just(Shape::Point),
+    ];
+    (1..=most, shape, any::<u32>(), 0..4u32)
+        .prop_map(|(count, shape, seed, flux)| make(count, shape, seed, flux))
+}
+
+fn make(count: u32, shape: Shape, seed: u32, flux: u32) -> Lights {
+    let mut random = Random::new(seed);
+    let mut mesh = 0;
+    let triangles = (0..count)
+        .map(|i| {
+            if i > 0 && random.below(4) == 0 {
+                mesh += 1;
+            }
+            let corner = match shape {
+                Shape::General => [0; 3].map(|_| random.between(0.0, 10.0)),
+                Shape::Grid => [0; 3].map(|_| random.below(4) as f32),
+                Shape::Plane => [random.between(0.0, 10.0), 2.0, random.between(0.0, 10.0)],
+                Shape::Line => [random.below(1000) as f32, 0.0, 0.0],
+                Shape::Point => [1.0, 2.0, 3.0],
+            };
+            let mut vertex = |k: usize| match shape {
+                Shape::General => corner.map(|c| c + random.unit()),
+                Shape::Grid => corner.map(|c| c + random.below(2) as f32),
+                Shape::Plane => [corner[0] + random.unit(), corner[1], corner[2] + random.unit()],
+                Shape::Line | Shape::Point => {
+                    let mut v = corner;
+                    if k > 0 {
+                        v[k] += 0.5;
+                    }
+                    v
+                }
+            };
+            let p = [vertex(0), vertex(1), vertex(2)];
+            let scale = match flux {
+                0 => 1.0,
+                1 => f32::from(random.below(3) > 0),
+                2 => exact::pow2(random.below(80) as i32 - 40),
+                _ => exact::pow2(if random.below(16) == 0 { 40 } else { 0 }),
+            };
+            let radiance = [0; 3].map(|_| scale * (0.25 + random.unit()));
+            EmissiveTriangle {
+                p,
+                radiance,
+                mesh,
+                flags: u32::from(random.below(4) == 0),
+            }
+        })
+        .collect();
+    Lights::new(triangles).expect("generated lights are within the domain")
+}
