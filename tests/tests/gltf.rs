@@ -2,9 +2,10 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use lightbvh::light::TWO_SIDED;
 use lightbvh_host::scene::{
     Animation, Camera, Channel, Frame, Interpolation, Material, Mesh, Node, Primitive, Property, Scene,
-    SceneData, SceneError, TWO_SIDED, Transform,
+    SceneData, SceneError, Transform,
 };
 use serde_json::{Value, json};
 
@@ -498,7 +499,8 @@ fn nan_positions_and_bad_animations_are_named() {
     );
     assert!(broken(|data| data.animations[1].channels[1].values[2][0] = 3e38).contains("2^40"));
     assert!(broken(|data| data.meshes[1].primitives[1].radiance = Some(vec![[1.0; 3]])).contains("radiance"));
-    assert!(broken(|data| data.materials[0].radiance = [3e38; 3]).contains("flux"));
+    assert!(broken(|data| data.materials[0].radiance = [3e38; 3]).contains("2^100"));
+    assert!(broken(|data| data.materials[0].radiance = [1e30; 3]).contains("flux"));
     assert!(broken(|data| data.cameras[0].yfov = 4.0).contains("field of view"));
     assert!(broken(|data| data.background[1] = -1.0).contains("background"));
 }

@@ -34,11 +34,11 @@ pub fn carousel() -> Result<Scene, SceneError> {
     let mut b = SceneBuilder::new("carousel", [0.010, 0.010, 0.026]);
     let mut dice = Dice::new(3);
     let colors = [
-        [24.0, 15.0, 7.0],
-        [28.0, 5.0, 3.0],
-        [5.0, 14.0, 26.0],
-        [8.0, 22.0, 6.0],
-        [22.0, 5.0, 24.0],
+        [34.0, 21.0, 9.0],
+        [40.0, 4.0, 2.5],
+        [3.5, 16.0, 40.0],
+        [6.0, 34.0, 5.0],
+        [30.0, 3.5, 34.0],
     ];
     let palette = Palette {
         steel: b.material(Material {
@@ -56,7 +56,7 @@ pub fn carousel() -> Result<Scene, SceneError> {
     ground::add(&mut b, &mut dice, &palette);
     rides::add(&mut b, &mut dice, &palette);
     wheel::add(&mut b, &palette);
-    b.camera([7.0, 4.5, 34.0], [-0.5, 6.0, 0.0], 52.0);
+    b.camera([4.0, 3.2, 23.0], [-1.0, 5.6, 0.0], 60.0);
     b.finish()
 }
 

@@ -1,5 +1,7 @@
 //! The checked constructor: what a scene must be before anything is built on it.
 
+use lightbvh::light::{MAX_COORDINATE, MAX_RADIANCE, MIN_COORDINATE, MIN_RADIANCE};
+
 use super::camera::FrameCamera;
 use super::error::SceneError;
 use super::frame::{emits, flush};
@@ -7,23 +9,20 @@ use super::model::{Channel, Counts, Interpolation, Material, Primitive, Scene, S
 use super::reach;
 use super::transform::Transform;
 
-/// Largest magnitude of a coordinate, metres: 2^40. Squared distances and areas then stay far inside `f32`.
-pub const MAX_COORDINATE: f32 = 1_099_511_627_776.0;
-
 /// Most triangles of a frame, over all instances: 2^26, some 3 GiB of records, well inside 32-bit indices.
 pub const MAX_TRIANGLES: u64 = 1 << 26;
 
 impl Scene {
     /// Checks `data` and wraps it.
     ///
-    /// Subnormal coordinates and radiances become +0. A scene without lights passes; commands that need lights
+    /// Coordinates and radiances below 2^-100 become +0. A scene without lights passes; commands that need lights
     /// call [`Scene::require_lights`].
     ///
     /// # Errors
     /// A value that is not finite, negative emission, a coordinate that could leave ±[`MAX_COORDINATE`] in any frame, an
     /// index out of range, a parent after its child, too many triangles, no triangle at all.
     pub fn new(mut data: SceneData) -> Result<Self, SceneError> {
-        flush_subnormals(&mut data);
+        flush_tiny(&mut data);
         let check = Check { scene: &data.name };
         check.limit("nodes", data.nodes.len(), u64::from(u32::MAX))?;
         for (index, material) in data.materials.iter().enumerate() {
@@ -134,6 +133,9 @@ impl Check<'_> {
         self.finite(&element, &rgb)?;
         if let Some(&value) = rgb.iter().find(|&&channel| channel < 0.0) {
             return Err(self.out_of_range(element(), value, "at least 0; light cannot be negative"));
+        }
+        if let Some(&value) = rgb.iter().find(|&&channel| channel > MAX_RADIANCE) {
+            return Err(self.out_of_range(element(), value, "at most 2^100; lower the emissive strength"));
         }
         Ok(())
     }
@@ -296,25 +298,20 @@ impl Check<'_> {
     }
 }
 
-/// +0 for subnormals and for -0: devices may flush them where the CPU does not.
-fn flush_subnormals(data: &mut SceneData) {
-    let flush_all = |values: &mut [f32]| {
-        for value in values {
-            // NaN and infinity stay, to be reported.
-            if value.is_finite() {
-                *value = flush(*value);
-            }
-        }
-    };
-    flush_all(&mut data.background);
+/// +0 for what is too small to matter: devices may flush subnormal numbers where the CPU does not.
+fn flush_tiny(data: &mut SceneData) {
+    // NaN and infinity stay, to be reported.
+    let flush_all =
+        |values: &mut [f32], smallest: f32| values.iter_mut().for_each(|x| *x = flush(*x, smallest));
+    flush_all(&mut data.background, MIN_RADIANCE);
     for material in &mut data.materials {
-        flush_all(&mut material.radiance);
-        flush_all(&mut material.base_color);
+        flush_all(&mut material.radiance, MIN_RADIANCE);
+        flush_all(&mut material.base_color, MIN_RADIANCE);
     }
     for primitive in data.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
-        flush_all(primitive.positions.as_flattened_mut());
+        flush_all(primitive.positions.as_flattened_mut(), MIN_COORDINATE);
         if let Some(radiance) = &mut primitive.radiance {
-            flush_all(radiance.as_flattened_mut());
+            flush_all(radiance.as_flattened_mut(), MIN_RADIANCE);
         }
     }
 }

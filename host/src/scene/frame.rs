@@ -1,5 +1,7 @@
 //! One frame of a scene: world-space triangles and lights, in the same order every frame.
 
+use lightbvh::light::{EmissiveTriangle, MIN_COORDINATE, TWO_SIDED};
+
 use super::animate::world_transforms;
 use super::camera::FrameCamera;
 use super::model::{Scene, SceneData, SurfaceMaterial};
@@ -11,9 +13,6 @@ pub const FRAMES_PER_SECOND: u32 = 25;
 /// [`SurfaceRecord::light`] of a surface that does not emit.
 pub const NO_LIGHT: u32 = u32::MAX;
 
-/// Bit of [`EmissiveRecord::flags`]: the back side emits too.
-pub const TWO_SIDED: u32 = 1;
-
 /// One triangle that rays can hit.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -24,20 +23,6 @@ pub struct SurfaceRecord {
     pub material: u32,
     /// Index into [`Frame::emissive`], or [`NO_LIGHT`].
     pub light: u32,
-}
-
-/// One triangle that emits.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub struct EmissiveRecord {
-    /// World-space vertices, metres, counter-clockwise seen from the front.
-    pub p: [[f32; 3]; 3],
-    /// W/(m² sr), linear RGB.
-    pub radiance: [f32; 3],
-    /// Index into [`Frame::mesh_lights`].
-    pub mesh: u32,
-    /// [`TWO_SIDED`] or 0.
-    pub flags: u32,
 }
 
 /// A mesh light: one instance of one emissive primitive, its triangles contiguous.
@@ -57,7 +42,7 @@ pub struct Frame {
     /// Every triangle, emissive or not.
     pub triangles: Vec<SurfaceRecord>,
     /// Triangles with radiance above zero, those of zero area included.
-    pub emissive: Vec<EmissiveRecord>,
+    pub emissive: Vec<EmissiveTriangle>,
     /// Ranges of `emissive`, in order, without gaps.
     pub mesh_lights: Vec<MeshRange>,
     /// By [`SurfaceRecord::material`].
@@ -114,7 +99,7 @@ pub(super) fn place_meshes(data: &SceneData, world: &[Affine], out: &mut Frame) 
                 let p = [a, b, c].map(|vertex| points[vertex as usize]);
                 let radiance = primitive.triangle_radiance(index, material.radiance);
                 let light = if emits(radiance) {
-                    out.emissive.push(EmissiveRecord {
+                    out.emissive.push(EmissiveTriangle {
                         p,
                         radiance,
                         mesh: mesh_light,
@@ -148,12 +133,14 @@ pub(super) fn emits(radiance: [f32; 3]) -> bool {
     radiance.iter().any(|&channel| channel > 0.0)
 }
 
-/// Rounds once, from `f64`; subnormal results become +0, as devices may flush them and the CPU does not.
+/// Rounds once, from `f64`.
 fn world_point(to_world: &Affine, p: [f32; 3]) -> [f32; 3] {
-    to_world.point(p.map(f64::from)).map(|x| flush(x as f32))
+    to_world
+        .point(p.map(f64::from))
+        .map(|x| flush(x as f32, MIN_COORDINATE))
 }
 
-/// +0 for zeros and subnormals of either sign.
-pub(super) fn flush(x: f32) -> f32 {
-    if x.is_normal() { x } else { 0.0 }
+/// +0 below `smallest` in magnitude and for -0: devices may flush subnormal numbers where the CPU does not.
+pub(super) fn flush(x: f32, smallest: f32) -> f32 {
+    if x.abs() < smallest { 0.0 } else { x }
 }

@@ -36,9 +36,9 @@ pub mod square;
 pub mod street;
 
 pub use camera::FrameCamera;
-pub use check::{MAX_COORDINATE, MAX_TRIANGLES};
+pub use check::MAX_TRIANGLES;
 pub use error::SceneError;
-pub use frame::{EmissiveRecord, FRAMES_PER_SECOND, Frame, MeshRange, NO_LIGHT, SurfaceRecord, TWO_SIDED};
+pub use frame::{FRAMES_PER_SECOND, Frame, MeshRange, NO_LIGHT, SurfaceRecord};
 pub use load::BUILT_IN;
 pub use model::{
     Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,

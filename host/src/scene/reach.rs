@@ -1,7 +1,8 @@
 //! Bounds of a scene over all its frames: where instances can get and what they can emit.
 
+use lightbvh::light::MAX_COORDINATE;
+
 use super::animate::world_transforms;
-use super::check::MAX_COORDINATE;
 use super::error::SceneError;
 use super::model::{Interpolation, Mesh, Property, SceneData};
 use super::transform::{Transform, cross, dot, sub};

@@ -40,7 +40,7 @@ pub fn square() -> Result<Scene, SceneError> {
     buildings::add(&mut b, &mut dice);
     park::add(&mut b, &mut dice, iron);
     motion::add(&mut b, &mut dice, iron);
-    b.camera([52.0, 9.0, 66.0], [-12.0, 3.0, -20.0], 50.0);
+    b.camera([-0.5, 2.6, 46.0], [0.4, 4.6, 0.0], 55.0);
     b.finish()
 }
 

@@ -19,7 +19,12 @@ pub(super) fn add(b: &mut SceneBuilder, dice: &mut Dice) {
     let walls = wall_colors.map(|color| b.matte("wall", color, 0.9));
     let stone = b.matte("stone", [0.5, 0.48, 0.45], 0.8);
     let glass = b.matte("dark glass", [0.04, 0.05, 0.06], 0.1);
-    let colors = [[3.2, 2.1, 1.0], [2.8, 2.3, 1.6], [1.3, 1.7, 2.4], [3.0, 1.5, 0.7]];
+    let colors = [
+        [1.3, 0.8, 0.33],
+        [1.1, 0.82, 0.5],
+        [0.45, 0.62, 0.95],
+        [1.2, 0.55, 0.2],
+    ];
     let mut pane = Shape::new();
     pane.quad([
         [-0.7, -0.9, 0.0],

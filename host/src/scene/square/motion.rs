@@ -89,10 +89,10 @@ fn cars(b: &mut SceneBuilder, dice: &mut Dice, iron: u32) {
 /// Rings that turn about the middle; each drone bobs and carries a lamp below it.
 fn drones(b: &mut SceneBuilder, dice: &mut Dice, iron: u32) {
     let glows = [
-        [150.0, 20.0, 90.0],
-        [20.0, 120.0, 170.0],
-        [60.0, 160.0, 40.0],
-        [170.0, 110.0, 20.0],
+        [500.0, 60.0, 280.0],
+        [60.0, 380.0, 560.0],
+        [180.0, 520.0, 110.0],
+        [560.0, 340.0, 60.0],
     ];
     let mut body = Shape::new();
     body.block([0.0; 3], [0.5, 0.08, 0.08])
@@ -116,7 +116,7 @@ fn drones(b: &mut SceneBuilder, dice: &mut Dice, iron: u32) {
 
 /// Each on a smooth closed path of its own around a home between the trees.
 fn fireflies(b: &mut SceneBuilder, dice: &mut Dice) {
-    let glows = [[90.0, 130.0, 20.0], [130.0, 120.0, 25.0]].map(|radiance| b.glow("firefly", radiance));
+    let glows = [[170.0, 260.0, 30.0], [250.0, 220.0, 40.0]].map(|radiance| b.glow("firefly", radiance));
     let meshes = glows.map(|glow| {
         let mut body = Shape::new();
         body.octahedron([0.0; 3], 0.035);

@@ -28,7 +28,7 @@ fn trees(b: &mut SceneBuilder, dice: &mut Dice) {
             let mut trunk = Shape::new();
             trunk.cylinder([0.0; 3], [0.22 * size, 0.14 * size], 3.0 * size, 7);
             let mut crown = Shape::new();
-            for _ in 0..3 {
+            for _ in 0..2 {
                 let at = [
                     dice.between(-0.8, 0.8) * size,
                     dice.between(3.4, 4.8) * size,
@@ -42,7 +42,7 @@ fn trees(b: &mut SceneBuilder, dice: &mut Dice) {
         .collect();
 
     let glows =
-        [[150.0, 105.0, 60.0], [160.0, 70.0, 30.0], [60.0, 90.0, 150.0]].map(|c| b.glow("fairy light", c));
+        [[260.0, 170.0, 85.0], [280.0, 100.0, 36.0], [80.0, 130.0, 260.0]].map(|c| b.glow("fairy light", c));
     let lights = glows.map(|glow| {
         let mut bulb = Shape::new();
         bulb.octahedron([0.0; 3], 0.05);
@@ -85,7 +85,7 @@ fn path_lamps(b: &mut SceneBuilder, iron: u32) {
         .cylinder([0.0, 3.32, 0.0], [0.28, 0.05], 0.15, 8);
     let mut globe = Shape::new();
     globe.icosphere([0.0, 3.16, 0.0], [0.15; 3], 0);
-    let glow = b.glow("path lamp", [62.0, 50.0, 32.0]);
+    let glow = b.glow("path lamp", [150.0, 112.0, 62.0]);
     let lamp = b.mesh("path lamp", &[(&globe, glow), (&post, iron)]);
     let mut places = Vec::new();
     let mut along = -PARK + 2.0;
@@ -112,7 +112,7 @@ fn path_lamps(b: &mut SceneBuilder, iron: u32) {
 /// Three basins with a ring of lights under each rim.
 fn fountain(b: &mut SceneBuilder) {
     let stone = b.matte("fountain stone", [0.6, 0.58, 0.54], 0.6);
-    let glow = b.glow("fountain light", [14.0, 34.0, 44.0]);
+    let glow = b.glow("fountain light", [40.0, 100.0, 140.0]);
     let mut basins = Shape::new();
     let mut bulb = Shape::new();
     bulb.octahedron([0.0; 3], 0.07);

@@ -149,9 +149,14 @@ fn pane_corners([x, y, z]: [f64; 3], side: f64, size: [f64; 2]) -> [[f64; 3]; 4]
 
 /// Lit panes as instances: one mesh per colour and side, every pane a mesh light.
 fn add_panes(b: &mut SceneBuilder, dice: &mut Dice, houses: &Houses) {
-    let colors = [[2.6, 1.7, 0.8], [2.2, 1.8, 1.2], [1.0, 1.3, 1.9], [2.4, 1.2, 0.5]];
+    let colors = [
+        [1.0, 0.58, 0.22],
+        [0.85, 0.62, 0.36],
+        [0.32, 0.45, 0.7],
+        [0.9, 0.42, 0.15],
+    ];
     let glows = colors.map(|radiance| b.glow("lit window", radiance));
-    let shop = b.glow("shop front", [2.4, 2.0, 1.4]);
+    let shop = b.glow("shop front", [0.85, 0.62, 0.34]);
     for (panes, size, name) in [
         (&houses.lit_windows, [1.2, 1.8], "window"),
         (&houses.shop_fronts, [2.2, 2.0], "shop front"),

@@ -84,8 +84,8 @@ fn strings(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
 
 /// Paper lanterns on cords between the strings.
 fn lanterns(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
-    let glows =
-        [[9.0, 2.2, 1.2], [8.0, 5.0, 2.0], [8.5, 3.6, 1.0]].map(|radiance| b.glow("paper lantern", radiance));
+    let glows = [[5.0, 0.8, 0.4], [4.5, 2.4, 0.7], [5.0, 1.7, 0.35]]
+        .map(|radiance| b.glow("paper lantern", radiance));
     let mut cord = Shape::new();
     cord.beam([0.0, -0.7, 0.0], [0.0, 0.0, 0.0], 0.02);
     cord.cylinder([0.0, -0.76, 0.0], [0.12, 0.10], 0.08, 8);
@@ -120,11 +120,11 @@ fn lanterns(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
 /// Neon signs on brackets; every second one swings.
 fn signs(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
     let colors = [
-        [14.0, 1.2, 2.4],
-        [1.2, 9.0, 13.0],
-        [2.0, 13.0, 3.0],
-        [13.0, 7.0, 0.8],
-        [8.0, 1.5, 13.0],
+        [9.0, 0.2, 0.7],
+        [0.2, 4.0, 7.0],
+        [0.4, 7.0, 0.6],
+        [8.0, 2.4, 0.1],
+        [4.0, 0.3, 7.0],
     ];
     let glows = colors.map(|radiance| b.glow("neon", radiance));
     let tubes = [sign_frame(), sign_ring(), sign_arrow()];
@@ -183,8 +183,8 @@ fn sign_frame() -> Shape {
 fn sign_ring() -> Shape {
     on_both_faces(|tubes, z| {
         tubes
-            .torus([0.0, -0.85, z], 0.36, 0.025, 16, 4)
-            .torus([0.0, -0.85, z], 0.2, 0.025, 12, 4);
+            .torus([0.0, -0.85, z], 0.36, 0.03, 12, 3)
+            .torus([0.0, -0.85, z], 0.2, 0.03, 8, 3);
     })
 }
 
