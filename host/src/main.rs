@@ -1,1 +1,3 @@
+//! The `lightbvh` program.
+
 fn main() {}

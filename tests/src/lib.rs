@@ -1,4 +1,5 @@
 //! Generators, oracles and statistics shared by the tests.
 
 pub mod generate;
+pub mod gltf_files;
 pub mod statistics;

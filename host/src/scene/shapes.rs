@@ -225,3 +225,42 @@ fn halve_edges([a, b, c]: [[f64; 3]; 3]) -> [[[f64; 3]; 3]; 4] {
     let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
     [[a, ab, ca], [b, bc, ab], [c, ca, bc], [ab, bc, ca]]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::transform::{cross, dot};
+    use super::*;
+
+    /// Six times the volume that the shape's front faces enclose; negative where they look inward.
+    fn volume(shape: &Shape) -> f64 {
+        let corners = |triangle: &[u32; 3]| triangle.map(|i| shape.positions[i as usize].map(f64::from));
+        shape
+            .triangles
+            .iter()
+            .map(corners)
+            .map(|[a, b, c]| dot(a, cross(b, c)))
+            .sum()
+    }
+
+    #[test]
+    fn closed_shapes_show_their_front_outward() {
+        let at = [3.0, -2.0, 5.0];
+        let draw: [fn(&mut Shape, [f64; 3]); 6] = [
+            |s, at| _ = s.block(at, [1.0, 2.0, 3.0]),
+            |s, at| _ = s.octahedron(at, 1.0),
+            |s, at| _ = s.icosphere(at, [1.0, 2.0, 1.0], 2),
+            |s, at| _ = s.cylinder(at, [1.0, 0.5], 2.0, 9),
+            |s, at| _ = s.torus(at, 2.0, 0.5, 12, 6),
+            |s, at| _ = s.beam(at, [4.0, 1.0, -6.0], 0.5),
+        ];
+        for (index, draw) in draw.into_iter().enumerate() {
+            let mut shape = Shape::new();
+            draw(&mut shape, at);
+            assert!(
+                volume(&shape) > 0.5,
+                "shape {index} is inside out: {}",
+                volume(&shape)
+            );
+        }
+    }
+}
