@@ -50,6 +50,9 @@ pub trait ImportanceModel {
 /// is given no importance.
 const SLACK: f32 = 0.003_906_25;
 
+/// Share of r² added to d² (see [`Eq4`]). A constant of its own: rust-gpu does not fold an expression of literals.
+const SOFTENING: f32 = 1.0 / 12.0;
+
 /// Squared distances count as at least this, m²: 2^-100.
 const MIN_DISTANCE_SQUARED: f32 = pow2(-100);
 
@@ -139,7 +142,7 @@ fn direction(cluster: &Cluster, point: &ShadingPoint) -> (Vec3, f32, f32) {
 #[inline(always)]
 fn over_distance(cluster: &Cluster, distance_squared: f32, factor: f32) -> Importance {
     let soft = exact::max(
-        distance_squared + cluster.radius_squared * (1.0 / 12.0),
+        distance_squared + cluster.radius_squared * SOFTENING,
         MIN_DISTANCE_SQUARED,
     );
     let value = significand(cluster.phi) * recip(significand(soft)) * factor;

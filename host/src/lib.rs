@@ -1,3 +1,7 @@
-//! Host.
+//! Runs lightbvh on the CPU and on Vulkan devices and compares the results bit for bit.
+#![deny(unsafe_code)]
 
+pub mod compare;
+pub mod render;
 pub mod scene;
+pub mod vulkan;

@@ -1,3 +1,2 @@
-//! The `lightbvh` program.
-
+//! The command line.
 fn main() {}

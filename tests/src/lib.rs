@@ -1,5 +1,7 @@
-//! Generators, oracles and statistics shared by the tests.
+//! Generators, oracles, statistics and devices shared by the tests.
 
+pub mod devices;
 pub mod generate;
 pub mod gltf_files;
+pub mod soup;
 pub mod statistics;

@@ -3,7 +3,8 @@
 use std::sync::OnceLock;
 
 use lightbvh::light::{EmissiveTriangle, MAX_COORDINATE};
-use lightbvh_host::scene::{BUILT_IN, Frame, NO_LIGHT, Scene, SceneError};
+use lightbvh_host::scene::{BUILT_IN, Frame, Scene, SceneError};
+use lightbvh_kernels::shading::trace::NONE;
 
 /// Of frames 0 and 150 of each built-in scene, in the order of [`BUILT_IN`].
 const KNOWN_DIGESTS: [u64; 6] = [
@@ -172,7 +173,7 @@ fn records_refer_to_each_other_without_gaps() {
         let lit: Vec<_> = frame
             .triangles
             .iter()
-            .filter(|triangle| triangle.light != NO_LIGHT)
+            .filter(|triangle| triangle.light != NONE)
             .collect();
         assert_eq!(lit.len(), frame.emissive.len());
         for (index, triangle) in lit.into_iter().enumerate() {

@@ -7,7 +7,7 @@
 //! too where no live one follows among the siblings. Neighbours are mostly live and near, so one look on each side is
 //! the usual cost.
 
-use super::descend::{Descent, Guide, descend, enter};
+use super::descend::{Descent, enter};
 use crate::exact;
 use crate::importance::ImportanceModel;
 use crate::node::{LightNode, kind};
@@ -93,67 +93,67 @@ fn find_live<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     // Positions below this one are retraced.
     let mut retrace = first_position;
     let (mut other_position, mut other_slot) = (INVALID, 0);
-    for _ in 0..search_bound(tree.nodes.len() as u32, 2 * max_levels(W)) {
-        if !done {
-            let valid = index < tree.nodes.len() as u32;
-            let node = &tree.nodes[if valid { index as usize } else { 0 }];
-            let (weights, _) = node.weights::<I>(point);
+    let mut steps = search_bound(tree.nodes.len() as u32, 2 * max_levels(W));
+    while !done && steps > 0 {
+        steps -= 1;
+        let valid = index < tree.nodes.len() as u32;
+        let node = &tree.nodes[if valid { index as usize } else { 0 }];
+        let (weights, _) = node.weights::<I>(point);
 
-            // The slot to enter, and the one after it in the order of search.
-            let from = if position < retrace {
-                path.slot::<W>(position)
-            } else {
-                INVALID
-            };
-            let mut chosen = INVALID;
-            let mut after = INVALID;
-            for i in 0..W {
-                let slot = if ascending { i } else { W - 1 - i };
-                let open = valid && weights[slot] > 0.0;
-                let reached = from == INVALID || chosen != INVALID || slot as u32 == from;
-                if open && reached {
-                    if chosen == INVALID {
-                        chosen = slot as u32;
-                    } else if after == INVALID {
-                        after = slot as u32;
-                    }
+        // The slot to enter, and the one after it in the order of search.
+        let from = if position < retrace {
+            path.slot::<W>(position)
+        } else {
+            INVALID
+        };
+        let mut chosen = INVALID;
+        let mut after = INVALID;
+        for i in 0..W {
+            let slot = if ascending { i } else { W - 1 - i };
+            let open = valid && weights[slot] > 0.0;
+            let reached = from == INVALID || chosen != INVALID || slot as u32 == from;
+            if open && reached {
+                if chosen == INVALID {
+                    chosen = slot as u32;
+                } else if after == INVALID {
+                    after = slot as u32;
                 }
             }
-            if after != INVALID {
-                other_position = position;
-                other_slot = after;
-            }
+        }
+        if after != INVALID {
+            other_position = position;
+            other_slot = after;
+        }
 
-            if chosen != INVALID {
-                path = path.with::<W>(position, chosen);
-                let mut to = kind::EMPTY;
-                let mut link = 0;
-                for slot in 0..W {
-                    if slot as u32 == chosen {
-                        to = node.kind(slot);
-                        link = node.link(slot);
-                    }
+        if chosen != INVALID {
+            path = path.with::<W>(position, chosen);
+            let mut to = kind::EMPTY;
+            let mut link = 0;
+            for slot in 0..W {
+                if slot as u32 == chosen {
+                    to = node.kind(slot);
+                    link = node.link(slot);
                 }
-                if to == kind::LIGHT {
-                    found = Found { light: link, mesh };
-                    done = true;
-                } else {
-                    let (next, next_position, next_mesh) = enter::<N, W>(tree, to, link, position, mesh);
-                    index = next;
-                    position = next_position;
-                    mesh = next_mesh;
-                }
-            } else if other_position != INVALID {
-                // Dead end: start over with the deepest alternative.
-                path = path.with::<W>(other_position, other_slot);
-                retrace = other_position + 1;
-                other_position = INVALID;
-                index = first_index;
-                position = first_position;
-                mesh = first_mesh;
-            } else {
+            }
+            if to == kind::LIGHT {
+                found = Found { light: link, mesh };
                 done = true;
+            } else {
+                let (next, next_position, next_mesh) = enter::<N, W>(tree, to, link, position, mesh);
+                index = next;
+                position = next_position;
+                mesh = next_mesh;
             }
+        } else if other_position != INVALID {
+            // Dead end: start over with the deepest alternative.
+            path = path.with::<W>(other_position, other_slot);
+            retrace = other_position + 1;
+            other_position = INVALID;
+            index = first_index;
+            position = first_position;
+            mesh = first_mesh;
+        } else {
+            done = true;
         }
     }
     found
@@ -166,23 +166,93 @@ fn search_bound(nodes: u32, levels: u32) -> u32 {
     (if nodes < most { nodes } else { most }) * levels
 }
 
-/// The neighbour after `neighbor` on the same side: the same node's next slot, or further up.
+/// The neighbour after `neighbor` on the same side of the way of `d`: the same node's next slot, or further up.
+///
+/// Nodes above are found by following links alone, which costs far less than importances. Their probabilities follow
+/// from the neighbour's by undoing one choice per level, so that a walk from the root is not needed; the rounding is
+/// the same whoever asks.
 fn next_neighbor<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     tree: &LightTree<'_, N>,
     point: &ShadingPoint,
-    way: Path,
+    d: &Descent,
     neighbor: &Neighbor,
     right: bool,
 ) -> Neighbor {
-    let path = way.with::<W>(neighbor.position, neighbor.slot);
-    let guide = Guide {
-        follow: true,
-        path,
-        last: neighbor.position,
-        random: 0,
-    };
-    let d = descend::<N, I, W>(tree, point, &guide);
-    if right { d.right } else { d.left }
+    let mut next = Neighbor::NONE;
+    let mut position = neighbor.position;
+    let mut slot = neighbor.slot;
+    let mut before = neighbor.before;
+    let mut mesh = neighbor.mesh;
+    // The first node looked at is the neighbour's own; its probability is known.
+    let mut undo = false;
+    let mut steps = 2 * max_levels(W);
+    let mut done = neighbor.is_none();
+    while !done && steps > 0 {
+        steps -= 1;
+        let index = node_at::<N, W>(tree, d.path, position);
+        let node = &tree.nodes[index as usize];
+        let (weights, sum) = node.weights::<I>(point);
+        if undo {
+            let mut taken = 0.0;
+            for s in 0..W {
+                taken = if s as u32 == slot { weights[s] } else { taken };
+            }
+            before = exact::div(before * sum, taken);
+        }
+        for i in 0..W {
+            let s = if right { i } else { W - 1 - i };
+            let beyond = if right { s as u32 > slot } else { (s as u32) < slot };
+            if beyond && weights[s] > 0.0 && !done {
+                next = Neighbor {
+                    kind: node.kind(s),
+                    link: node.link(s),
+                    mesh,
+                    position,
+                    slot: s as u32,
+                    before,
+                    weight: weights[s],
+                    sum,
+                };
+                done = true;
+            }
+        }
+        done = done || position == 0;
+        if !done {
+            let at_bottom_root = position == max_levels(W);
+            position = if at_bottom_root {
+                d.mesh_position
+            } else {
+                position - 1
+            };
+            mesh = if at_bottom_root { INVALID } else { mesh };
+            slot = d.path.slot::<W>(position);
+            undo = true;
+        }
+    }
+    next
+}
+
+/// Index of the node at `position` of a way that was taken before.
+fn node_at<N: LightNode<W>, const W: usize>(tree: &LightTree<'_, N>, path: Path, position: u32) -> u32 {
+    let (mut index, mut at) = (tree.root, 0);
+    let mut steps = 2 * max_levels(W);
+    while at != position && index < tree.nodes.len() as u32 && steps > 0 {
+        steps -= 1;
+        let slot = path.slot::<W>(at);
+        let node = &tree.nodes[index as usize];
+        let (mut to, mut link) = (kind::EMPTY, 0);
+        for s in 0..W {
+            if s as u32 == slot {
+                to = node.kind(s);
+                link = node.link(s);
+            }
+        }
+        let (next, next_position, _) = enter::<N, W>(tree, to, link, at, INVALID);
+        index = next;
+        at = next_position;
+    }
+    // A way that was taken does not lead out of the nodes, unless another invocation changed them meanwhile.
+    if index < tree.nodes.len() as u32 { index } else { 0 }
 }
 
 /// The probability that the light at the end of `d` takes over from dead neighbours.
@@ -199,35 +269,35 @@ pub(super) fn adopted<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     let mut pending = 0.0;
     let mut pending_position = INVALID;
     let mut done = false;
-    for _ in 0..4 * W as u32 * max_levels(W) {
-        if !done {
-            let none = neighbor.is_none();
-            let live = !none && find_live::<N, I, W>(tree, point, &neighbor, true).light != INVALID;
-            if none || live {
-                if right {
-                    total += if live && neighbor.position == pending_position {
-                        0.0
-                    } else {
-                        pending
-                    };
-                    done = true;
+    let mut steps = 4 * W as u32 * max_levels(W);
+    while !done && steps > 0 {
+        steps -= 1;
+        let none = neighbor.is_none();
+        let live = !none && find_live::<N, I, W>(tree, point, &neighbor, true).light != INVALID;
+        if none || live {
+            if right {
+                total += if live && neighbor.position == pending_position {
+                    0.0
                 } else {
-                    right = true;
-                    neighbor = d.right;
-                }
+                    pending
+                };
+                done = true;
             } else {
-                if right {
-                    if neighbor.position != pending_position {
-                        total += pending;
-                        pending = 0.0;
-                        pending_position = neighbor.position;
-                    }
-                    pending += neighbor.mass();
-                } else {
-                    total += neighbor.mass();
-                }
-                neighbor = next_neighbor::<N, I, W>(tree, point, d.path, &neighbor, right);
+                right = true;
+                neighbor = d.right;
             }
+        } else {
+            if right {
+                if neighbor.position != pending_position {
+                    total += pending;
+                    pending = 0.0;
+                    pending_position = neighbor.position;
+                }
+                pending += neighbor.mass();
+            } else {
+                total += neighbor.mass();
+            }
+            neighbor = next_neighbor::<N, I, W>(tree, point, d, &neighbor, right);
         }
     }
     total
@@ -245,20 +315,20 @@ pub(super) fn heir<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     };
     let (mut left, mut right) = (d.left, d.right);
     let mut done = false;
-    for _ in 0..4 * W as u32 * max_levels(W) {
+    let mut steps = 4 * W as u32 * max_levels(W);
+    while !done && steps > 0 {
+        steps -= 1;
+        // The deeper neighbour is the nearer; of one node's slots, the right ones come first.
+        let to_right = !right.is_none() && (left.is_none() || right.position >= left.position);
+        let neighbor = if to_right { right } else { left };
+        found = find_live::<N, I, W>(tree, point, &neighbor, to_right);
+        done = neighbor.is_none() || found.light != INVALID;
         if !done {
-            // The deeper neighbour is the nearer; of one node's slots, the right ones come first.
-            let to_right = !right.is_none() && (left.is_none() || right.position >= left.position);
-            let neighbor = if to_right { right } else { left };
-            found = find_live::<N, I, W>(tree, point, &neighbor, to_right);
-            done = neighbor.is_none() || found.light != INVALID;
-            if !done {
-                let next = next_neighbor::<N, I, W>(tree, point, d.path, &neighbor, to_right);
-                if to_right {
-                    right = next;
-                } else {
-                    left = next;
-                }
+            let next = next_neighbor::<N, I, W>(tree, point, d, &neighbor, to_right);
+            if to_right {
+                right = next;
+            } else {
+                left = next;
             }
         }
     }

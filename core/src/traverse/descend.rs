@@ -15,8 +15,6 @@ pub(super) struct Guide {
     pub follow: bool,
     /// The way to follow.
     pub path: Path,
-    /// Last position to pass when following; the descent ends below it.
-    pub last: u32,
     /// Random bits for choosing.
     pub random: u32,
 }
@@ -28,6 +26,8 @@ pub(super) struct Descent {
     pub light: u32,
     /// The mesh light passed, or [`INVALID`].
     pub mesh: u32,
+    /// Position of the node that links to that mesh light.
+    pub mesh_position: u32,
     /// Product of the probabilities of the choices; zero once a followed way has none.
     pub pmf: f32,
     /// The way taken.
@@ -49,6 +49,7 @@ pub(super) fn descend<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     let mut out = Descent {
         light: INVALID,
         mesh: INVALID,
+        mesh_position: 0,
         pmf: 1.0,
         path: guide.path,
         left: Neighbor::NONE,
@@ -57,71 +58,76 @@ pub(super) fn descend<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     let mut index = tree.root;
     let mut position = 0;
     let mut done = false;
-    // A fixed bound and a single exit: rust-gpu miscompiles some `while` loops and early returns (spirt issue 31).
-    for _ in 0..2 * max_levels(W) {
-        if !done {
-            // An index out of range (hostile words) reads node 0 and ends the descent.
-            let valid = index < tree.nodes.len() as u32;
-            let node = &tree.nodes[if valid { index as usize } else { 0 }];
-            let (weights, sum) = node.weights::<I>(point);
-            let alive = valid && sum > 0.0;
-            let chosen = if guide.follow {
-                guide.path.slot::<W>(position)
-            } else {
-                choose(&weights, guide.random, position)
-            };
+    // A single exit at the head, no early return: rust-gpu miscompiles some of the others (spirt issue 31).
+    let mut steps = 2 * max_levels(W);
+    while !done && steps > 0 {
+        steps -= 1;
+        // An index out of range (hostile words) reads node 0 and ends the descent.
+        let valid = index < tree.nodes.len() as u32;
+        let node = &tree.nodes[if valid { index as usize } else { 0 }];
+        let (weights, sum) = node.weights::<I>(point);
+        let alive = valid && sum > 0.0;
+        let chosen = if guide.follow {
+            guide.path.slot::<W>(position)
+        } else {
+            choose(&weights, guide.random, position)
+        };
 
-            let mut weight = 0.0;
-            let mut to = kind::EMPTY;
-            let mut link = 0;
-            for slot in 0..W {
-                let w = weights[slot];
-                if slot as u32 == chosen {
-                    weight = w;
-                    to = node.kind(slot);
-                    link = node.link(slot);
-                } else if alive && w > 0.0 {
-                    // Slots come in order: the last before the chosen is nearest on the left, the first after it on
-                    // the right.
-                    let before = (slot as u32) < chosen;
-                    let nearer = before || out.right.position != position || out.right.is_none();
-                    if nearer {
-                        let neighbor = Neighbor {
-                            kind: node.kind(slot),
-                            link: node.link(slot),
-                            mesh: out.mesh,
-                            position,
-                            slot: slot as u32,
-                            before: out.pmf,
-                            weight: w,
-                            sum,
-                        };
-                        if before {
-                            out.left = neighbor;
-                        } else {
-                            out.right = neighbor;
-                        }
+        let mut weight = 0.0;
+        let mut to = kind::EMPTY;
+        let mut link = 0;
+        for slot in 0..W {
+            let w = weights[slot];
+            if slot as u32 == chosen {
+                weight = w;
+                to = node.kind(slot);
+                link = node.link(slot);
+            } else if alive && w > 0.0 {
+                // Slots come in order: the last before the chosen is nearest on the left, the first after it on
+                // the right.
+                let before = (slot as u32) < chosen;
+                let nearer = before || out.right.position != position || out.right.is_none();
+                if nearer {
+                    let neighbor = Neighbor {
+                        kind: node.kind(slot),
+                        link: node.link(slot),
+                        mesh: out.mesh,
+                        position,
+                        slot: slot as u32,
+                        before: out.pmf,
+                        weight: w,
+                        sum,
+                    };
+                    if before {
+                        out.left = neighbor;
+                    } else {
+                        out.right = neighbor;
                     }
                 }
             }
-
-            let passes = alive && weight > 0.0;
-            if passes {
-                out.pmf = exact::max(out.pmf * exact::div(weight, sum), MIN_PMF);
-                out.path = out.path.with::<W>(position, chosen);
-            } else {
-                out.pmf = 0.0;
-            }
-            done = !passes || position >= guide.last;
-            if passes && to == kind::LIGHT {
-                out.light = link;
-                done = true;
-            }
-            let (next, next_position, mesh) = enter::<N, W>(tree, to, link, position, out.mesh);
-            index = next;
-            position = next_position;
-            out.mesh = if done { out.mesh } else { mesh };
         }
+
+        let passes = alive && weight > 0.0;
+        if passes {
+            out.pmf = exact::max(out.pmf * exact::div(weight, sum), MIN_PMF);
+            out.path = out.path.with::<W>(position, chosen);
+        } else {
+            out.pmf = 0.0;
+        }
+        done = !passes;
+        if passes && to == kind::LIGHT {
+            out.light = link;
+            done = true;
+        }
+        let (next, next_position, mesh) = enter::<N, W>(tree, to, link, position, out.mesh);
+        out.mesh_position = if mesh != out.mesh {
+            position
+        } else {
+            out.mesh_position
+        };
+        out.mesh = mesh;
+        index = next;
+        position = next_position;
     }
     out
 }

@@ -38,7 +38,6 @@ pub fn sample<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     let guide = Guide {
         follow: false,
         path: Path::default(),
-        last: INVALID,
         random,
     };
     let mut d = descend::<N, I, W>(tree, point, &guide);
@@ -52,7 +51,6 @@ pub fn sample<N: LightNode<W>, I: ImportanceModel, const W: usize>(
                 &Guide {
                     follow: true,
                     path,
-                    last: INVALID,
                     random,
                 },
             );
@@ -84,7 +82,6 @@ pub fn pmf<N: LightNode<W>, I: ImportanceModel, const W: usize>(
         &Guide {
             follow: true,
             path,
-            last: INVALID,
             random: 0,
         },
     );

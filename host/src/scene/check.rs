@@ -2,7 +2,7 @@
 
 use lightbvh::light::{MAX_COORDINATE, MAX_RADIANCE, MIN_COORDINATE, MIN_RADIANCE};
 
-use super::camera::FrameCamera;
+use super::camera::view_of_bounds;
 use super::error::SceneError;
 use super::frame::{emits, flush};
 use super::model::{Channel, Counts, Interpolation, Material, Primitive, Scene, SceneData};
@@ -54,7 +54,7 @@ impl Scene {
         let counts = check.count(&data)?;
         reach::check(&data)?;
         let (min, max) = reach::bounds(&data);
-        let default_camera = FrameCamera::from_bounds(min, max);
+        let default_camera = view_of_bounds(min, max);
         Ok(Self::from_checked(data, counts, default_camera))
     }
 }

@@ -1,29 +1,18 @@
 //! One frame of a scene: world-space triangles and lights, in the same order every frame.
 
 use lightbvh::light::{EmissiveTriangle, MIN_COORDINATE, TWO_SIDED};
+use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
+use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
+
+use crate::render::View;
 
 use super::animate::world_transforms;
-use super::camera::FrameCamera;
-use super::model::{Scene, SceneData, SurfaceMaterial};
+use super::camera::view_of_node;
+use super::model::{Scene, SceneData};
 use super::transform::Affine;
 
 /// The paper animates its scenes at a simulated 25 frames per second (section 4.1).
 pub const FRAMES_PER_SECOND: u32 = 25;
-
-/// [`SurfaceRecord::light`] of a surface that does not emit.
-pub const NO_LIGHT: u32 = u32::MAX;
-
-/// One triangle that rays can hit.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub struct SurfaceRecord {
-    /// World-space vertices, metres, counter-clockwise seen from the front.
-    pub p: [[f32; 3]; 3],
-    /// Index into [`Frame::materials`].
-    pub material: u32,
-    /// Index into [`Frame::emissive`], or [`NO_LIGHT`].
-    pub light: u32,
-}
 
 /// A mesh light: one instance of one emissive primitive, its triangles contiguous.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,15 +29,15 @@ pub struct MeshRange {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
     /// Every triangle, emissive or not.
-    pub triangles: Vec<SurfaceRecord>,
+    pub triangles: Vec<SurfaceTriangle>,
     /// Triangles with radiance above zero, those of zero area included.
     pub emissive: Vec<EmissiveTriangle>,
     /// Ranges of `emissive`, in order, without gaps.
     pub mesh_lights: Vec<MeshRange>,
-    /// By [`SurfaceRecord::material`].
+    /// By [`SurfaceTriangle::material`].
     pub materials: Vec<SurfaceMaterial>,
     /// Where the frame is seen from.
-    pub camera: FrameCamera,
+    pub camera: View,
     /// Radiance of rays that leave the scene, W/(m² sr).
     pub background: [f32; 3],
 }
@@ -65,7 +54,7 @@ impl Scene {
             mesh_lights: Vec::with_capacity(self.counts.mesh_lights),
             materials: data.materials.iter().map(super::Material::surface).collect(),
             camera: match data.cameras.first() {
-                Some(camera) => FrameCamera::from_node(&world[camera.node as usize], camera.yfov),
+                Some(camera) => view_of_node(&world[camera.node as usize], camera.yfov),
                 None => self.default_camera,
             },
             background: data.background,
@@ -107,9 +96,9 @@ pub(super) fn place_meshes(data: &SceneData, world: &[Affine], out: &mut Frame) 
                     });
                     out.emissive.len() as u32 - 1
                 } else {
-                    NO_LIGHT
+                    NONE
                 };
-                out.triangles.push(SurfaceRecord {
+                out.triangles.push(SurfaceTriangle {
                     p,
                     material: primitive.material,
                     light,

@@ -35,13 +35,11 @@ pub mod carousel;
 pub mod square;
 pub mod street;
 
-pub use camera::FrameCamera;
 pub use check::MAX_TRIANGLES;
 pub use error::SceneError;
-pub use frame::{FRAMES_PER_SECOND, Frame, MeshRange, NO_LIGHT, SurfaceRecord};
+pub use frame::{FRAMES_PER_SECOND, Frame, MeshRange};
 pub use load::BUILT_IN;
 pub use model::{
     Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
-    SurfaceMaterial,
 };
 pub use transform::Transform;

@@ -1,6 +1,9 @@
 //! The scene model: a checked [`Scene`] around plain [`SceneData`].
 
-use super::camera::FrameCamera;
+use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
+
+use crate::render::View;
+
 use super::error::SceneError;
 use super::transform::Transform;
 
@@ -9,7 +12,7 @@ use super::transform::Transform;
 pub struct Scene {
     data: SceneData,
     /// Camera for scenes that bring none, made from the bounds at frame 0.
-    pub(super) default_camera: FrameCamera,
+    pub(super) default_camera: View,
     pub(super) counts: Counts,
 }
 
@@ -97,18 +100,6 @@ impl Default for Material {
             roughness: 1.0,
         }
     }
-}
-
-/// A material as the reference renderer shades it: a diffuse lobe and a glossy one that takes its share from it.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub struct SurfaceMaterial {
-    /// Diffuse albedo, linear RGB, each in [0, 1].
-    pub albedo: [f32; 3],
-    /// The part of the light that the glossy lobe takes from the diffuse one, in [0, 1].
-    pub specular: f32,
-    /// Binary logarithm of the Blinn-Phong exponent, 0 to 10: a power of two is taken by squaring alone.
-    pub exponent_log2: u32,
 }
 
 impl Material {
@@ -218,7 +209,7 @@ impl Primitive {
 
 impl Scene {
     /// Wraps data that [`Scene::new`] found sound.
-    pub(super) fn from_checked(data: SceneData, counts: Counts, default_camera: FrameCamera) -> Self {
+    pub(super) fn from_checked(data: SceneData, counts: Counts, default_camera: View) -> Self {
         Self {
             data,
             default_camera,

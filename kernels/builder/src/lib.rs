@@ -1,1 +1,36 @@
-//! Post-pass and verifier.
+//! From rust-gpu's output to the modules that lightbvh ships.
+//!
+//! The program `build-kernels` compiles every entry point of `lightbvh-kernels`, then for each module
+//! 1. [`decorate`] forbids contraction and re-association of every float operation and strips what is not needed,
+//! 2. [`verify`] refuses whatever Vulkan does not define to the bit on every device,
+//! 3. [`reflect`] reads the interface that the host must offer,
+//! 4. [`manifest`] records sources, compiler and hashes beside the committed modules.
+//!
+//! This library is everything but the compiler, so the tests hold the committed modules to the same rules without
+//! it. The compiler itself is behind the features `prebuilt-backend` and `upstream` (`kernels/README.md`).
+#![forbid(unsafe_code)]
+
+pub mod decorate;
+pub mod files;
+pub mod manifest;
+pub mod reflect;
+pub mod sources;
+pub mod verify;
+
+#[cfg(feature = "compile")]
+pub mod compile;
+
+/// Reads SPIR-V words into a module.
+fn load(words: &[u32]) -> Result<rspirv::dr::Module, Unreadable> {
+    rspirv::dr::load_words(words).map_err(|state| Unreadable {
+        reason: state.to_string(),
+    })
+}
+
+/// Words that are not a SPIR-V module.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("not a readable SPIR-V module: {reason}; rebuild it with build-kernels")]
+pub struct Unreadable {
+    /// What the parser found.
+    pub reason: String,
+}

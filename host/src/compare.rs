@@ -1,0 +1,316 @@
+//! Two results, compared word for word.
+
+use rayon::prelude::*;
+use std::fmt;
+
+/// What an output word holds that no kernel wrote; the Vulkan buffers are filled with it.
+pub const UNWRITTEN: u32 = 0xffff_ffff;
+
+/// Words that one task compares.
+const CHUNK: usize = 1 << 16;
+
+/// The fields of a record, in memory order, so that a difference can be told by name.
+#[derive(Clone, Copy, Debug)]
+pub struct Record {
+    /// Name of the record type.
+    pub name: &'static str,
+    /// Its fields; together they cover it.
+    pub fields: &'static [Field],
+}
+
+/// A field of a record.
+#[derive(Clone, Copy, Debug)]
+pub struct Field {
+    name: &'static str,
+    words: u32,
+    all_ones: bool,
+}
+
+impl Field {
+    /// A field of `words` words that never rightly holds [`UNWRITTEN`].
+    #[must_use]
+    pub const fn new(name: &'static str, words: u32) -> Self {
+        Self {
+            name,
+            words,
+            all_ones: false,
+        }
+    }
+
+    /// An index that is `u32::MAX` where there is nothing to refer to: one word, which cannot tell "none" from "never
+    /// written". A record needs another field that can.
+    #[must_use]
+    pub const fn index(name: &'static str) -> Self {
+        Self {
+            name,
+            words: 1,
+            all_ones: true,
+        }
+    }
+}
+
+impl Record {
+    /// A plain array of words.
+    pub const WORDS: Self = Self {
+        name: "word",
+        fields: &[Field::new("value", 1)],
+    };
+
+    /// Words of one record.
+    #[must_use]
+    pub fn words(&self) -> usize {
+        self.fields.iter().map(|field| field.words as usize).sum()
+    }
+
+    /// The field that word `word` of a record belongs to, and its place in that field.
+    fn field(&self, word: usize) -> Option<(&Field, usize)> {
+        let mut place = word;
+        for field in self.fields {
+            if place < field.words as usize {
+                return Some((field, place));
+            }
+            place -= field.words as usize;
+        }
+        None
+    }
+}
+
+/// Why two results cannot be compared.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum CompareError {
+    /// They are not equally long.
+    #[error("{record}: {expected} words expected, {actual} came; the two sides did different work")]
+    Length {
+        /// The record type.
+        record: &'static str,
+        /// Words of the reference.
+        expected: usize,
+        /// Words of the result.
+        actual: usize,
+    },
+    /// They do not hold a whole number of records.
+    #[error(
+        "{words} words are not a whole number of `{record}` records of {size} words; the field table is wrong"
+    )]
+    Ragged {
+        /// The record type.
+        record: &'static str,
+        /// Words of both.
+        words: usize,
+        /// Words of one record by its field table.
+        size: usize,
+    },
+}
+
+/// The outcome of a comparison.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Comparison {
+    /// Words compared.
+    pub compared: u64,
+    /// Words that differ, or that nobody wrote.
+    pub different: u64,
+    /// The first of them.
+    pub first: Option<Difference>,
+}
+
+/// A word that differs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Difference {
+    /// The record type.
+    pub record: &'static str,
+    /// Index of the record.
+    pub index: usize,
+    /// The field, with the place in it if it has several words.
+    pub field: String,
+    /// The word of the reference.
+    pub expected: u32,
+    /// The word of the result.
+    pub actual: u32,
+}
+
+/// Compares `actual` with `expected`, both arrays of `record`, using all cores.
+///
+/// A word of `actual` that is still [`UNWRITTEN`] counts as different even where the reference holds the same word,
+/// unless its field may hold it ([`Field::index`]).
+///
+/// # Errors
+/// [`CompareError`] if the two cannot be laid beside each other.
+pub fn compare_words(record: &Record, expected: &[u32], actual: &[u32]) -> Result<Comparison, CompareError> {
+    if expected.len() != actual.len() {
+        let (expected, actual) = (expected.len(), actual.len());
+        return Err(CompareError::Length {
+            record: record.name,
+            expected,
+            actual,
+        });
+    }
+    let size = record.words();
+    if size == 0 || !expected.len().is_multiple_of(size) {
+        return Err(CompareError::Ragged {
+            record: record.name,
+            words: expected.len(),
+            size,
+        });
+    }
+    let differs = |at: usize| {
+        let unwritten =
+            actual[at] == UNWRITTEN && record.field(at % size).is_none_or(|(field, _)| !field.all_ones);
+        unwritten || expected[at] != actual[at]
+    };
+    let (different, first) = (0..expected.len().div_ceil(CHUNK))
+        .into_par_iter()
+        .map(|chunk| {
+            let range = chunk * CHUNK..((chunk + 1) * CHUNK).min(expected.len());
+            let mut different = 0u64;
+            let mut first = None;
+            for at in range.filter(|at| differs(*at)) {
+                different += 1;
+                first = first.or(Some(at));
+            }
+            (different, first)
+        })
+        .reduce(
+            || (0, None),
+            |left, right| (left.0 + right.0, left.1.into_iter().chain(right.1).min()),
+        );
+    let first = first.map(|at| Difference {
+        record: record.name,
+        index: at / size,
+        field: name(record, at % size),
+        expected: expected[at],
+        actual: actual[at],
+    });
+    Ok(Comparison {
+        compared: expected.len() as u64,
+        different,
+        first,
+    })
+}
+
+fn name(record: &Record, word: usize) -> String {
+    match record.field(word) {
+        Some((field, place)) if field.words > 1 => format!("{}[{place}]", field.name),
+        Some((field, _)) => field.name.into(),
+        None => format!("word {word}"),
+    }
+}
+
+/// Number of floats from one bit pattern to the other, `None` if either is not a number. Both zeros are one float.
+#[must_use]
+pub fn ulp_distance(a: u32, b: u32) -> Option<u32> {
+    if f32::from_bits(a).is_nan() || f32::from_bits(b).is_nan() {
+        return None;
+    }
+    // Sign and magnitude to a place on one line: neighbouring floats have neighbouring magnitudes.
+    let place = |bits: u32| {
+        let magnitude = i64::from(bits & 0x7fff_ffff);
+        if bits >> 31 == 0 { magnitude } else { -magnitude }
+    };
+    u32::try_from(place(a).abs_diff(place(b))).ok()
+}
+
+impl fmt::Display for Difference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            record,
+            index,
+            field,
+            expected,
+            actual,
+        } = self;
+        let (a, b) = (f32::from_bits(*expected), f32::from_bits(*actual));
+        write!(
+            f,
+            "{record} {index}, {field}: expected {expected:#010x} ({a:e}), got {actual:#010x} ({b:e})"
+        )?;
+        match ulp_distance(*expected, *actual) {
+            _ if *actual == UNWRITTEN => write!(f, ", never written"),
+            Some(distance) => write!(f, ", {distance} ulp apart"),
+            None => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NODE: Record = Record {
+        name: "node",
+        fields: &[Field::new("min", 3), Field::new("phi", 1), Field::index("light")],
+    };
+
+    #[test]
+    fn equal_words_compare_equal() {
+        let words: Vec<u32> = (0..5 * 40_000).collect();
+        let comparison = compare_words(&NODE, &words, &words).unwrap();
+        assert_eq!(
+            comparison,
+            Comparison {
+                compared: 200_000,
+                different: 0,
+                first: None
+            }
+        );
+    }
+
+    #[test]
+    fn the_first_difference_is_named() {
+        let expected = vec![1.0f32.to_bits(); 5 * 40_000];
+        let mut actual = expected.clone();
+        for at in [5 * 39_999, 5 * 20_000 + 3, 5 * 20_000 + 2] {
+            actual[at] += 2;
+        }
+        let comparison = compare_words(&NODE, &expected, &actual).unwrap();
+        assert_eq!(comparison.different, 3);
+        let first = comparison.first.unwrap();
+        assert_eq!((first.index, first.field.as_str()), (20_000, "min[2]"));
+        let text = "node 20000, min[2]: expected 0x3f800000 (1e0), got 0x3f800002 (1.0000002e0), 2 ulp apart";
+        assert_eq!(first.to_string(), text);
+    }
+
+    #[test]
+    fn unwritten_words_differ_even_from_themselves() {
+        let words = [0, 0, 0, UNWRITTEN, UNWRITTEN];
+        let comparison = compare_words(&NODE, &words, &words).unwrap();
+        assert_eq!(
+            comparison.different, 1,
+            "the index may be all ones, the flux may not"
+        );
+        let first = comparison.first.unwrap();
+        assert_eq!(first.field, "phi");
+        assert!(first.to_string().ends_with("never written"), "{first}");
+    }
+
+    #[test]
+    fn lengths_must_agree() {
+        let length = CompareError::Length {
+            record: "node",
+            expected: 5,
+            actual: 10,
+        };
+        assert_eq!(compare_words(&NODE, &[0; 5], &[0; 10]), Err(length));
+        let ragged = CompareError::Ragged {
+            record: "node",
+            words: 6,
+            size: 5,
+        };
+        assert_eq!(compare_words(&NODE, &[0; 6], &[0; 6]), Err(ragged));
+        assert_eq!(compare_words(&NODE, &[], &[]), Ok(Comparison::default()));
+    }
+
+    #[test]
+    fn ulps_count_floats() {
+        assert_eq!(ulp_distance(0, 0x8000_0000), Some(0));
+        assert_eq!(ulp_distance(1, 0x8000_0001), Some(2));
+        assert_eq!(
+            ulp_distance(1.0f32.to_bits(), 1.0f32.next_down().to_bits()),
+            Some(1)
+        );
+        assert_eq!(
+            ulp_distance(f32::NEG_INFINITY.to_bits(), f32::INFINITY.to_bits()),
+            Some(2 * 0x7f80_0000)
+        );
+        assert_eq!(ulp_distance(f32::NAN.to_bits(), 0), None);
+    }
+}

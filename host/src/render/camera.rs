@@ -1,0 +1,31 @@
+//! The kernels' camera from a pose and a field of view.
+
+use lightbvh_kernels::shading::camera::Camera;
+
+/// Where an image is seen from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Position, metres.
+    pub eye: [f32; 3],
+    /// Unit vector to the right of the image.
+    pub right: [f32; 3],
+    /// Unit vector to the top of the image.
+    pub up: [f32; 3],
+    /// Unit vector into the image.
+    pub forward: [f32; 3],
+    /// Vertical field of view, radians, above 0 and below pi.
+    pub yfov: f32,
+}
+
+/// The camera of an image of `width` by `height` square pixels.
+#[must_use]
+pub fn camera(view: &View, width: u32, height: u32) -> Camera {
+    let half_height = (f64::from(view.yfov) * 0.5).tan();
+    let half_width = half_height * f64::from(width) / f64::from(height.max(1));
+    Camera {
+        origin: view.eye,
+        right: view.right.map(|c| (f64::from(c) * half_width) as f32),
+        up: view.up.map(|c| (f64::from(c) * half_height) as f32),
+        forward: view.forward,
+    }
+}

@@ -1,0 +1,22 @@
+//! The render pass on the CPU: the kernel's function for each pixel, over all cores.
+
+use lightbvh_kernels::render::{RenderParams, render_pixel};
+use lightbvh_kernels::shading::camera::Camera;
+use lightbvh_kernels::shading::pick::PickLight;
+use lightbvh_kernels::shading::pixel::Scene;
+use rayon::prelude::*;
+
+/// Radiance of every pixel, by rows from the upper left. Pixels do not depend on each other, so neither does the image on
+/// the number of threads.
+#[must_use]
+pub fn render<P: PickLight + Sync>(
+    scene: &Scene<'_>,
+    camera: &Camera,
+    params: &RenderParams,
+    picker: &P,
+) -> Vec<[f32; 3]> {
+    (0..params.width * params.height)
+        .into_par_iter()
+        .map(|pixel| render_pixel(scene, camera, params, picker, pixel))
+        .collect()
+}

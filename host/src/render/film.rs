@@ -1,0 +1,178 @@
+//! Images of radiance, and their files.
+
+use image::{ExtendedColorType, ImageFormat};
+use lightbvh_kernels::shading::area::luminance;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+
+use super::output::write_whole;
+use super::tone::display;
+
+/// Why an image cannot be made, compared or written.
+#[derive(Debug, thiserror::Error)]
+pub enum FilmError {
+    /// The number of pixels does not fit the size.
+    #[error(
+        "an image of {width} x {height} has not {pixels} pixels; give width times height of them, at least one"
+    )]
+    Size {
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// Pixels given.
+        pixels: usize,
+    },
+    /// Two images of different sizes.
+    #[error("an image of {} x {} cannot be compared with one of {} x {}; render both at one size", .left.0, .left.1, .right.0, .right.1)]
+    Shapes {
+        /// Columns and rows of the one.
+        left: (u32, u32),
+        /// Columns and rows of the other.
+        right: (u32, u32),
+    },
+    /// The extension is neither `.png` nor `.exr`.
+    #[error("{}: unknown image format; name a file that ends in .png or .exr", .path.display())]
+    Format {
+        /// The path asked for.
+        path: PathBuf,
+    },
+    /// The encoder refuses the image.
+    #[error("{}: cannot encode the image: {source}; try the other format", .path.display())]
+    Encode {
+        /// The path asked for.
+        path: PathBuf,
+        /// What the encoder says.
+        source: image::ImageError,
+    },
+    /// The file cannot be written.
+    #[error("{}: cannot write the image: {source}; check that the directory exists and may be written", .path.display())]
+    Write {
+        /// The path asked for.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+}
+
+/// An image of linear RGB radiance, W/(m² sr), by rows from the upper left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    width: u32,
+    height: u32,
+    pixels: Vec<[f32; 3]>,
+}
+
+impl Film {
+    /// An image of these pixels.
+    ///
+    /// # Errors
+    /// [`FilmError::Size`] unless there are `width * height` pixels, at least one.
+    pub fn new(width: u32, height: u32, pixels: Vec<[f32; 3]>) -> Result<Self, FilmError> {
+        if pixels.is_empty() || u64::from(width) * u64::from(height) != pixels.len() as u64 {
+            return Err(FilmError::Size {
+                width,
+                height,
+                pixels: pixels.len(),
+            });
+        }
+        Ok(Self {
+            width,
+            height,
+            pixels,
+        })
+    }
+
+    /// Columns.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Rows.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// The pixels by rows from the upper left.
+    #[must_use]
+    pub fn pixels(&self) -> &[[f32; 3]] {
+        &self.pixels
+    }
+
+    /// Mean of the squared differences over all channels of all pixels.
+    ///
+    /// # Errors
+    /// [`FilmError::Shapes`] for images of different sizes.
+    pub fn mean_squared_error(&self, other: &Self) -> Result<f64, FilmError> {
+        if (self.width, self.height) != (other.width, other.height) {
+            return Err(FilmError::Shapes {
+                left: (self.width, self.height),
+                right: (other.width, other.height),
+            });
+        }
+        let pairs = self.pixels.iter().flatten().zip(other.pixels.iter().flatten());
+        let sum: f64 = pairs.map(|(&a, &b)| (f64::from(a) - f64::from(b)).powi(2)).sum();
+        Ok(sum / (3 * self.pixels.len()) as f64)
+    }
+
+    /// The factor that brings the image's mean brightness to a middle grey of 0.18: the mean is that of the logarithm,
+    /// which a few bright lights hardly move (Reinhard et al. 2002, equations 1 and 2). 1 for a black image.
+    #[must_use]
+    pub fn auto_exposure(&self) -> f32 {
+        let (mut sum, mut count) = (0.0, 0_u32);
+        for &pixel in &self.pixels {
+            let l = f64::from(luminance(pixel));
+            if l > 0.0 && l.is_finite() {
+                sum += l.ln();
+                count += 1;
+            }
+        }
+        if count == 0 {
+            1.0
+        } else {
+            (0.18 / (sum / f64::from(count)).exp()) as f32
+        }
+    }
+
+    /// Writes the image: tone-mapped 8-bit sRGB after scaling by `exposure` for `.png`, the radiance itself in 32-bit
+    /// floats for `.exr`. The file appears whole or not at all.
+    ///
+    /// # Errors
+    /// [`FilmError`] for another extension, an image the encoder refuses, and a path that cannot be written.
+    pub fn write(&self, path: &Path, exposure: f32) -> Result<(), FilmError> {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+        let (bytes, color, format): (Vec<u8>, _, _) = match extension.as_deref() {
+            Some("png") => {
+                let bytes = self
+                    .pixels
+                    .iter()
+                    .flatten()
+                    .map(|&c| display(c, exposure))
+                    .collect();
+                (bytes, ExtendedColorType::Rgb8, ImageFormat::Png)
+            }
+            Some("exr") => {
+                let bytes = bytemuck::cast_slice(&self.pixels).to_vec();
+                (bytes, ExtendedColorType::Rgb32F, ImageFormat::OpenExr)
+            }
+            _ => {
+                return Err(FilmError::Format {
+                    path: path.to_owned(),
+                });
+            }
+        };
+        let mut file = Cursor::new(Vec::new());
+        image::write_buffer_with_format(&mut file, &bytes, self.width, self.height, color, format).map_err(
+            |source| FilmError::Encode {
+                path: path.to_owned(),
+                source,
+            },
+        )?;
+        write_whole(path, file.get_ref()).map_err(|source| FilmError::Write {
+            path: path.to_owned(),
+            source,
+        })
+    }
+}

@@ -1,0 +1,16 @@
+//! What rendering needs on the host, whichever processor renders: the ray BVH, the camera, the power table, the loop
+//! over pixels on the CPU, and images with their files.
+
+mod camera;
+mod cpu;
+mod film;
+mod output;
+mod power;
+mod ray_bvh;
+mod tone;
+
+pub use camera::{View, camera};
+pub use cpu::render;
+pub use film::{Film, FilmError};
+pub use power::{PowerError, flux, power_thresholds};
+pub use ray_bvh::{RayBvh, RayBvhError};

@@ -1,0 +1,63 @@
+//! The table by which the power sampler chooses.
+
+use lightbvh::EmissiveTriangle;
+use lightbvh_kernels::shading::pick::MAX_PICKABLE;
+
+/// Why there is no power table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PowerError {
+    /// More lights emit than the table has units of probability.
+    #[error(
+        "{emitters} triangles emit, the power sampler tells at most {MAX_PICKABLE} apart; use another sampler"
+    )]
+    TooMany {
+        /// Number of lights with a flux above zero.
+        emitters: usize,
+    },
+}
+
+/// Luminous part of the flux of a triangle: pi times area times luminance, doubled where both sides emit.
+#[must_use]
+pub fn flux(light: &EmissiveTriangle) -> f64 {
+    let [a, b, c] = light.p.map(|v| v.map(f64::from));
+    let [u, v] = [b, c].map(|v| [v[0] - a[0], v[1] - a[1], v[2] - a[2]]);
+    let normal = [
+        u[1] * v[2] - u[2] * v[1],
+        u[2] * v[0] - u[0] * v[2],
+        u[0] * v[1] - u[1] * v[0],
+    ];
+    let area = 0.5 * normal.iter().map(|n| n * n).sum::<f64>().sqrt();
+    let sides = if light.is_two_sided() { 2.0 } else { 1.0 };
+    std::f64::consts::PI * area * f64::from(light.luminance()) * sides
+}
+
+/// The thresholds of [`Power`](lightbvh_kernels::shading::pick::Power) for these lights.
+///
+/// Of the 2^24 units of probability each light that emits gets one, so that none is left out, and the others are shared
+/// out by flux. All entries are 0 where no light emits.
+///
+/// # Errors
+/// [`PowerError::TooMany`] where more than 2^24 lights emit.
+pub fn power_thresholds(lights: &[EmissiveTriangle]) -> Result<Vec<u32>, PowerError> {
+    let fluxes: Vec<f64> = lights.iter().map(flux).collect();
+    let emitters = fluxes.iter().filter(|&&f| f > 0.0).count();
+    if emitters > MAX_PICKABLE as usize {
+        return Err(PowerError::TooMany { emitters });
+    }
+    let total: f64 = fluxes.iter().sum();
+    let shared = f64::from(MAX_PICKABLE) - emitters as f64;
+
+    let (mut sum, mut before) = (0.0, 0_u32);
+    let mut thresholds = Vec::with_capacity(lights.len() + 1);
+    thresholds.push(0);
+    for flux in fluxes {
+        if flux > 0.0 {
+            sum += flux;
+            before += 1;
+        }
+        // The sums agree at the end, being taken in the same order: the ratio is then 1 and nothing is lost.
+        let part = if total > 0.0 { sum / total * shared } else { 0.0 };
+        thresholds.push(before + part as u32);
+    }
+    Ok(thresholds)
+}

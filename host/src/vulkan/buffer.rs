@@ -1,0 +1,143 @@
+//! Typed storage buffers.
+
+use super::device::Device;
+use super::error::VulkanError;
+use super::memory::Memory;
+use super::shared::Shared;
+use bytemuck::Pod;
+use gpu_allocator::MemoryLocation;
+use std::marker::PhantomData;
+use std::sync::Arc;
+
+/// What every word of an output buffer holds until a kernel writes it: a NaN as a float, no index as an integer.
+pub use crate::compare::UNWRITTEN;
+
+/// An array of `T` in device memory. Lives as long as it is held, and keeps its device open.
+pub struct Buffer<T> {
+    memory: Memory,
+    len: usize,
+    element: PhantomData<fn() -> T>,
+}
+
+/// A buffer as an argument of a dispatch.
+#[derive(Clone, Copy)]
+pub struct Binding<'a> {
+    pub(crate) memory: &'a Memory,
+    pub(crate) element_bytes: usize,
+}
+
+impl Device {
+    /// A buffer with a copy of `data`. An empty slice gives a buffer of no elements that can be bound all the same.
+    ///
+    /// # Errors
+    /// [`VulkanError::BufferTooLarge`], [`VulkanError::OutOfMemory`], or those of [`Buffer::write`].
+    pub fn upload<T: Pod>(&self, data: &[T]) -> Result<Buffer<T>, VulkanError> {
+        let mut buffer = Buffer::new(&self.shared, data.len())?;
+        buffer.write(data)?;
+        Ok(buffer)
+    }
+
+    /// A buffer of `len` elements whose words are all [`UNWRITTEN`].
+    ///
+    /// # Errors
+    /// As [`Device::upload`].
+    pub fn output<T: Pod>(&self, len: usize) -> Result<Buffer<T>, VulkanError> {
+        let mut buffer = Buffer::new(&self.shared, len)?;
+        buffer.mark_unwritten()?;
+        Ok(buffer)
+    }
+}
+
+impl<T: Pod> Buffer<T> {
+    const ELEMENT_BYTES: usize = {
+        assert!(
+            size_of::<T>() > 0 && size_of::<T>().is_multiple_of(4),
+            "elements are whole 32-bit words"
+        );
+        size_of::<T>()
+    };
+
+    fn new(shared: &Arc<Shared>, len: usize) -> Result<Self, VulkanError> {
+        let bytes = (len as u64).saturating_mul(Self::ELEMENT_BYTES as u64);
+        let location = match shared.probe.unified_memory && !shared.options.force_staging {
+            true => MemoryLocation::GpuToCpu,
+            false => MemoryLocation::GpuOnly,
+        };
+        // Vulkan has no buffers of zero bytes; one word stands in, smaller than any element but a word itself.
+        let memory = Memory::new(shared, bytes.max(4), location)?;
+        Ok(Self {
+            memory,
+            len,
+            element: PhantomData,
+        })
+    }
+
+    /// Number of elements.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether there are no elements.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// Bytes of all elements.
+    #[must_use]
+    pub fn byte_len(&self) -> usize {
+        self.len * Self::ELEMENT_BYTES
+    }
+
+    /// The buffer as an argument of a dispatch.
+    #[must_use]
+    pub fn bind(&self) -> Binding<'_> {
+        Binding {
+            memory: &self.memory,
+            element_bytes: Self::ELEMENT_BYTES,
+        }
+    }
+
+    /// Replaces all elements.
+    ///
+    /// # Errors
+    /// [`VulkanError::WrongLength`], [`VulkanError::Busy`], or those of a copy to the device.
+    pub fn write(&mut self, data: &[T]) -> Result<(), VulkanError> {
+        if data.len() != self.len {
+            return Err(VulkanError::WrongLength {
+                given: data.len(),
+                held: self.len,
+            });
+        }
+        self.memory.write(bytemuck::cast_slice(data))
+    }
+
+    /// Sets every word to [`UNWRITTEN`] again.
+    ///
+    /// # Errors
+    /// As [`Buffer::write`].
+    pub fn mark_unwritten(&mut self) -> Result<(), VulkanError> {
+        self.memory.fill(UNWRITTEN)
+    }
+
+    /// A copy of all elements.
+    ///
+    /// # Errors
+    /// [`VulkanError::Busy`], or those of a copy from the device.
+    pub fn read(&self) -> Result<Vec<T>, VulkanError> {
+        let mut data = vec![T::zeroed(); self.len];
+        self.memory.read(bytemuck::cast_slice_mut(&mut data))?;
+        Ok(data)
+    }
+
+    /// A copy of all elements as words, for comparing.
+    ///
+    /// # Errors
+    /// As [`Buffer::read`].
+    pub fn read_words(&self) -> Result<Vec<u32>, VulkanError> {
+        let mut words = vec![0u32; self.byte_len() / 4];
+        self.memory.read(bytemuck::cast_slice_mut(&mut words))?;
+        Ok(words)
+    }
+}

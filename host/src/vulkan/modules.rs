@@ -1,0 +1,49 @@
+//! The kernels' SPIR-V modules, built into the program.
+
+/// A kernel's module under the kernel's name.
+pub(crate) struct Module {
+    pub(crate) name: &'static str,
+    pub(crate) bytes: &'static [u8],
+}
+
+/// One entry of the table: the module that the kernels' builder wrote for the entry point of that name.
+macro_rules! module {
+    ($name:literal) => {
+        Module {
+            name: $name,
+            bytes: include_bytes!(concat!("../../../kernels/spirv/", $name, ".spv")),
+        }
+    };
+}
+
+/// All kernels; a new kernel is one line here.
+pub(crate) const MODULES: &[Module] = &[module!("self_test")];
+
+/// A module's bytes as words; a ragged end is dropped and will not parse.
+pub(crate) fn words(bytes: &[u8]) -> Vec<u32> {
+    bytes
+        .chunks_exact(4)
+        .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::spirv_interface::Interface;
+    use super::*;
+    use lightbvh_kernels::WORKGROUP;
+
+    #[test]
+    fn every_module_is_the_kernel_it_is_named_after() {
+        for module in MODULES {
+            let interface = Interface::read(&words(module.bytes)).expect(module.name);
+            assert_eq!(interface.entry_point, module.name);
+            assert_eq!(interface.workgroup, [WORKGROUP, 1, 1], "{}", module.name);
+            assert!(
+                interface.strides.iter().all(Option::is_some),
+                "{}: a binding is not used",
+                module.name
+            );
+        }
+    }
+}

@@ -1,0 +1,221 @@
+//! What a device says about itself: driver, float controls, limits.
+
+use super::instance::Instance;
+use ash::vk;
+use serde::Serialize;
+use std::ffi::CStr;
+
+/// A device's own account of itself, as read from the driver.
+#[derive(Clone, Debug, Serialize)]
+pub struct Probe {
+    /// Device name as the driver gives it.
+    pub name: String,
+    /// `cpu`, `integrated`, `discrete`, `virtual` or `other`.
+    pub kind: &'static str,
+    /// Highest Vulkan version of the device, `major.minor.patch`.
+    pub api_version: String,
+    /// The driver.
+    pub driver: Driver,
+    /// Floating-point execution modes for 32-bit floats.
+    pub float_controls: FloatControls,
+    /// Optional features this program looks at.
+    pub features: Features,
+    /// Limits this program checks.
+    pub limits: Limits,
+    /// Whether host and device share one memory, so that buffers need no staging copy.
+    pub unified_memory: bool,
+}
+
+/// Driver identity; belongs into every report about bits or times.
+#[derive(Clone, Debug, Serialize)]
+pub struct Driver {
+    /// `VkDriverId`: 10 is SwiftShader, 13 is llvmpipe.
+    pub id: i32,
+    /// Driver name.
+    pub name: String,
+    /// Free text, often with the version.
+    pub info: String,
+    /// Version number in the driver's own encoding.
+    pub version: u32,
+}
+
+/// Which execution modes for 32-bit floats the device offers (`VkPhysicalDeviceFloatControlsProperties`).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct FloatControls {
+    /// `shaderSignedZeroInfNanPreserveFloat32`.
+    pub signed_zero_inf_nan_preserve_32: bool,
+    /// `shaderRoundingModeRTEFloat32`.
+    pub rounding_mode_rte_32: bool,
+    /// `shaderDenormPreserveFloat32`.
+    pub denorm_preserve_32: bool,
+    /// `shaderDenormFlushToZeroFloat32`.
+    pub denorm_flush_to_zero_32: bool,
+}
+
+/// Optional features.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Features {
+    /// `vulkanMemoryModel`: every module that rust-gpu makes needs it.
+    pub vulkan_memory_model: bool,
+    /// `scalarBlockLayout`: arrays of 12-byte structures in buffers.
+    pub scalar_block_layout: bool,
+    /// `robustBufferAccess`: accesses beyond a buffer are defined.
+    pub robust_buffer_access: bool,
+}
+
+/// Limits; bytes unless said otherwise.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Limits {
+    /// Largest range of one storage buffer binding.
+    pub max_storage_buffer_range: u64,
+    /// Largest single memory allocation.
+    pub max_memory_allocation_size: u64,
+    /// Storage buffers per kernel.
+    pub max_storage_buffers: u32,
+    /// Push constant block.
+    pub max_push_constants_size: u32,
+    /// Workgroups per dispatch, x, y, z.
+    pub max_workgroup_count: [u32; 3],
+    /// Invocations per workgroup, x, y, z.
+    pub max_workgroup_size: [u32; 3],
+    /// Invocations per workgroup, all together.
+    pub max_workgroup_invocations: u32,
+    /// Nanoseconds per timestamp tick.
+    pub timestamp_period: f32,
+    /// Meaningful low bits of a timestamp on the compute queue; 0 where there are none.
+    pub timestamp_valid_bits: u32,
+    /// Invocations per subgroup (results never depend on it).
+    pub subgroup_size: u32,
+}
+
+/// A physical device that can run this program's kernels.
+pub(crate) struct Candidate {
+    pub(crate) physical: vk::PhysicalDevice,
+    pub(crate) queue_family: u32,
+    pub(crate) probe: Probe,
+}
+
+impl Candidate {
+    /// Probes one physical device; `Err` says in words why it cannot be used.
+    pub(crate) fn probe(instance: &Instance, physical: vk::PhysicalDevice) -> Result<Self, String> {
+        let vk_instance = &instance.raw;
+        // SAFETY: `physical` comes from this live instance; the same holds for the queries below.
+        let basic = unsafe { vk_instance.get_physical_device_properties(physical) };
+        let name = text(basic.device_name_as_c_str().ok());
+        if basic.api_version < vk::API_VERSION_1_2 {
+            return Err(format!(
+                "{name}: Vulkan {}, 1.2 is needed",
+                version(basic.api_version)
+            ));
+        }
+        // SAFETY: as above.
+        let families = unsafe { vk_instance.get_physical_device_queue_family_properties(physical) };
+        let Some((queue_family, family)) = (0u32..).zip(&families).find(|(_, family)| {
+            family.queue_count > 0 && family.queue_flags.contains(vk::QueueFlags::COMPUTE)
+        }) else {
+            return Err(format!("{name}: no compute queue"));
+        };
+
+        let mut float_controls = vk::PhysicalDeviceFloatControlsProperties::default();
+        let mut driver = vk::PhysicalDeviceDriverProperties::default();
+        let mut maintenance3 = vk::PhysicalDeviceMaintenance3Properties::default();
+        let mut subgroup = vk::PhysicalDeviceSubgroupProperties::default();
+        let mut properties = vk::PhysicalDeviceProperties2::default()
+            .push_next(&mut float_controls)
+            .push_next(&mut driver)
+            .push_next(&mut maintenance3)
+            .push_next(&mut subgroup);
+        // SAFETY: as above; every chained structure is core in the device's version, 1.2 or later.
+        unsafe { vk_instance.get_physical_device_properties2(physical, &mut properties) };
+        let mut vulkan12 = vk::PhysicalDeviceVulkan12Features::default();
+        let mut features = vk::PhysicalDeviceFeatures2::default().push_next(&mut vulkan12);
+        // SAFETY: as above.
+        unsafe { vk_instance.get_physical_device_features2(physical, &mut features) };
+        let robust_buffer_access = features.features.robust_buffer_access == vk::TRUE;
+        // SAFETY: as above.
+        let memory = unsafe { vk_instance.get_physical_device_memory_properties(physical) };
+        if vulkan12.vulkan_memory_model == vk::FALSE {
+            return Err(format!("{name}: no vulkanMemoryModel, which the kernels need"));
+        }
+
+        let limits = &basic.limits;
+        let probe = Probe {
+            name,
+            kind: kind(basic.device_type),
+            api_version: version(basic.api_version),
+            driver: Driver {
+                id: driver.driver_id.as_raw(),
+                name: text(driver.driver_name_as_c_str().ok()),
+                info: text(driver.driver_info_as_c_str().ok()),
+                version: basic.driver_version,
+            },
+            float_controls: FloatControls {
+                signed_zero_inf_nan_preserve_32: float_controls.shader_signed_zero_inf_nan_preserve_float32
+                    == vk::TRUE,
+                rounding_mode_rte_32: float_controls.shader_rounding_mode_rte_float32 == vk::TRUE,
+                denorm_preserve_32: float_controls.shader_denorm_preserve_float32 == vk::TRUE,
+                denorm_flush_to_zero_32: float_controls.shader_denorm_flush_to_zero_float32 == vk::TRUE,
+            },
+            features: Features {
+                vulkan_memory_model: true,
+                scalar_block_layout: vulkan12.scalar_block_layout == vk::TRUE,
+                robust_buffer_access,
+            },
+            limits: Limits {
+                max_storage_buffer_range: u64::from(limits.max_storage_buffer_range),
+                max_memory_allocation_size: maintenance3.max_memory_allocation_size,
+                max_storage_buffers: limits
+                    .max_per_stage_descriptor_storage_buffers
+                    .min(limits.max_descriptor_set_storage_buffers),
+                max_push_constants_size: limits.max_push_constants_size,
+                max_workgroup_count: limits.max_compute_work_group_count,
+                max_workgroup_size: limits.max_compute_work_group_size,
+                max_workgroup_invocations: limits.max_compute_work_group_invocations,
+                timestamp_period: limits.timestamp_period,
+                timestamp_valid_bits: family.timestamp_valid_bits,
+                subgroup_size: subgroup.subgroup_size,
+            },
+            unified_memory: unified(basic.device_type, memory.memory_types_as_slice()),
+        };
+        Ok(Self {
+            physical,
+            queue_family,
+            probe,
+        })
+    }
+}
+
+/// Whether buffers can live where both sides reach them at full speed.
+///
+/// A discrete GPU's host-visible window into its own memory does not count: the host reads it uncached over the bus.
+fn unified(device_type: vk::PhysicalDeviceType, memory_types: &[vk::MemoryType]) -> bool {
+    let shared = vk::MemoryPropertyFlags::DEVICE_LOCAL
+        | vk::MemoryPropertyFlags::HOST_VISIBLE
+        | vk::MemoryPropertyFlags::HOST_COHERENT
+        | vk::MemoryPropertyFlags::HOST_CACHED;
+    matches!(
+        device_type,
+        vk::PhysicalDeviceType::CPU | vk::PhysicalDeviceType::INTEGRATED_GPU
+    ) && memory_types
+        .iter()
+        .any(|memory| memory.property_flags.contains(shared))
+}
+
+fn kind(device_type: vk::PhysicalDeviceType) -> &'static str {
+    match device_type {
+        vk::PhysicalDeviceType::CPU => "cpu",
+        vk::PhysicalDeviceType::INTEGRATED_GPU => "integrated",
+        vk::PhysicalDeviceType::DISCRETE_GPU => "discrete",
+        vk::PhysicalDeviceType::VIRTUAL_GPU => "virtual",
+        _ => "other",
+    }
+}
+
+fn version(packed: u32) -> String {
+    let (major, minor) = (vk::api_version_major(packed), vk::api_version_minor(packed));
+    format!("{major}.{minor}.{}", vk::api_version_patch(packed))
+}
+
+fn text(name: Option<&CStr>) -> String {
+    name.map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}

@@ -1,0 +1,249 @@
+//! Running a pass: one command buffer, one submission, a time for each dispatch.
+
+use super::device::Device;
+use super::error::{CallContext, VulkanError};
+use super::pass::{Dispatch, Pass, groups};
+use super::retired::Retired;
+use super::shared::Shared;
+use ash::vk;
+use std::time::Duration;
+
+/// How long a pass took.
+#[derive(Clone, Debug)]
+pub struct Timings {
+    /// From submission to the end of the wait, on the host's clock.
+    pub wall: Duration,
+    /// Nanoseconds of each dispatch on the device's clock, barrier included; `None` if the device keeps no time.
+    pub dispatch_ns: Option<Vec<f64>>,
+}
+
+/// Vulkan objects of one run.
+struct Scratch<'a> {
+    shared: &'a Shared,
+    sets: vk::DescriptorPool,
+    queries: vk::QueryPool,
+}
+
+impl Device {
+    /// Runs all dispatches of a pass in order and waits for the last.
+    ///
+    /// # Errors
+    /// [`VulkanError::BadDispatch`] or [`VulkanError::ForeignObject`] before anything is submitted;
+    /// [`VulkanError::Timeout`], [`VulkanError::Busy`], [`VulkanError::DeviceLost`], [`VulkanError::Validation`] or
+    /// [`VulkanError::Call`].
+    pub fn run(&self, pass: &Pass<'_>) -> Result<Timings, VulkanError> {
+        let shared = &*self.shared;
+        for dispatch in &pass.dispatches {
+            dispatch.check(shared)?;
+        }
+        let mut scratch = Scratch {
+            shared,
+            sets: vk::DescriptorPool::null(),
+            queries: vk::QueryPool::null(),
+        };
+        let sets = scratch.bind(&pass.dispatches)?;
+        let timed = shared.probe.limits.timestamp_valid_bits > 0 && !pass.is_empty();
+        if timed {
+            scratch.make_queries(pass.len() as u32 + 1)?;
+        }
+        let queries = scratch.queries;
+        let wall = shared.submit(
+            || {
+                pass.dispatches
+                    .iter()
+                    .map(|dispatch| dispatch.kernel.name())
+                    .collect::<Vec<_>>()
+                    .join(", ")
+            },
+            |device, commands| {
+                if timed {
+                    stamp_first(device, commands, queries, pass.len() as u32 + 1);
+                }
+                for (index, (dispatch, set)) in (1..).zip(pass.dispatches.iter().zip(&sets)) {
+                    record(device, commands, dispatch, *set);
+                    barrier(device, commands);
+                    if timed {
+                        stamp(device, commands, queries, index);
+                    }
+                }
+            },
+        )?;
+        let dispatch_ns = timed.then(|| scratch.durations(pass.len())).transpose()?;
+        Ok(Timings { wall, dispatch_ns })
+    }
+}
+
+impl Scratch<'_> {
+    /// A descriptor set for each dispatch, with its buffers in it.
+    fn bind(&mut self, dispatches: &[Dispatch<'_>]) -> Result<Vec<vk::DescriptorSet>, VulkanError> {
+        if dispatches.is_empty() {
+            return Ok(Vec::new());
+        }
+        let (device, name) = (&self.shared.raw, self.shared.probe.name.as_str());
+        let count: usize = dispatches.iter().map(|dispatch| dispatch.buffers.len()).sum();
+        let sizes = [vk::DescriptorPoolSize {
+            ty: vk::DescriptorType::STORAGE_BUFFER,
+            descriptor_count: count.max(1) as u32,
+        }];
+        let info = vk::DescriptorPoolCreateInfo::default()
+            .max_sets(dispatches.len() as u32)
+            .pool_sizes(&sizes);
+        // SAFETY: the device is alive and `info` outlives the call; the pool is destroyed in `drop`.
+        self.sets =
+            unsafe { device.create_descriptor_pool(&info, None) }.during("vkCreateDescriptorPool", name)?;
+        let layouts: Vec<_> = dispatches
+            .iter()
+            .map(|dispatch| dispatch.kernel.set_layout)
+            .collect();
+        let info = vk::DescriptorSetAllocateInfo::default()
+            .descriptor_pool(self.sets)
+            .set_layouts(&layouts);
+        // SAFETY: the layouts belong to this device (`Dispatch::check`) and the pool is large enough for them.
+        let sets =
+            unsafe { device.allocate_descriptor_sets(&info) }.during("vkAllocateDescriptorSets", name)?;
+        for (dispatch, set) in dispatches.iter().zip(&sets) {
+            let buffers: Vec<_> = dispatch
+                .buffers
+                .iter()
+                .map(|binding| vk::DescriptorBufferInfo {
+                    buffer: binding.memory.buffer,
+                    offset: 0,
+                    range: binding.memory.bytes,
+                })
+                .collect();
+            let writes: Vec<_> = (0u32..)
+                .zip(buffers.chunks(1))
+                .map(|(binding, buffer)| {
+                    vk::WriteDescriptorSet::default()
+                        .dst_set(*set)
+                        .dst_binding(binding)
+                        .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
+                        .buffer_info(buffer)
+                })
+                .collect();
+            // SAFETY: set and buffers belong to this device; the set has as many bindings as there are buffers
+            // (`Dispatch::check`), and no submission uses it yet.
+            unsafe { device.update_descriptor_sets(&writes, &[]) };
+        }
+        Ok(sets)
+    }
+
+    fn make_queries(&mut self, count: u32) -> Result<(), VulkanError> {
+        let info = vk::QueryPoolCreateInfo::default()
+            .query_type(vk::QueryType::TIMESTAMP)
+            .query_count(count);
+        // SAFETY: the device is alive; the pool is destroyed in `drop`.
+        self.queries = unsafe { self.shared.raw.create_query_pool(&info, None) }
+            .during("vkCreateQueryPool", &self.shared.probe.name)?;
+        Ok(())
+    }
+
+    /// Nanoseconds from each timestamp to the next.
+    fn durations(&self, dispatches: usize) -> Result<Vec<f64>, VulkanError> {
+        let mut ticks = vec![0u64; dispatches + 1];
+        let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
+        // SAFETY: the pool belongs to this device and all its queries were written by the submission that has ended.
+        unsafe {
+            self.shared
+                .raw
+                .get_query_pool_results(self.queries, 0, &mut ticks, flags)
+        }
+        .during("vkGetQueryPoolResults", &self.shared.probe.name)?;
+        let limits = &self.shared.probe.limits;
+        let period = f64::from(limits.timestamp_period);
+        let bits = limits.timestamp_valid_bits;
+        Ok(ticks
+            .windows(2)
+            .map(|pair| elapsed(pair[0], pair[1], bits) as f64 * period)
+            .collect())
+    }
+}
+
+impl Drop for Scratch<'_> {
+    fn drop(&mut self) {
+        self.shared.retire(Retired::Sets(self.sets));
+        self.shared.retire(Retired::Queries(self.queries));
+    }
+}
+
+/// Ticks between two readings of a counter that wraps after `bits` bits.
+fn elapsed(from: u64, to: u64, bits: u32) -> u64 {
+    let mask = u64::MAX >> 64u32.saturating_sub(bits).min(63);
+    to.wrapping_sub(from) & mask
+}
+
+fn record(
+    device: &ash::Device,
+    commands: vk::CommandBuffer,
+    dispatch: &Dispatch<'_>,
+    set: vk::DescriptorSet,
+) {
+    let kernel = dispatch.kernel;
+    let Some([x, y]) = groups(dispatch.invocations, kernel.interface.workgroup[0]) else {
+        return; // Refused by `Dispatch::check`.
+    };
+    if x == 0 {
+        return;
+    }
+    let compute = vk::PipelineBindPoint::COMPUTE;
+    // SAFETY: the command buffer is recording; pipeline, layout and set belong to this device and match in bindings and
+    // push constants (`Dispatch::check`); the counts are within what every device allows. What is bound outlives the
+    // submission: the pass borrows buffers and kernels, and `retire` keeps memory that is in use after a time limit.
+    unsafe {
+        device.cmd_bind_pipeline(commands, compute, kernel.pipeline);
+        device.cmd_bind_descriptor_sets(commands, compute, kernel.layout, 0, &[set], &[]);
+        if !dispatch.push.is_empty() {
+            let stage = vk::ShaderStageFlags::COMPUTE;
+            device.cmd_push_constants(commands, kernel.layout, stage, 0, &dispatch.push);
+        }
+        device.cmd_dispatch(commands, x, y, 1);
+    }
+}
+
+/// What the dispatches so far wrote is there for those that follow.
+fn barrier(device: &ash::Device, commands: vk::CommandBuffer) {
+    let stage = vk::PipelineStageFlags::COMPUTE_SHADER;
+    let memory = [vk::MemoryBarrier::default()
+        .src_access_mask(vk::AccessFlags::SHADER_WRITE)
+        .dst_access_mask(vk::AccessFlags::SHADER_READ | vk::AccessFlags::SHADER_WRITE)];
+    // SAFETY: the command buffer is recording, outside any render pass.
+    unsafe {
+        device.cmd_pipeline_barrier(
+            commands,
+            stage,
+            stage,
+            vk::DependencyFlags::empty(),
+            &memory,
+            &[],
+            &[],
+        );
+    }
+}
+
+fn stamp_first(device: &ash::Device, commands: vk::CommandBuffer, queries: vk::QueryPool, count: u32) {
+    // SAFETY: the command buffer is recording and the pool holds `count` queries, none of them in use.
+    unsafe { device.cmd_reset_query_pool(commands, queries, 0, count) };
+    stamp(device, commands, queries, 0);
+}
+
+/// The time at which all dispatches so far have ended.
+fn stamp(device: &ash::Device, commands: vk::CommandBuffer, queries: vk::QueryPool, index: u32) {
+    let stage = vk::PipelineStageFlags::COMPUTE_SHADER;
+    // SAFETY: the command buffer is recording, the query was reset, and the queue family has timestamps.
+    unsafe { device.cmd_write_timestamp(commands, stage, queries, index) };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::elapsed;
+
+    #[test]
+    fn counters_wrap() {
+        assert_eq!(elapsed(5, 12, 64), 7);
+        assert_eq!(elapsed(u64::MAX, 1, 64), 2);
+        assert_eq!(elapsed((1 << 36) - 1, 2, 36), 3);
+        // Bits above the valid ones are undefined.
+        assert_eq!(elapsed(0xabc << 36 | 1, 0xdef << 36 | 4, 36), 3);
+        assert_eq!(elapsed(0, 1, 1), 1);
+    }
+}

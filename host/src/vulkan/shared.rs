@@ -1,0 +1,148 @@
+//! What a device, its buffers and its kernels hold in common, destroyed when the last of them goes.
+
+use super::device::Options;
+use super::error::VulkanError;
+use super::instance::Instance;
+use super::kernel::Kernels;
+use super::probe::{Candidate, Probe};
+use super::queue::Queue;
+use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
+use gpu_allocator::{AllocationSizes, AllocatorDebugSettings};
+use std::mem::ManuallyDrop;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, MutexGuard};
+
+/// Memory is asked of the driver in blocks of this size; larger buffers get their own.
+const MEMORY_BLOCK: u64 = 32 << 20;
+
+/// Tells open devices apart, so that a kernel of one is never used with another.
+static NEXT_ID: AtomicU64 = AtomicU64::new(0);
+
+pub(crate) struct Shared {
+    pub(crate) id: u64,
+    pub(crate) probe: Probe,
+    pub(crate) options: Options,
+    pub(crate) raw: ash::Device,
+    queue: Mutex<Queue>,
+    kernels: Mutex<Kernels>,
+    allocator: Mutex<ManuallyDrop<Allocator>>,
+    /// Left alone in `drop` if the device still works: its driver must stay loaded.
+    pub(crate) instance: ManuallyDrop<Instance>,
+}
+
+impl Shared {
+    /// Takes over a fresh logical device; on failure everything made so far is destroyed.
+    pub(crate) fn new(
+        instance: Instance,
+        raw: ash::Device,
+        candidate: Candidate,
+        options: Options,
+    ) -> Result<Self, VulkanError> {
+        let Candidate {
+            physical,
+            queue_family,
+            probe,
+        } = candidate;
+        let parts = Queue::new(&raw, queue_family, &probe.name).and_then(|queue| {
+            let allocator = Allocator::new(&AllocatorCreateDesc {
+                instance: instance.raw.clone(),
+                device: raw.clone(),
+                physical_device: physical,
+                debug_settings: AllocatorDebugSettings::default(),
+                buffer_device_address: false,
+                allocation_sizes: AllocationSizes::new(MEMORY_BLOCK, MEMORY_BLOCK),
+            });
+            allocator
+                .map_err(|error| {
+                    queue.destroy(&raw);
+                    VulkanError::OutOfMemory {
+                        device: probe.name.clone(),
+                        bytes: 0,
+                        reserved: 0,
+                        reason: error.to_string(),
+                    }
+                })
+                .map(|allocator| (queue, allocator))
+        });
+        match parts {
+            Ok((queue, allocator)) => Ok(Self {
+                id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
+                probe,
+                options,
+                raw,
+                queue: Mutex::new(queue),
+                kernels: Mutex::new(Kernels::default()),
+                allocator: Mutex::new(ManuallyDrop::new(allocator)),
+                instance: ManuallyDrop::new(instance),
+            }),
+            Err(error) => {
+                // SAFETY: nothing made from the device is left: the queue's objects are destroyed above, the allocator
+                // was not made. The instance goes after it, at the end of this function.
+                unsafe { raw.destroy_device(None) };
+                Err(error)
+            }
+        }
+    }
+
+    /// The queue, for one submission or one host access at a time.
+    pub(crate) fn queue(&self) -> MutexGuard<'_, Queue> {
+        self.queue.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+    }
+
+    /// The queue with nothing running on it, for as long as it is held: then the host may touch mapped memory.
+    pub(crate) fn idle_queue(&self) -> Result<MutexGuard<'_, Queue>, VulkanError> {
+        let mut queue = self.queue();
+        queue.settle(&self.raw, &self.probe.name)?;
+        self.destroy_retired(queue.retired.drain(..));
+        Ok(queue)
+    }
+
+    pub(crate) fn kernels(&self) -> MutexGuard<'_, Kernels> {
+        self.kernels
+            .lock()
+            .unwrap_or_else(|poisoned| poisoned.into_inner())
+    }
+
+    pub(crate) fn allocator(&self) -> MutexGuard<'_, ManuallyDrop<Allocator>> {
+        self.allocator
+            .lock()
+            .unwrap_or_else(|poisoned| poisoned.into_inner())
+    }
+
+    /// Whether work that ran into its time limit is still running: nothing it may use can be destroyed then.
+    pub(crate) fn is_busy(&self) -> bool {
+        self.idle_queue().is_err()
+    }
+
+    /// An error once the validation layer has said anything.
+    pub(crate) fn check_validation(&self) -> Result<(), VulkanError> {
+        match self.instance.messages() {
+            Some(messages) if messages.count() > 0 => Err(VulkanError::Validation {
+                device: self.probe.name.clone(),
+                count: messages.count(),
+                first: messages.first(),
+            }),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Drop for Shared {
+    fn drop(&mut self) {
+        if self.is_busy() {
+            // The device may still write to its memory. Leaking all of it is the only safe way out.
+            return;
+        }
+        // SAFETY: the device is alive, and no other thread can use it: this is its last owner. A lost device is an
+        // error here, and is safe to destroy all the same.
+        let _ = unsafe { self.raw.device_wait_idle() };
+        self.kernels().destroy(&self.raw);
+        self.queue().destroy(&self.raw);
+        // SAFETY: taken once, here; every buffer held this structure, so all of them are gone.
+        drop(unsafe { ManuallyDrop::take(&mut *self.allocator()) });
+        // SAFETY: all objects made from the device are destroyed: buffers (as above), kernels, queue objects, memory.
+        unsafe { self.raw.destroy_device(None) };
+        // SAFETY: dropped once, here, after the last thing made from it.
+        unsafe { ManuallyDrop::drop(&mut self.instance) };
+    }
+}

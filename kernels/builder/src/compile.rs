@@ -1,0 +1,208 @@
+//! Runs rust-gpu on the kernels. Only with the features `prebuilt-backend` or `upstream`.
+
+use crate::decorate::decorate;
+use crate::files::{self, FileError};
+use crate::manifest::{FORMAT, Manifest, ManifestError, ModuleRecord};
+use crate::sources::{self, ALWAYS};
+use crate::verify::{VerifyError, verify};
+use crate::{Unreadable, manifest};
+use spirv_builder::{Capability, CompileResult, ModuleResult, SpirvBuilder, SpirvBuilderError};
+use std::collections::BTreeSet;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Vulkan 1.2 with SPIR-V 1.5: the widest that has the Vulkan memory model in its core.
+const TARGET: &str = "spirv-unknown-vulkan1.2";
+
+/// The version of spirv-builder, which `Cargo.toml` pins, and with it of the backend.
+const BACKEND: &str = "rustc_codegen_spirv 0.11.0";
+
+/// Why the kernels could not be built.
+#[derive(Debug, thiserror::Error)]
+pub enum CompileError {
+    /// A backend was named, but not the toolchain that loads it.
+    #[error(
+        "RUSTC_CODEGEN_SPIRV is set but RUST_GPU_TOOLCHAIN is not; set it to the rustup toolchain of the backend"
+    )]
+    NoToolchain,
+    /// Built for a prebuilt backend, but none was named.
+    #[error(
+        "RUSTC_CODEGEN_SPIRV is not set; set it and RUST_GPU_TOOLCHAIN to a prebuilt backend and its toolchain, \
+         or build with --features upstream on upstream's nightly (kernels/README.md)"
+    )]
+    NoBackend,
+    /// The compiler refused.
+    #[error("rust-gpu: {0}")]
+    Builder(#[from] SpirvBuilderError),
+    /// The compiler gave one module for all entry points.
+    #[error("rust-gpu gave one module where one per entry point was asked for")]
+    SingleModule,
+    /// A module that cannot be parsed.
+    #[error("{file}: {source}")]
+    Unreadable {
+        /// The file.
+        file: String,
+        /// What the parser said.
+        source: Unreadable,
+    },
+    /// A module that breaks the rules.
+    #[error(transparent)]
+    Verify(#[from] VerifyError),
+    /// A module or file that does not fit.
+    #[error(transparent)]
+    Manifest(#[from] ManifestError),
+    /// A file that cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// `rustc --version` failed.
+    #[error("cannot run {program}: {reason}")]
+    Compiler {
+        /// The command.
+        program: String,
+        /// What went wrong.
+        reason: String,
+    },
+}
+
+/// Finished modules and their manifest.
+pub struct Built {
+    /// Origin and interfaces.
+    pub manifest: Manifest,
+    /// File names and words, sorted by name.
+    pub modules: Vec<(String, Vec<u32>)>,
+}
+
+/// A backend that is already built, and the rustup toolchain that loads it.
+struct Prebuilt {
+    library: OsString,
+    toolchain: String,
+}
+
+/// Compiles, decorates and verifies every entry point of the repository at `root`.
+///
+/// # Errors
+/// What the compiler, the verifier or the file system said.
+pub fn compile(root: &Path) -> Result<Built, CompileError> {
+    // Cargo names files by their resolved paths, and they are compared with this one.
+    let root = &root
+        .canonicalize()
+        .map_err(|source| FileError::new("resolve", root, source))?;
+    let prebuilt = prebuilt()?;
+    let compiler = compiler(prebuilt.as_ref())?;
+    let result = run(root, prebuilt)?;
+    let ModuleResult::MultiModule(raw) = result.module else {
+        return Err(CompileError::SingleModule);
+    };
+    let mut modules = Vec::new();
+    let mut records = Vec::new();
+    for (entry_point, path) in &raw {
+        let file = format!("{entry_point}.spv");
+        let words = files::words(&files::read(path)?).ok_or_else(|| ManifestError::Module {
+            file: file.clone(),
+            what: "not whole words",
+        })?;
+        let words = decorate(&words).map_err(|source| CompileError::Unreadable {
+            file: file.clone(),
+            source,
+        })?;
+        verify(&file, &words)?;
+        records.push(ModuleRecord::new(file.clone(), &words)?);
+        modules.push((file, words));
+    }
+    let any = raw.values().next().ok_or(CompileError::SingleModule)?;
+    let source_files = source_files(root, any)?;
+    let manifest = Manifest {
+        format: FORMAT,
+        source_sha256: sources::hash(root, &source_files)?,
+        source_files,
+        compiler,
+        backend: BACKEND.to_owned(),
+        target: TARGET.to_owned(),
+        modules: records,
+    };
+    Ok(Built { manifest, modules })
+}
+
+/// Writes what [`compile`] made below `kernels/spirv`.
+///
+/// # Errors
+/// Names the file that could not be written.
+pub fn install(root: &Path, built: &Built) -> Result<(), CompileError> {
+    Ok(manifest::write(root, &built.manifest, &built.modules)?)
+}
+
+fn run(root: &Path, prebuilt: Option<Prebuilt>) -> Result<CompileResult, CompileError> {
+    let mut builder = SpirvBuilder::new(root.join("kernels"), TARGET);
+    if let Some(Prebuilt { library, toolchain }) = prebuilt {
+        builder.rustc_codegen_spirv_location = Some(library.into());
+        builder.toolchain_overwrite = Some(toolchain);
+    }
+    builder.multimodule = true;
+    // spirv-opt folds (a + b) - a, x * 0 and the like at build time, unless the module declares this capability
+    // (SPIRV-Tools, Instruction::IsFloatingPointFoldingAllowed). `decorate` takes it out again.
+    builder.capabilities.push(Capability::SignedZeroInfNanPreserve);
+    // An unused parameter keeps its binding: bindings are numbered by parameter order.
+    builder.optimizer.preserve_bindings = true;
+    Ok(builder.build()?)
+}
+
+fn prebuilt() -> Result<Option<Prebuilt>, CompileError> {
+    match (
+        std::env::var_os("RUSTC_CODEGEN_SPIRV"),
+        std::env::var("RUST_GPU_TOOLCHAIN"),
+    ) {
+        (Some(library), Ok(toolchain)) => Ok(Some(Prebuilt { library, toolchain })),
+        (Some(_), Err(_)) => Err(CompileError::NoToolchain),
+        (None, _) if cfg!(feature = "upstream") => Ok(None),
+        (None, _) => Err(CompileError::NoBackend),
+    }
+}
+
+/// First line of `rustc --version` of the toolchain that compiles the kernels.
+fn compiler(prebuilt: Option<&Prebuilt>) -> Result<String, CompileError> {
+    let mut command = Command::new("rustc");
+    if let Some(Prebuilt { toolchain, .. }) = prebuilt {
+        command.arg(format!("+{toolchain}"));
+    }
+    command.arg("--version");
+    let fail = |reason: String| CompileError::Compiler {
+        program: format!("{command:?}"),
+        reason,
+    };
+    let mut again = Command::new(command.get_program());
+    let output = again
+        .args(command.get_args())
+        .output()
+        .map_err(|error| fail(error.to_string()))?;
+    if !output.status.success() {
+        return Err(fail(String::from_utf8_lossy(&output.stderr).into_owned()));
+    }
+    Ok(String::from_utf8_lossy(&output.stdout)
+        .lines()
+        .next()
+        .unwrap_or_default()
+        .to_owned())
+}
+
+/// The files of this repository that the compiler read: Cargo writes them beside its result, in Make's notation.
+fn source_files(root: &Path, module: &Path) -> Result<Vec<String>, CompileError> {
+    // .../release/deps/NAME.spvs/ENTRY.spv, and .../release/NAME.spv.d
+    let spvs = module.parent().unwrap_or(module);
+    let release = spvs.parent().and_then(Path::parent).unwrap_or(spvs);
+    let list = release
+        .join(spvs.file_stem().unwrap_or_default())
+        .with_extension("spv.d");
+    let text = String::from_utf8_lossy(&files::read(&list)?).replace("\\ ", "\0");
+    let mut found: BTreeSet<String> = ALWAYS.iter().map(|&file| file.to_owned()).collect();
+    for path in text
+        .split_whitespace()
+        .map(|path| PathBuf::from(path.replace('\0', " ")))
+    {
+        let inside = path.strip_prefix(root).ok().and_then(Path::to_str);
+        if let Some(file) = inside.filter(|file| file.ends_with(".rs") && !file.starts_with("target/")) {
+            found.insert(file.replace('\\', "/"));
+        }
+    }
+    Ok(found.into_iter().collect())
+}

@@ -1,0 +1,65 @@
+//! Files of words, written whole or not at all.
+
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+/// A file that could not be read or written.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot {action} {}: {source}", path.display())]
+pub struct FileError {
+    /// What was tried: "read", "write", ..
+    pub action: &'static str,
+    /// The file.
+    pub path: PathBuf,
+    /// What the system said.
+    pub source: io::Error,
+}
+
+impl FileError {
+    pub(crate) fn new(action: &'static str, path: &Path, source: io::Error) -> Self {
+        Self {
+            action,
+            path: path.to_owned(),
+            source,
+        }
+    }
+}
+
+/// Reads a file.
+///
+/// # Errors
+/// Names the file when it cannot be read.
+pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
+    fs::read(path).map_err(|source| FileError::new("read", path, source))
+}
+
+/// Replaces a file: writes a temporary beside it, then renames, so that no reader sees half of it.
+///
+/// # Errors
+/// Names the file when it cannot be written; the old one is then untouched.
+pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.tmp", std::process::id()));
+    let temporary = path.with_file_name(name);
+    fs::write(&temporary, bytes)
+        .and_then(|()| fs::rename(&temporary, path))
+        .inspect_err(|_| {
+            // Best effort: the error that matters is the first one.
+            let _ = fs::remove_file(&temporary);
+        })
+        .map_err(|source| FileError::new("write", path, source))
+}
+
+/// SPIR-V words from the bytes of a file (little endian), or `None` when the length is no multiple of four.
+#[must_use]
+pub fn words(bytes: &[u8]) -> Option<Vec<u32>> {
+    let (words, rest) = bytes.as_chunks::<4>();
+    rest.is_empty()
+        .then(|| words.iter().map(|word| u32::from_le_bytes(*word)).collect())
+}
+
+/// The bytes of a file of SPIR-V words (little endian).
+#[must_use]
+pub fn bytes(words: &[u32]) -> Vec<u8> {
+    words.iter().flat_map(|word| word.to_le_bytes()).collect()
+}

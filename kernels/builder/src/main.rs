@@ -1,0 +1,130 @@
+//! `build-kernels`: compiles every entry point of `kernels` to `kernels/spirv/*.spv` and writes the manifest.
+
+use lightbvh_kernels_builder::compile::{Built, compile, install};
+use lightbvh_kernels_builder::files;
+use lightbvh_kernels_builder::manifest::{self, DIRECTORY, ModuleRecord};
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+const USAGE: &str = "\
+Compiles the kernels to kernels/spirv/*.spv, decorates and verifies them, and writes the manifest.
+
+Usage: build-kernels [--check]
+
+  --check   write nothing; fail when the committed modules are not what the sources give
+
+The current directory must be inside the repository. See kernels/README.md for the compiler it needs.";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let check = match arguments
+        .iter()
+        .map(String::as_str)
+        .collect::<Vec<_>>()
+        .as_slice()
+    {
+        [] => false,
+        ["--check"] => true,
+        ["--help" | "-h"] => {
+            println!("{USAGE}");
+            return ExitCode::SUCCESS;
+        }
+        _ => {
+            eprintln!("build-kernels: unknown arguments {arguments:?}\n\n{USAGE}");
+            return ExitCode::from(2);
+        }
+    };
+    let done = repository().and_then(|root| {
+        let built = compile(&root).map_err(|error| error.to_string())?;
+        if check {
+            compare(&root, &built)
+        } else {
+            write(&root, &built)
+        }
+    });
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("build-kernels: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// The directory above the current one that holds the kernels.
+fn repository() -> Result<PathBuf, String> {
+    let here = std::env::current_dir().map_err(|error| format!("no current directory: {error}"))?;
+    let root = here
+        .ancestors()
+        .find(|dir| dir.join("kernels/builder/Cargo.toml").is_file());
+    root.map(Path::to_owned)
+        .ok_or_else(|| format!("{} is not inside the repository", here.display()))
+}
+
+fn write(root: &Path, built: &Built) -> Result<(), String> {
+    install(root, built).map_err(|error| error.to_string())?;
+    for record in &built.manifest.modules {
+        println!("{}", describe(record));
+        validate(&root.join(DIRECTORY).join(&record.file))?;
+    }
+    println!(
+        "{} modules in {DIRECTORY}, {}",
+        built.manifest.modules.len(),
+        built.manifest.compiler
+    );
+    Ok(())
+}
+
+/// Fails unless the committed modules have the bytes just built and the manifest agrees with the sources.
+fn compare(root: &Path, built: &Built) -> Result<(), String> {
+    let committed = manifest::check(root).map_err(|error| error.to_string())?;
+    for (file, words) in &built.modules {
+        let path = root.join(DIRECTORY).join(file);
+        if files::read(&path).map_err(|error| error.to_string())? != files::bytes(words) {
+            return Err(format!(
+                "{DIRECTORY}/{file} differs from what the sources give; rebuild and commit it\n  \
+                 committed: {} with {}\n  now:       {} with {}",
+                committed.backend, committed.compiler, built.manifest.backend, built.manifest.compiler
+            ));
+        }
+    }
+    if committed.modules != built.manifest.modules || committed.source_files != built.manifest.source_files {
+        return Err(format!(
+            "{DIRECTORY}/{} lists other modules or sources; rebuild it",
+            manifest::FILE
+        ));
+    }
+    println!(
+        "{} modules are what the sources give, byte for byte",
+        built.modules.len()
+    );
+    Ok(())
+}
+
+fn describe(record: &ModuleRecord) -> String {
+    let [x, y, z] = record.interface.workgroup;
+    format!(
+        "{}: {} words, workgroup {x}x{y}x{z}, {} buffers, {} bytes of push constants",
+        record.file, record.words, record.interface.bindings, record.interface.push_constant_bytes
+    )
+}
+
+/// Lets `spirv-val` look at the finished module where it is installed; the backend has validated it before decoration.
+fn validate(path: &Path) -> Result<(), String> {
+    match Command::new("spirv-val")
+        .args(["--target-env", "vulkan1.2"])
+        .arg(path)
+        .output()
+    {
+        Ok(output) if output.status.success() => Ok(()),
+        Ok(output) => Err(format!(
+            "spirv-val refuses {}: {}",
+            path.display(),
+            String::from_utf8_lossy(&output.stderr)
+        )),
+        Err(_) => {
+            println!("  spirv-val is not installed: not validated after decoration");
+            Ok(())
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! `kernels/spirv/manifest.json`: where the committed modules come from, and what they are.
+
+use crate::files::{self, FileError};
+use crate::reflect::{Interface, ReflectError, reflect};
+use crate::sources;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// Version of the manifest's format.
+pub const FORMAT: u32 = 1;
+
+/// Directory of the modules, below the repository's root.
+pub const DIRECTORY: &str = "kernels/spirv";
+
+/// Name of the manifest in [`DIRECTORY`].
+pub const FILE: &str = "manifest.json";
+
+const REBUILD: &str = "run build-kernels (kernels/README.md) and commit what it writes";
+
+/// The committed modules and their origin.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// [`FORMAT`].
+    pub format: u32,
+    /// SHA-256 over the sources and the dependencies of the kernels ([`sources::hash`]).
+    pub source_sha256: String,
+    /// The files that the hash covers, relative to the root, sorted.
+    pub source_files: Vec<String>,
+    /// The compiler, as `rustc --version` names it.
+    pub compiler: String,
+    /// The SPIR-V backend and its version.
+    pub backend: String,
+    /// The target: Vulkan version and with it the SPIR-V version.
+    pub target: String,
+    /// The modules, sorted by name.
+    pub modules: Vec<ModuleRecord>,
+}
+
+/// One module.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ModuleRecord {
+    /// File in [`DIRECTORY`]: the entry point's name with `.spv`.
+    pub file: String,
+    /// What the host must bind.
+    #[serde(flatten)]
+    pub interface: Interface,
+    /// Length in 32-bit words.
+    pub words: usize,
+    /// SHA-256 of the file.
+    pub sha256: String,
+}
+
+/// Why sources, manifest and modules do not belong together.
+#[derive(Debug, thiserror::Error)]
+pub enum ManifestError {
+    /// A file that cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A manifest that is none.
+    #[error("{}: not a manifest: {source}; {REBUILD}", path.display())]
+    Json {
+        /// The manifest.
+        path: PathBuf,
+        /// Where it breaks.
+        source: serde_json::Error,
+    },
+    /// A manifest of another time.
+    #[error("manifest format {found}, this program knows {FORMAT}; {REBUILD}")]
+    Format {
+        /// The format found.
+        found: u32,
+    },
+    /// The sources were edited after the modules were built.
+    #[error(
+        "the kernels' sources changed since {DIRECTORY} was built: hash {found}, recorded {recorded}; {REBUILD}"
+    )]
+    Sources {
+        /// The hash now.
+        found: String,
+        /// The hash in the manifest.
+        recorded: String,
+    },
+    /// A module that is not the recorded one.
+    #[error("{DIRECTORY}/{file} is not the module that the manifest records ({what}); {REBUILD}")]
+    Module {
+        /// The file.
+        file: String,
+        /// What differs.
+        what: &'static str,
+    },
+    /// A module that the manifest does not know.
+    #[error("{DIRECTORY}/{file} is not in the manifest; remove it, or {REBUILD}")]
+    Unlisted {
+        /// The file.
+        file: String,
+    },
+    /// A module whose interface the host cannot offer.
+    #[error("{file}: {source}")]
+    Interface {
+        /// The file.
+        file: String,
+        /// What is wrong.
+        source: ReflectError,
+    },
+}
+
+impl ModuleRecord {
+    /// Describes a finished module.
+    ///
+    /// # Errors
+    /// When its interface is not one that the host offers.
+    pub fn new(file: String, words: &[u32]) -> Result<Self, ManifestError> {
+        let interface = reflect(words).map_err(|source| ManifestError::Interface {
+            file: file.clone(),
+            source,
+        })?;
+        Ok(Self {
+            file,
+            interface,
+            words: words.len(),
+            sha256: sources::hash_bytes(&files::bytes(words)),
+        })
+    }
+}
+
+/// Reads the manifest of the repository at `root`.
+///
+/// # Errors
+/// When there is none, or none that this program understands.
+pub fn read(root: &Path) -> Result<Manifest, ManifestError> {
+    let path = root.join(DIRECTORY).join(FILE);
+    let manifest: Manifest = serde_json::from_slice(&files::read(&path)?)
+        .map_err(|source| ManifestError::Json { path, source })?;
+    match manifest.format {
+        FORMAT => Ok(manifest),
+        found => Err(ManifestError::Format { found }),
+    }
+}
+
+/// Reads the words of a recorded module.
+///
+/// # Errors
+/// When the file cannot be read or is not whole words.
+pub fn read_module(root: &Path, record: &ModuleRecord) -> Result<Vec<u32>, ManifestError> {
+    let bytes = files::read(&root.join(DIRECTORY).join(&record.file))?;
+    files::words(&bytes).ok_or_else(|| ManifestError::Module {
+        file: record.file.clone(),
+        what: "not whole words",
+    })
+}
+
+/// Checks, without a compiler, that the committed modules are those of the sources beside them.
+///
+/// # Errors
+/// The first disagreement between sources, manifest and modules.
+pub fn check(root: &Path) -> Result<Manifest, ManifestError> {
+    let manifest = read(root)?;
+    let found = sources::hash(root, &manifest.source_files)?;
+    if found != manifest.source_sha256 {
+        return Err(ManifestError::Sources {
+            found,
+            recorded: manifest.source_sha256,
+        });
+    }
+    for record in &manifest.modules {
+        let now = ModuleRecord::new(record.file.clone(), &read_module(root, record)?)?;
+        let wrong = |what| ManifestError::Module {
+            file: record.file.clone(),
+            what,
+        };
+        if now.sha256 != record.sha256 {
+            return Err(wrong("hash"));
+        }
+        if now != *record {
+            return Err(wrong("interface"));
+        }
+    }
+    match module_files(root)?
+        .into_iter()
+        .find(|file| manifest.modules.iter().all(|m| m.file != *file))
+    {
+        Some(file) => Err(ManifestError::Unlisted { file }),
+        None => Ok(manifest),
+    }
+}
+
+/// Replaces the committed modules and the manifest; modules of entry points that are gone are removed.
+///
+/// # Errors
+/// Names the file that could not be written.
+pub fn write(root: &Path, manifest: &Manifest, modules: &[(String, Vec<u32>)]) -> Result<(), ManifestError> {
+    let directory = root.join(DIRECTORY);
+    std::fs::create_dir_all(&directory).map_err(|source| FileError::new("create", &directory, source))?;
+    for (file, words) in modules {
+        files::replace(&directory.join(file), &files::bytes(words))?;
+    }
+    for file in module_files(root)? {
+        if modules.iter().all(|(kept, _)| *kept != file) {
+            let path = directory.join(&file);
+            std::fs::remove_file(&path).map_err(|source| FileError::new("remove", &path, source))?;
+        }
+    }
+    let path = directory.join(FILE);
+    let mut json = serde_json::to_string_pretty(manifest).map_err(|source| ManifestError::Json {
+        path: path.clone(),
+        source,
+    })?;
+    json.push('\n');
+    Ok(files::replace(&path, json.as_bytes())?)
+}
+
+/// Names of the `.spv` files that are there, sorted.
+fn module_files(root: &Path) -> Result<Vec<String>, FileError> {
+    let directory = root.join(DIRECTORY);
+    let entries =
+        std::fs::read_dir(&directory).map_err(|source| FileError::new("list", &directory, source))?;
+    let mut found: Vec<String> = entries
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .filter(|name| name.ends_with(".spv"))
+        .collect();
+    found.sort_unstable();
+    Ok(found)
+}

@@ -1,0 +1,259 @@
+//! The verifier: refuses what Vulkan does not define to the bit on every device.
+//!
+//! It works by permission: an instruction, type, capability or constant that is not known to be exact and widely
+//! supported is refused, so that a new compiler version cannot bring in something nobody has looked at. What is exact
+//! follows the Vulkan specification, "Precision and Operation of SPIR-V Instructions": additions, subtractions and
+//! products are correctly rounded, comparisons and moves are exact, division has 2.5 ULP, and so on.
+
+mod permitted;
+
+use crate::decorate::{float_operations, float_types, uncontracted};
+use crate::{Unreadable, load};
+use permitted::{extended_instruction, operation, vulkan_everywhere};
+use rspirv::binary::Disassemble;
+use rspirv::dr::{Instruction, Module, Operand};
+use rspirv::spirv::{AddressingModel, ExecutionMode, ExecutionModel, MemoryModel, Op};
+use std::collections::HashSet;
+use std::fmt;
+
+/// One thing that a shipped module must not contain.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Violation {
+    /// The instruction as text.
+    pub instruction: String,
+    /// Its result id, if it has one.
+    pub id: Option<u32>,
+    /// The rule it breaks.
+    pub rule: &'static str,
+    /// What to do about it.
+    pub remedy: &'static str,
+}
+
+impl fmt::Display for Violation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}`", self.instruction)?;
+        if let Some(id) = self.id {
+            write!(f, " (result %{id})")?;
+        }
+        write!(f, ": {}; {}", self.rule, self.remedy)
+    }
+}
+
+/// Why a module is refused.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum VerifyError {
+    /// The words are no module.
+    #[error("{module}: {source}")]
+    Unreadable {
+        /// Name of the module.
+        module: String,
+        /// What the parser said.
+        source: Unreadable,
+    },
+    /// The module breaks rules.
+    #[error("{module}: {} violation(s)\n  {}", violations.len(), lines(violations))]
+    Refused {
+        /// Name of the module.
+        module: String,
+        /// All of them, in the order of the module.
+        violations: Vec<Violation>,
+    },
+}
+
+fn lines(violations: &[Violation]) -> String {
+    violations
+        .iter()
+        .map(ToString::to_string)
+        .collect::<Vec<_>>()
+        .join("\n  ")
+}
+
+/// Why an instruction is refused, and what to write instead.
+#[derive(Clone, Copy)]
+struct Refusal {
+    rule: &'static str,
+    remedy: &'static str,
+}
+
+/// Checks a finished module; `name` stands in the error.
+///
+/// # Errors
+/// When the words are no module, or with every violation found.
+pub fn verify(name: &str, words: &[u32]) -> Result<(), VerifyError> {
+    let module = load(words).map_err(|source| VerifyError::Unreadable {
+        module: name.to_owned(),
+        source,
+    })?;
+    let mut findings = Findings::default();
+    preamble(&module, &mut findings);
+    types_and_constants(&module, &mut findings);
+    decorations(&module, &mut findings);
+    bodies(&module, &mut findings);
+    match findings.0 {
+        violations if violations.is_empty() => Ok(()),
+        violations => Err(VerifyError::Refused {
+            module: name.to_owned(),
+            violations,
+        }),
+    }
+}
+
+#[derive(Default)]
+struct Findings(Vec<Violation>);
+
+impl Findings {
+    fn refuse(&mut self, inst: &Instruction, rule: &'static str, remedy: &'static str) {
+        self.0.push(Violation {
+            instruction: inst.disassemble(),
+            id: inst.result_id,
+            rule,
+            remedy,
+        });
+    }
+}
+
+/// Capabilities, extensions, memory model, entry points and execution modes.
+fn preamble(module: &Module, findings: &mut Findings) {
+    for inst in &module.capabilities {
+        if !matches!(inst.operands.first(), Some(Operand::Capability(c)) if vulkan_everywhere(*c)) {
+            let remedy = "use 32-bit integers and floats in storage buffers only";
+            findings.refuse(
+                inst,
+                "not a capability that every Vulkan 1.2 device for this project has",
+                remedy,
+            );
+        }
+    }
+    for inst in &module.extensions {
+        findings.refuse(
+            inst,
+            "extensions are not part of the widest set",
+            "avoid what asks for it",
+        );
+    }
+    for inst in &module.ext_inst_imports {
+        if inst.operands != [Operand::LiteralString("GLSL.std.450".to_owned())] {
+            findings.refuse(
+                inst,
+                "the only known instruction set is GLSL.std.450",
+                "strip debug instructions",
+            );
+        }
+    }
+    let vulkan = [
+        Operand::AddressingModel(AddressingModel::Logical),
+        Operand::MemoryModel(MemoryModel::Vulkan),
+    ];
+    for inst in module.memory_model.iter().filter(|inst| inst.operands != vulkan) {
+        findings.refuse(
+            inst,
+            "the memory model must be Logical Vulkan",
+            "build for spirv-unknown-vulkan1.2",
+        );
+    }
+    for inst in &module.entry_points {
+        if inst.operands.first() != Some(&Operand::ExecutionModel(ExecutionModel::GLCompute)) {
+            findings.refuse(
+                inst,
+                "not a compute kernel",
+                "write #[spirv(compute(threads(64)))]",
+            );
+        }
+    }
+    for inst in &module.execution_modes {
+        if inst.operands.get(1) != Some(&Operand::ExecutionMode(ExecutionMode::LocalSize)) {
+            let remedy = "remove it from #[spirv(compute(..))]; the host may add modes that a device reports";
+            findings.refuse(inst, "an execution mode that some devices lack", remedy);
+        }
+    }
+}
+
+fn types_and_constants(module: &Module, findings: &mut Findings) {
+    let floats = float_types(module);
+    for inst in &module.types_global_values {
+        let width = match inst.operands.first() {
+            Some(Operand::LiteralBit32(width)) => *width,
+            _ => 0,
+        };
+        match inst.class.opcode {
+            Op::TypeFloat | Op::TypeInt if width != 32 => {
+                findings.refuse(inst, "only 32-bit numbers are everywhere", "use f32, u32 and i32");
+            }
+            Op::Constant if inst.result_type.is_some_and(|ty| floats.contains(&ty)) => {
+                // The literal's bits: exponent all ones is an infinity or NaN, all zeros with a fraction a denormal.
+                let (exponent, fraction) = (width >> 23 & 0xff, width & 0x007f_ffff);
+                if exponent == 0xff {
+                    let remedy = "use f32::MAX, or a flag in an integer";
+                    findings.refuse(
+                        inst,
+                        "devices may assume that no infinity and no NaN occurs",
+                        remedy,
+                    );
+                } else if exponent == 0 && fraction != 0 {
+                    let remedy = "use f32::MIN_POSITIVE or more";
+                    findings.refuse(inst, "devices may take a denormal for zero", remedy);
+                }
+            }
+            op => {
+                if let Err(refusal) = operation(op) {
+                    findings.refuse(inst, refusal.rule, refusal.remedy);
+                }
+            }
+        }
+    }
+}
+
+/// Every float operation must be protected from contraction and re-association.
+fn decorations(module: &Module, findings: &mut Findings) {
+    let protected = uncontracted(module);
+    for inst in float_operations(module) {
+        if inst.result_id.is_some_and(|id| !protected.contains(&id)) {
+            let remedy = "run the module through decorate (build-kernels does)";
+            findings.refuse(
+                inst,
+                "a float operation without NoContraction may be fused or rearranged",
+                remedy,
+            );
+        }
+    }
+}
+
+fn bodies(module: &Module, findings: &mut Findings) {
+    let undefined: HashSet<u32> = module
+        .all_inst_iter()
+        .filter(|inst| inst.class.opcode == Op::Undef)
+        .filter_map(|inst| inst.result_id)
+        .collect();
+    for inst in module
+        .functions
+        .iter()
+        .flat_map(|function| function.all_inst_iter())
+    {
+        let op = inst.class.opcode;
+        let verdict = match op {
+            Op::ExtInst => extended_instruction(inst),
+            _ => operation(op),
+        };
+        if let Err(refusal) = verdict {
+            findings.refuse(inst, refusal.rule, refusal.remedy);
+        }
+        if !carries_undefined(op) && uses_any(inst, &undefined) {
+            let remedy = "give the variable a value on every path (rust-gpu loses values in complex loops)";
+            findings.refuse(inst, "computes with an undefined value", remedy);
+        }
+    }
+}
+
+/// Operations that may hand an undefined value on without looking at it, as the unused half of an `Option` is.
+fn carries_undefined(op: Op) -> bool {
+    matches!(
+        op,
+        Op::Phi | Op::Select | Op::CompositeConstruct | Op::CompositeInsert
+    )
+}
+
+fn uses_any(inst: &Instruction, ids: &HashSet<u32>) -> bool {
+    inst.operands
+        .iter()
+        .any(|operand| matches!(operand, Operand::IdRef(id) if ids.contains(id)))
+}

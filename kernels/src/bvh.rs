@@ -1,0 +1,63 @@
+//! The light BVH that the kernels are compiled for, and its picker for the renderer.
+
+use bytemuck::{Pod, Zeroable};
+use lightbvh::{CompactNode, Eq4, LightTree, MeshLight, ShadingPoint, traverse};
+
+use crate::shading::pick::{PickLight, Picked};
+
+/// Children per node.
+pub const WIDTH: usize = 2;
+/// Node layout.
+pub type Node = CompactNode<WIDTH>;
+/// Importance.
+pub type Importance = Eq4;
+
+/// What a [`LightTree`] holds besides its arrays; part of the push constants.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct TreePush {
+    /// Index of the node that a walk starts at.
+    pub root: u32,
+    /// Words per bit trail, 1 or 2.
+    pub trail_words: u32,
+    /// 1 when the tree has mesh lights, else 0: an empty buffer cannot be bound, so its length does not tell.
+    pub two_level: u32,
+}
+
+impl TreePush {
+    /// The tree over the given arrays.
+    #[inline]
+    #[must_use]
+    pub fn tree<'a>(
+        &self,
+        nodes: &'a [Node],
+        meshes: &'a [MeshLight],
+        trails: &'a [u32],
+    ) -> LightTree<'a, Node> {
+        LightTree {
+            nodes,
+            root: self.root,
+            meshes,
+            trails,
+            trail_words: self.trail_words,
+        }
+    }
+}
+
+/// Picks lights by sampling a light BVH.
+#[derive(Clone, Copy)]
+pub struct BvhPicker<'a> {
+    /// The light BVH.
+    pub tree: LightTree<'a, Node>,
+}
+
+impl PickLight for BvhPicker<'_> {
+    #[inline]
+    fn pick(&self, point: &ShadingPoint, random: u32) -> Picked {
+        let sampled = traverse::sample::<Node, Importance, WIDTH>(&self.tree, point, random);
+        Picked {
+            light: sampled.light,
+            pmf: sampled.pmf,
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! Pass `render`: direct lighting, one invocation per pixel. Reads the scene, the ray BVH and whatever the picker chooses
+//! lights by; writes the pixel.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{UVec3, Vec3};
+use lightbvh::exact::hash;
+use lightbvh::{EmissiveTriangle, MeshLight};
+use spirv_std::spirv;
+
+use crate::bvh::{BvhPicker, Node, TreePush};
+use crate::invocation;
+use crate::shading::camera::Camera;
+use crate::shading::material::Material;
+use crate::shading::pick::{PickLight, Power, Uniform};
+use crate::shading::pixel::{Scene, reflected, see};
+use crate::shading::trace::{RayNode, SurfaceTriangle, Surfaces};
+
+/// What all pixels of an image have in common besides the scene; push constants, 32 bytes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct RenderParams {
+    /// Columns, 1 to 2^24.
+    pub width: u32,
+    /// Rows, 1 to 2^24.
+    pub height: u32,
+    /// Lights sampled for each pixel, at most 2^24.
+    pub samples: u32,
+    /// Chooses the random numbers of the lights. Images that differ in nothing else show the same surfaces.
+    pub seed: u32,
+    /// Chooses the points within the pixels that camera rays go through: the mean over several is smooth at edges.
+    pub jitter: u32,
+    /// Radiance of what no surface covers, linear RGB, W/(m² sr).
+    pub background: [f32; 3],
+}
+
+const _: () = assert!(size_of::<RenderParams>() == 32);
+
+/// The radiance that reaches the camera through pixel `index`, linear RGB, W/(m² sr). Pixels are numbered by rows from
+/// the upper left.
+#[inline]
+#[must_use]
+pub fn render_pixel<P: PickLight>(
+    scene: &Scene<'_>,
+    camera: &Camera,
+    params: &RenderParams,
+    picker: &P,
+    index: u32,
+) -> [f32; 3] {
+    let width = if params.width == 0 { 1 } else { params.width };
+    let y = index / width;
+    let x = index - y * width;
+    let pixel = hash(index);
+    let ray = camera.ray(x, y, width, params.height, pixel.wrapping_add(params.jitter));
+    let background = Vec3::new(params.background[0], params.background[1], params.background[2]);
+    let seen = see(scene, &ray, background);
+    let seed = hash(pixel.wrapping_add(hash(params.seed)));
+    let radiance = seen.direct + reflected(scene, &seen, picker, params.samples, seed);
+    [radiance.x, radiance.y, radiance.z]
+}
+
+/// Push constants of the render passes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct RenderPush {
+    /// The image.
+    pub params: RenderParams,
+    /// First pixel of this dispatch; `results` begins with it.
+    pub first: u32,
+    /// Number of pixels of this dispatch.
+    pub count: u32,
+    /// The light BVH (`render_bvh` only).
+    pub tree: TreePush,
+}
+
+/// Direct lighting by lights chosen from a light BVH of one or two levels.
+#[spirv(compute(threads(64), entry_point_name = "render_bvh"))]
+pub fn render_bvh(
+    #[spirv(global_invocation_id)] id: UVec3,
+    #[spirv(push_constant)] push: &RenderPush,
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] camera: &[Camera],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] nodes: &[Node],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] meshes: &[MeshLight],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] trails: &[u32],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] results: &mut [[f32; 3]],
+) {
+    let i = invocation(id);
+    if i < push.count {
+        let scene = Scene {
+            surfaces: Surfaces {
+                nodes: ray_nodes,
+                triangles: surfaces,
+            },
+            materials,
+            lights,
+        };
+        let picker = BvhPicker {
+            tree: push.tree.tree(nodes, meshes, trails),
+        };
+        results[i as usize] = render_pixel(
+            &scene,
+            &camera[0],
+            &push.params,
+            &picker,
+            push.first.wrapping_add(i),
+        );
+    }
+}
+
+/// Direct lighting by lights chosen in proportion to their power. `thresholds` is [`Power`]'s table.
+#[spirv(compute(threads(64), entry_point_name = "render_power"))]
+pub fn render_power(
+    #[spirv(global_invocation_id)] id: UVec3,
+    #[spirv(push_constant)] push: &RenderPush,
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] camera: &[Camera],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] thresholds: &[u32],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] results: &mut [[f32; 3]],
+) {
+    let i = invocation(id);
+    if i < push.count {
+        let scene = Scene {
+            surfaces: Surfaces {
+                nodes: ray_nodes,
+                triangles: surfaces,
+            },
+            materials,
+            lights,
+        };
+        let picker = Power { thresholds };
+        results[i as usize] = render_pixel(
+            &scene,
+            &camera[0],
+            &push.params,
+            &picker,
+            push.first.wrapping_add(i),
+        );
+    }
+}
+
+/// Direct lighting by lights chosen uniformly.
+#[spirv(compute(threads(64), entry_point_name = "render_uniform"))]
+pub fn render_uniform(
+    #[spirv(global_invocation_id)] id: UVec3,
+    #[spirv(push_constant)] push: &RenderPush,
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] camera: &[Camera],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] results: &mut [[f32; 3]],
+) {
+    let i = invocation(id);
+    if i < push.count {
+        let scene = Scene {
+            surfaces: Surfaces {
+                nodes: ray_nodes,
+                triangles: surfaces,
+            },
+            materials,
+            lights,
+        };
+        let picker = Uniform {
+            count: lights.len() as u32,
+        };
+        results[i as usize] = render_pixel(
+            &scene,
+            &camera[0],
+            &push.params,
+            &picker,
+            push.first.wrapping_add(i),
+        );
+    }
+}

@@ -1,0 +1,24 @@
+//! The reference renderer's parts, plain functions that the render kernel and the CPU share. No light BVH here: how a
+//! light is chosen comes in through [`pick::PickLight`].
+//!
+//! | module | what |
+//! |---|---|
+//! | [`grid`] | the grid that coordinates lie on, so that no product of lengths is subnormal |
+//! | [`ray`], [`trace`] | a ray against a box and a triangle; the walk through the ray BVH |
+//! | [`camera`], [`material`] | where rays start; how surfaces reflect |
+//! | [`area`] | a point on the chosen light, and what it contributes |
+//! | [`pick`] | the choice of a light: the trait, uniform and by power |
+//! | [`pixel`] | all of it together, for one pixel |
+//!
+//! Results agree to the bit between processors in this domain: coordinates at most [`grid::MAX_COORDINATE`] in magnitude
+//! and on the grid (the host's ray-BVH builder sees to both), radiances as in [`lightbvh::light`], albedo and specular
+//! weight in [0, 1]. Outside of it nothing panics, and every loop still ends.
+
+pub mod area;
+pub mod camera;
+pub mod grid;
+pub mod material;
+pub mod pick;
+pub mod pixel;
+pub mod ray;
+pub mod trace;

@@ -1,0 +1,129 @@
+//! The choice of a light for a shading point.
+
+use lightbvh::ShadingPoint;
+use lightbvh::exact::pow2;
+
+use super::trace::NONE;
+
+/// A chosen light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Picked {
+    /// Index of the emissive triangle, or `u32::MAX` for none: no light contributes, or the way ended in broken data.
+    pub light: u32,
+    /// The probability it was chosen with, exactly that; in (0, 1] for a light, 0 for none.
+    pub pmf: f32,
+}
+
+/// A way to choose lights.
+pub trait PickLight {
+    /// Chooses a light for `point` with 32 uniformly distributed random bits.
+    fn pick(&self, point: &ShadingPoint, random: u32) -> Picked;
+}
+
+/// Random numbers count in 2^-24 here: the number of those that lead to a light then fits an `f32` exactly, and so does
+/// the probability.
+const RANDOM_BITS: u32 = 24;
+/// Most lights that [`Uniform`] and [`Power`] can tell apart.
+pub const MAX_PICKABLE: u32 = 1 << RANDOM_BITS;
+
+/// Every light as likely as the others, to 2^-24.
+#[derive(Clone, Copy, Debug)]
+pub struct Uniform {
+    /// Number of lights, at most [`MAX_PICKABLE`]; those beyond it are never chosen.
+    pub count: u32,
+}
+
+impl PickLight for Uniform {
+    /// Light `floor(r n / 2^24)` for the random number `r`. It is chosen by `ceil((i+1) 2^24 / n) - ceil(i 2^24 / n)` of
+    /// the `2^24` random numbers, which differs between lights by one, and the pmf says so.
+    #[inline]
+    fn pick(&self, _point: &ShadingPoint, random: u32) -> Picked {
+        let count = if self.count < MAX_PICKABLE {
+            self.count
+        } else {
+            MAX_PICKABLE
+        };
+        let light = multiply_shift(random >> (32 - RANDOM_BITS), count);
+        let chances = first_random(light + 1, count).wrapping_sub(first_random(light, count));
+        if count == 0 {
+            Picked {
+                light: NONE,
+                pmf: 0.0,
+            }
+        } else {
+            Picked {
+                light,
+                pmf: chances as i32 as f32 * pow2(-24),
+            }
+        }
+    }
+}
+
+/// `floor(a b / 2^24)` for `a < 2^24`, `b <= 2^24`, in 32 bits: the product by halves of `a`.
+#[inline]
+fn multiply_shift(a: u32, b: u32) -> u32 {
+    // a = high 2^12 + low: a b / 2^24 = (high b + low b / 2^12) / 2^12; high b and low b reach 2^36, so b is halved
+    // too: b = b1 2^12 + b0.
+    let (a1, a0) = (a >> 12, a & 0xfff);
+    let (b1, b0) = (b >> 12, b & 0xfff);
+    let middle = a1 * b0 + a0 * b1 + ((a0 * b0) >> 12);
+    a1 * b1 + (middle >> 12)
+}
+
+/// The first random number that leads to light `light` of `count`: `ceil(light 2^24 / count)`.
+#[inline]
+fn first_random(light: u32, count: u32) -> u32 {
+    // Long division, 8 bits of the quotient at a time: remainders stay below 2^24.
+    let divisor = if count == 0 { 1 } else { count };
+    let mut quotient = light / divisor;
+    let mut remainder = light - quotient * divisor;
+    for _ in 0..3 {
+        let shifted = remainder << 8;
+        let digit = shifted / divisor;
+        remainder = shifted - digit * divisor;
+        quotient = (quotient << 8) | digit;
+    }
+    if remainder > 0 { quotient + 1 } else { quotient }
+}
+
+/// Each light as likely as its part of the whole power, to 2^-24, and no light that emits below 2^-24.
+#[derive(Clone, Copy)]
+pub struct Power<'a> {
+    /// Light `i` is chosen by the random numbers from `thresholds[i]` up to `thresholds[i + 1]`: one entry more than
+    /// lights, from 0 to 2^24, never descending. The host's `power_thresholds` makes them.
+    pub thresholds: &'a [u32],
+}
+
+impl PickLight for Power<'_> {
+    #[inline]
+    fn pick(&self, _point: &ShadingPoint, random: u32) -> Picked {
+        let entries = self.thresholds.len() as u32;
+        let random = random >> (32 - RANDOM_BITS);
+        let mut low = 0;
+        let mut high = if entries > 1 { entries - 1 } else { 1 };
+        // thresholds[low] <= random < thresholds[high]; 32 halvings end in one light, whatever the table holds.
+        for _ in 0..32 {
+            if high - low > 1 {
+                let middle = low + ((high - low) >> 1);
+                let right = self.thresholds[middle as usize] <= random;
+                low = if right { middle } else { low };
+                high = if right { high } else { middle };
+            }
+        }
+        let mut picked = Picked {
+            light: NONE,
+            pmf: 0.0,
+        };
+        if entries > 1 {
+            let start = self.thresholds[low as usize];
+            let stop = self.thresholds[low as usize + 1];
+            if start < stop && stop <= MAX_PICKABLE {
+                picked = Picked {
+                    light: low,
+                    pmf: (stop - start) as i32 as f32 * pow2(-24),
+                };
+            }
+        }
+        picked
+    }
+}

@@ -1,0 +1,173 @@
+//! One pixel: what the camera sees, lit by sampled lights.
+
+use glam::Vec3;
+use lightbvh::exact::{div, hash, recip, sqrt, unit_f32};
+use lightbvh::vector::{cross, dot, length_squared};
+use lightbvh::{EmissiveTriangle, ShadingPoint};
+
+use super::area::{connect, offset_distance};
+use super::grid::{TINY, TINY_AREA, flush_vector};
+use super::material::Material;
+use super::pick::PickLight;
+use super::ray::Ray;
+use super::trace::{Surfaces, any_hit, closest_hit, vertex};
+
+/// Random numbers that one light sample uses.
+const RANDOM_PER_SAMPLE: u32 = 3;
+
+/// Everything that light meets.
+#[derive(Clone, Copy)]
+pub struct Scene<'a> {
+    /// What rays hit.
+    pub surfaces: Surfaces<'a>,
+    /// How it reflects; indexed by the triangles.
+    pub materials: &'a [Material],
+    /// What of it emits; indexed by the triangles.
+    pub lights: &'a [EmissiveTriangle],
+}
+
+/// What a camera ray sees.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen {
+    /// The point to be lit, moved off its surface towards the viewer, and the normal on that side. Zero normal: the ray
+    /// left the scene, or hit what cannot be shaded.
+    pub point: ShadingPoint,
+    /// Unit direction to the viewer.
+    pub wo: Vec3,
+    /// Index of the material.
+    pub material: u32,
+    /// What arrives without being reflected: the radiance of a light seen directly, or the background.
+    pub direct: Vec3,
+}
+
+/// Follows `ray` to the first surface.
+#[inline]
+#[must_use]
+pub fn see(scene: &Scene<'_>, ray: &Ray, background: Vec3) -> Seen {
+    let triangles = scene.surfaces.triangles;
+    let hit = closest_hit(&scene.surfaces, ray);
+    let mut seen = Seen {
+        point: ShadingPoint {
+            p: [0.0; 3],
+            n: [0.0; 3],
+        },
+        wo: Vec3::ZERO,
+        material: 0,
+        direct: background,
+    };
+    if hit.triangle < triangles.len() as u32 {
+        let p0 = vertex(triangles, hit.triangle, 0);
+        let p1 = vertex(triangles, hit.triangle, 1);
+        let p2 = vertex(triangles, hit.triangle, 2);
+        let e1 = p1 - p0;
+        let e2 = p2 - p0;
+        let m = flush_vector(cross(e1, e2), TINY_AREA);
+        let length = sqrt(length_squared(m));
+        let front = dot(m, ray.direction) < 0.0;
+        if length > TINY_AREA {
+            let side = div(if front { 1.0 } else { -1.0 }, length);
+            let n = m * side;
+            let p = hit_point(ray, p0, e1, e2) + n * offset_distance(p0, p1, p2);
+            seen.point = ShadingPoint {
+                p: [p.x, p.y, p.z],
+                n: [n.x, n.y, n.z],
+            };
+            seen.wo = -ray.direction * div(1.0, sqrt(length_squared(ray.direction)));
+        }
+        seen.material = triangles[hit.triangle as usize].material;
+        seen.direct = emitted(scene.lights, triangles[hit.triangle as usize].light, front);
+    }
+    seen
+}
+
+/// The point where `ray` meets the plane of a triangle it is known to hit, from its barycentric coordinates: off the plane
+/// only by the rounding of the triangle's own coordinates, however far away the ray started. The coordinates within the
+/// plane need no exact division.
+#[inline]
+fn hit_point(ray: &Ray, p0: Vec3, e1: Vec3, e2: Vec3) -> Vec3 {
+    let pv = flush_vector(cross(ray.direction, e2), TINY_AREA);
+    let s = ray.origin - p0;
+    let qv = flush_vector(cross(s, e1), TINY_AREA);
+    let scale = recip(dot(e1, pv));
+    (p0 + e1 * (dot(s, pv) * scale)) + e2 * (dot(ray.direction, qv) * scale)
+}
+
+/// The radiance of light `index` seen from its front or back.
+#[inline]
+fn emitted(lights: &[EmissiveTriangle], index: u32, front: bool) -> Vec3 {
+    let mut radiance = Vec3::ZERO;
+    if index < lights.len() as u32 {
+        let i = index as usize;
+        if front || lights[i].is_two_sided() {
+            radiance = Vec3::new(
+                lights[i].radiance[0],
+                lights[i].radiance[1],
+                lights[i].radiance[2],
+            );
+        }
+    }
+    radiance
+}
+
+/// Estimates the light that `seen` reflects to its viewer: the mean of `samples` lights chosen by `picker`, each with
+/// one point on it and one shadow ray. `seed` chooses the random numbers.
+#[inline]
+#[must_use]
+pub fn reflected<P: PickLight>(scene: &Scene<'_>, seen: &Seen, picker: &P, samples: u32, seed: u32) -> Vec3 {
+    let n = seen.point.normal();
+    let mut sum = Vec3::ZERO;
+    if length_squared(n) > 0.0 && seen.material < scene.materials.len() as u32 {
+        let material = load_material(scene.materials, seen.material);
+        for sample in 0..samples {
+            let random = seed.wrapping_add(sample.wrapping_mul(RANDOM_PER_SAMPLE));
+            let picked = picker.pick(&seen.point, hash(random));
+            if picked.light < scene.lights.len() as u32 {
+                let light = load_light(scene.lights, picked.light);
+                let uv = [
+                    unit_f32(hash(random.wrapping_add(1))),
+                    unit_f32(hash(random.wrapping_add(2))),
+                ];
+                let connection = connect(&seen.point, seen.wo, &material, &light, picked.pmf, uv);
+                if connection.contribution.x + connection.contribution.y + connection.contribution.z > 0.0 {
+                    let origin = seen.point.position();
+                    let ray = Ray::new(origin, connection.target - origin, 1.0);
+                    if !any_hit(&scene.surfaces, &ray, picked.light) {
+                        sum += connection.contribution;
+                    }
+                }
+            }
+        }
+    }
+    let count = if samples == 0 { 1 } else { samples };
+    flush_vector(sum * div(1.0, count as i32 as f32), TINY)
+}
+
+#[inline]
+fn load_material(materials: &[Material], index: u32) -> Material {
+    let i = index as usize;
+    Material {
+        albedo: [
+            materials[i].albedo[0],
+            materials[i].albedo[1],
+            materials[i].albedo[2],
+        ],
+        specular: materials[i].specular,
+        exponent_log2: materials[i].exponent_log2,
+    }
+}
+
+#[inline]
+fn load_light(lights: &[EmissiveTriangle], index: u32) -> EmissiveTriangle {
+    let i = index as usize;
+    let vertex = |k: usize| [lights[i].p[k][0], lights[i].p[k][1], lights[i].p[k][2]];
+    EmissiveTriangle {
+        p: [vertex(0), vertex(1), vertex(2)],
+        radiance: [
+            lights[i].radiance[0],
+            lights[i].radiance[1],
+            lights[i].radiance[2],
+        ],
+        mesh: lights[i].mesh,
+        flags: lights[i].flags,
+    }
+}

@@ -1,0 +1,158 @@
+//! Rays: the walk through the ray BVH finds what brute force finds, and ends whatever the buffers hold.
+
+use glam::Vec3;
+use lightbvh_host::render::{RayBvh, RayBvhError};
+use lightbvh_kernels::shading::grid::{MAX_COORDINATE, snap};
+use lightbvh_kernels::shading::ray::{FAR, MISS, Ray};
+use lightbvh_kernels::shading::trace::{
+    Hit, NONE, RayNode, SurfaceTriangle, Surfaces, any_hit, closest_hit, vertex,
+};
+use lightbvh_tests::generate::Random;
+use lightbvh_tests::soup::{in_cube, soup};
+use proptest::prelude::*;
+
+fn brute_force(triangles: &[SurfaceTriangle], ray: &Ray) -> Hit {
+    let mut hit = Hit {
+        triangle: NONE,
+        t: ray.t_max,
+    };
+    for i in 0..triangles.len() as u32 {
+        let t = ray.hit_triangle(
+            vertex(triangles, i, 0),
+            vertex(triangles, i, 1),
+            vertex(triangles, i, 2),
+            hit.t,
+        );
+        if t != MISS {
+            hit = Hit { triangle: i, t };
+        }
+    }
+    hit
+}
+
+/// Half of the rays go along an axis, a quarter start far outside.
+fn random_ray(random: &mut Random, size: f32) -> Ray {
+    let far = if random.bits() & 3 == 0 { 100.0 } else { 1.5 };
+    let origin = Vec3::from(in_cube(random, size * far));
+    let aim = Vec3::from(in_cube(random, size));
+    let mut direction = aim - origin;
+    if random.bits() & 1 == 0 {
+        let keep = (random.bits() % 3) as usize;
+        direction = Vec3::from([0, 1, 2].map(|i| if i == keep { direction[i] } else { 0.0 }));
+    }
+    let t_max = if random.bits() & 1 == 0 {
+        FAR
+    } else {
+        2.0 * random.unit() + 1e-3
+    };
+    Ray::new(origin, direction, t_max)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn the_walk_finds_what_brute_force_finds(
+        seed: u32, count in 0_usize..300, scale in -20_i32..20, edge in 0.01_f32..1.0, grid: bool,
+    ) {
+        let mut random = Random::new(seed);
+        let size = if grid { 4.0 } else { 2f32.powi(scale) };
+        let triangles = soup(&mut random, count, size, size * edge, grid);
+        let bvh = RayBvh::build(&triangles).unwrap();
+        prop_assert_eq!(bvh.triangles.len(), count);
+        for _ in 0..100 {
+            let ray = random_ray(&mut random, size);
+            let expected = brute_force(&bvh.triangles, &ray);
+            let found = closest_hit(&bvh.surfaces(), &ray);
+            // Coincident triangles are equally near: the first tested wins, and both test in the same order.
+            prop_assert_eq!(found, expected, "{:?}", ray);
+            prop_assert_eq!(any_hit(&bvh.surfaces(), &ray, NONE), expected.triangle != NONE);
+        }
+    }
+
+    #[test]
+    fn hostile_words_end_in_bounded_steps(words in prop::collection::vec(any::<u32>(), 0..400), seed: u32) {
+        let nodes: Vec<RayNode> = words.chunks_exact(8).map(|w| {
+            let f = |i: usize| f32::from_bits(w[i]);
+            RayNode { min: [f(0), f(1), f(2)], skip: w[3] % 64, max: [f(4), f(5), f(6)], triangles: w[7] }
+        }).collect();
+        let mut random = Random::new(seed);
+        let triangles = soup(&mut random, 5, 1.0, 1.0, false);
+        let surfaces = Surfaces { nodes: &nodes, triangles: &triangles };
+        for _ in 0..20 {
+            let hit = closest_hit(&surfaces, &random_ray(&mut random, 1.0));
+            prop_assert!(hit.triangle == NONE || hit.triangle < 5);
+        }
+    }
+
+    #[test]
+    fn snapping_is_idempotent_and_moves_by_less_than_a_step(bits: u32) {
+        let x = f32::from_bits(bits);
+        prop_assume!(x.abs() < MAX_COORDINATE);
+        let s = snap(x);
+        prop_assert!((f64::from(s) - f64::from(x)).abs() < 2f64.powi(-40));
+        prop_assert_eq!(snap(s).to_bits(), s.to_bits());
+        prop_assert_eq!((f64::from(s) * 2f64.powi(40)).fract(), 0.0);
+    }
+}
+
+#[test]
+fn the_excepted_light_casts_no_shadow_and_others_do() {
+    let mut triangles = soup(&mut Random::new(7), 1, 0.0, 0.0, false);
+    triangles[0].p = [[-1.0, -1.0, 1.0], [1.0, -1.0, 1.0], [0.0, 1.0, 1.0]];
+    triangles[0].light = 3;
+    let bvh = RayBvh::build(&triangles).unwrap();
+    let ray = Ray::new(Vec3::ZERO, Vec3::new(0.0, 0.0, 2.0), 1.0);
+    assert!(any_hit(&bvh.surfaces(), &ray, NONE));
+    assert!(any_hit(&bvh.surfaces(), &ray, 2));
+    assert!(!any_hit(&bvh.surfaces(), &ray, 3));
+    let short = Ray::new(Vec3::ZERO, Vec3::new(0.0, 0.0, 1.0), 0.999);
+    assert!(!any_hit(&bvh.surfaces(), &short, NONE));
+}
+
+#[test]
+fn nodes_are_in_depth_first_order_and_cover_their_triangles() {
+    let triangles = soup(&mut Random::new(1), 5000, 100.0, 2.0, false);
+    let bvh = RayBvh::build(&triangles).unwrap();
+    assert_eq!(bvh, RayBvh::build(&triangles).unwrap());
+    assert_eq!(bvh.nodes[0].skip as usize, bvh.nodes.len());
+    let mut next_triangle = 0;
+    for (index, node) in bvh.nodes.iter().enumerate() {
+        let (first, count) = (node.triangles >> 4, node.triangles & 15);
+        assert!(node.skip as usize > index);
+        if count == 0 {
+            // The second child ends where its parent does.
+            let second = bvh.nodes[index + 1].skip as usize;
+            assert_eq!(bvh.nodes[second].skip, node.skip);
+        } else {
+            assert_eq!(node.skip as usize, index + 1);
+            assert_eq!(first, next_triangle);
+            next_triangle += count;
+            for p in (first..first + count).flat_map(|i| bvh.triangles[i as usize].p) {
+                assert!((0..3).all(|axis| node.min[axis] < p[axis] && p[axis] < node.max[axis]));
+            }
+        }
+    }
+    assert_eq!(next_triangle as usize, triangles.len());
+}
+
+#[test]
+fn an_empty_scene_has_no_hits_and_bad_coordinates_are_named() {
+    let empty = RayBvh::build(&[]).unwrap();
+    let ray = Ray::new(Vec3::ZERO, Vec3::new(0.0, 0.0, 1.0), FAR);
+    assert_eq!(closest_hit(&empty.surfaces(), &ray).triangle, NONE);
+
+    for bad in [f32::NAN, f32::INFINITY, -2.0 * MAX_COORDINATE] {
+        let mut triangles = soup(&mut Random::new(2), 3, 1.0, 1.0, false);
+        triangles[2].p[1][0] = bad;
+        match RayBvh::build(&triangles).unwrap_err() {
+            RayBvhError::Coordinate {
+                triangle: 2,
+                vertex: 1,
+                axis: 0,
+                ..
+            } => {}
+            other => panic!("{other}"),
+        }
+    }
+}
