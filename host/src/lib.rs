@@ -4,4 +4,5 @@
 pub mod backend;
 pub mod compare;
 pub mod render;
+pub mod scene;
 pub mod vulkan;

@@ -2,5 +2,6 @@
 
 pub mod devices;
 pub mod generate;
+pub mod gltf_files;
 pub mod soup;
 pub mod statistics;

@@ -1,0 +1,48 @@
+//! The camera of a frame, from a node or, where a scene brings none, from its bounds.
+
+use crate::render::View;
+
+use super::transform::{Affine, cross, unit_or};
+
+/// Vertical field of view of the default camera: 50 degrees, a natural view on a screen.
+const DEFAULT_YFOV: f32 = 0.872_664_6;
+
+/// The camera of a node: looks along -Z, +Y up; the node's scale does not matter.
+pub(super) fn view_of_node(world: &Affine, yfov: f32) -> View {
+    let forward = unit_or(world.columns[2].map(|x| -x), [0.0, 0.0, -1.0]);
+    looking(world.columns[3], forward, world.columns[1], yfov)
+}
+
+/// A camera that sees the whole box from the front, a little from above.
+pub(super) fn view_of_bounds(min: [f64; 3], max: [f64; 3]) -> View {
+    let centre = [0, 1, 2].map(|i| 0.5 * (min[i] + max[i]));
+    let half = [0, 1, 2].map(|i| 0.5 * (max[i] - min[i]));
+    let radius = half.iter().map(|h| h * h).sum::<f64>().sqrt().max(1e-3);
+    let forward = unit_or([-0.35, -0.3, -1.0], [0.0, 0.0, -1.0]);
+    // The sphere around the box touches the image's upper and lower edge.
+    let distance = radius / libm::sin(0.5 * f64::from(DEFAULT_YFOV));
+    let eye = [0, 1, 2].map(|i| centre[i] - forward[i] * distance);
+    looking(eye, forward, [0.0, 1.0, 0.0], DEFAULT_YFOV)
+}
+
+/// `forward` is a unit vector; `up` is made orthogonal to it.
+fn looking(eye: [f64; 3], forward: [f64; 3], up: [f64; 3], yfov: f32) -> View {
+    // A camera that looks straight up or down takes -Z as its up direction.
+    let beside = unit_or(cross(forward, [0.0, 0.0, -1.0]), [1.0, 0.0, 0.0]);
+    let up = unit_or(up, [0.0, 1.0, 0.0]);
+    let right = cross(forward, up);
+    let right = if right.iter().all(|x| x.abs() < 1e-9) {
+        beside
+    } else {
+        unit_or(right, beside)
+    };
+    let up = cross(right, forward);
+    let narrow = |v: [f64; 3]| v.map(|x| x as f32);
+    View {
+        eye: narrow(eye),
+        right: narrow(right),
+        up: narrow(up),
+        forward: narrow(forward),
+        yfov,
+    }
+}

@@ -1,0 +1,317 @@
+//! The checked constructor: what a scene must be before anything is built on it.
+
+use lightbvh::light::{MAX_COORDINATE, MAX_RADIANCE, MIN_COORDINATE, MIN_RADIANCE};
+
+use super::camera::view_of_bounds;
+use super::error::SceneError;
+use super::frame::{emits, flush};
+use super::model::{Channel, Counts, Interpolation, Material, Primitive, Scene, SceneData};
+use super::reach;
+use super::transform::Transform;
+
+/// Most triangles of a frame, over all instances: 2^26, some 3 GiB of records, well inside 32-bit indices.
+pub const MAX_TRIANGLES: u64 = 1 << 26;
+
+impl Scene {
+    /// Checks `data` and wraps it.
+    ///
+    /// Coordinates and radiances below 2^-100 become +0. A scene without lights passes; commands that need lights
+    /// call [`Scene::require_lights`].
+    ///
+    /// # Errors
+    /// A value that is not finite, negative emission, a coordinate that could leave ±[`MAX_COORDINATE`] in any frame, an
+    /// index out of range, a parent after its child, too many triangles, no triangle at all.
+    pub fn new(mut data: SceneData) -> Result<Self, SceneError> {
+        flush_tiny(&mut data);
+        let check = Check { scene: &data.name };
+        check.limit("nodes", data.nodes.len(), u64::from(u32::MAX))?;
+        for (index, material) in data.materials.iter().enumerate() {
+            check.material(index, material)?;
+        }
+        for (m, mesh) in data.meshes.iter().enumerate() {
+            for (p, primitive) in mesh.primitives.iter().enumerate() {
+                check.primitive(
+                    &format!("mesh {m} `{}` primitive {p}", mesh.name),
+                    primitive,
+                    data.materials.len(),
+                )?;
+            }
+        }
+        check.nodes(&data)?;
+        check.animations(&data)?;
+        for (index, camera) in data.cameras.iter().enumerate() {
+            check.index(
+                || format!("node of camera {index}"),
+                camera.node,
+                data.nodes.len(),
+            )?;
+            if !(camera.yfov > 0.0 && camera.yfov < std::f32::consts::PI) {
+                let element = format!("vertical field of view of camera {index}");
+                return Err(check.out_of_range(element, camera.yfov, "radians above 0 and below pi"));
+            }
+        }
+        check.color(|| String::from("background"), data.background)?;
+        let counts = check.count(&data)?;
+        reach::check(&data)?;
+        let (min, max) = reach::bounds(&data);
+        let default_camera = view_of_bounds(min, max);
+        Ok(Self::from_checked(data, counts, default_camera))
+    }
+}
+
+/// The checks, with the name that their errors carry.
+struct Check<'a> {
+    scene: &'a str,
+}
+
+impl Check<'_> {
+    fn scene(&self) -> String {
+        self.scene.to_owned()
+    }
+
+    fn out_of_range(&self, element: String, value: impl Into<f64>, expected: &'static str) -> SceneError {
+        SceneError::OutOfRange {
+            scene: self.scene(),
+            element,
+            value: value.into(),
+            expected,
+        }
+    }
+
+    fn limit(&self, what: &'static str, count: usize, limit: u64) -> Result<(), SceneError> {
+        if count as u64 > limit {
+            return Err(SceneError::TooMany {
+                scene: self.scene(),
+                what,
+                count: count as u64,
+                limit,
+            });
+        }
+        Ok(())
+    }
+
+    fn index(&self, element: impl Fn() -> String, index: u32, count: usize) -> Result<(), SceneError> {
+        if index as usize >= count {
+            let (index, count) = (u64::from(index), count as u64);
+            return Err(SceneError::BadIndex {
+                scene: self.scene(),
+                element: element(),
+                index,
+                count,
+            });
+        }
+        Ok(())
+    }
+
+    fn length(&self, element: impl Fn() -> String, found: usize, expected: usize) -> Result<(), SceneError> {
+        if found != expected {
+            let (found, expected) = (found as u64, expected as u64);
+            return Err(SceneError::BadLength {
+                scene: self.scene(),
+                element: element(),
+                found,
+                expected,
+            });
+        }
+        Ok(())
+    }
+
+    fn finite(&self, element: impl Fn() -> String, values: &[f32]) -> Result<(), SceneError> {
+        if let Some(value) = values.iter().find(|value| !value.is_finite()) {
+            let value = f64::from(*value);
+            return Err(SceneError::NotFinite {
+                scene: self.scene(),
+                element: element(),
+                value,
+            });
+        }
+        Ok(())
+    }
+
+    /// Finite and not negative.
+    fn color(&self, element: impl Fn() -> String, rgb: [f32; 3]) -> Result<(), SceneError> {
+        self.finite(&element, &rgb)?;
+        if let Some(&value) = rgb.iter().find(|&&channel| channel < 0.0) {
+            return Err(self.out_of_range(element(), value, "at least 0; light cannot be negative"));
+        }
+        if let Some(&value) = rgb.iter().find(|&&channel| channel > MAX_RADIANCE) {
+            return Err(self.out_of_range(element(), value, "at most 2^100; lower the emissive strength"));
+        }
+        Ok(())
+    }
+
+    fn material(&self, index: usize, material: &Material) -> Result<(), SceneError> {
+        let name = |what: &str| format!("{what} of material {index} `{}`", material.name);
+        self.color(|| name("radiance"), material.radiance)?;
+        let [r, g, b] = material.base_color;
+        for (what, value) in [
+            ("base colour", r),
+            ("base colour", g),
+            ("base colour", b),
+            ("metallic", material.metallic),
+            ("roughness", material.roughness),
+        ] {
+            self.finite(|| name(what), &[value])?;
+            if !(0.0..=1.0).contains(&value) {
+                return Err(self.out_of_range(name(what), value, "0 to 1"));
+            }
+        }
+        Ok(())
+    }
+
+    fn primitive(&self, name: &str, primitive: &Primitive, materials: usize) -> Result<(), SceneError> {
+        self.index(|| format!("material of {name}"), primitive.material, materials)?;
+        for (v, position) in primitive.positions.iter().enumerate() {
+            self.finite(|| format!("position {v} of {name}"), position)?;
+            if let Some(&value) = position.iter().find(|x| x.abs() > MAX_COORDINATE) {
+                let element = format!("position {v} of {name}");
+                return Err(self.out_of_range(
+                    element,
+                    value,
+                    "a coordinate within 2^40 metres of the origin",
+                ));
+            }
+        }
+        let vertices = primitive.positions.len();
+        for (t, triangle) in primitive.triangles.iter().enumerate() {
+            for &vertex in triangle {
+                self.index(|| format!("a vertex of triangle {t} of {name}"), vertex, vertices)?;
+            }
+        }
+        if let Some(radiance) = &primitive.radiance {
+            self.length(
+                || format!("radiance list of {name}"),
+                radiance.len(),
+                primitive.triangles.len(),
+            )?;
+            for (t, &rgb) in radiance.iter().enumerate() {
+                self.color(|| format!("radiance of triangle {t} of {name}"), rgb)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn nodes(&self, data: &SceneData) -> Result<(), SceneError> {
+        for (n, node) in data.nodes.iter().enumerate() {
+            let name = |what: &str| format!("{what} of node {n} `{}`", node.name);
+            if let Some(parent) = node.parent {
+                // Parents first: the hierarchy cannot have cycles, and one pass composes it.
+                self.index(|| name("parent"), parent, n)?;
+            }
+            if let Some(mesh) = node.mesh {
+                self.index(|| name("mesh"), mesh, data.meshes.len())?;
+            }
+            match &node.transform {
+                Transform::Trs {
+                    translation,
+                    rotation,
+                    scale,
+                } => {
+                    self.finite(|| name("translation"), translation)?;
+                    self.finite(|| name("rotation"), rotation)?;
+                    self.finite(|| name("scale"), scale)?;
+                }
+                Transform::Matrix(columns) => self.finite(|| name("matrix"), columns.as_flattened())?,
+            }
+        }
+        Ok(())
+    }
+
+    fn animations(&self, data: &SceneData) -> Result<(), SceneError> {
+        for (a, animation) in data.animations.iter().enumerate() {
+            for (c, channel) in animation.channels.iter().enumerate() {
+                self.channel(
+                    &format!("channel {c} of animation {a} `{}`", animation.name),
+                    channel,
+                    data,
+                )?;
+            }
+        }
+        Ok(())
+    }
+
+    fn channel(&self, name: &str, channel: &Channel, data: &SceneData) -> Result<(), SceneError> {
+        self.index(|| format!("node of {name}"), channel.node, data.nodes.len())?;
+        let keys = channel.times.len();
+        let per_key = if channel.interpolation == Interpolation::CubicSpline {
+            3
+        } else {
+            1
+        };
+        if keys == 0 {
+            return Err(self.out_of_range(format!("number of keys of {name}"), 0.0, "at least 1"));
+        }
+        self.length(
+            || format!("value list of {name}"),
+            channel.values.len(),
+            per_key * keys,
+        )?;
+        self.finite(|| format!("a time of {name}"), &channel.times)?;
+        self.finite(|| format!("a value of {name}"), channel.values.as_flattened())?;
+        if channel.times[0] < 0.0 || channel.times.windows(2).any(|pair| pair[1] < pair[0]) {
+            let element = format!("first time of {name}");
+            return Err(self.out_of_range(element, channel.times[0], "times from 0 up, in ascending order"));
+        }
+        if !matches!(data.nodes[channel.node as usize].transform, Transform::Trs { .. }) {
+            let element = format!("target of {name}: node");
+            return Err(self.out_of_range(
+                element,
+                channel.node,
+                "a node with translation, rotation and scale",
+            ));
+        }
+        Ok(())
+    }
+
+    /// Sizes of every frame, and whether 32-bit indices and memory can hold them.
+    fn count(&self, data: &SceneData) -> Result<Counts, SceneError> {
+        let per_mesh: Vec<Counts> = data
+            .meshes
+            .iter()
+            .map(|mesh| {
+                let mut counts = Counts::default();
+                for primitive in &mesh.primitives {
+                    let of_material = data.materials[primitive.material as usize].radiance;
+                    let count = primitive.triangles.len();
+                    let lit = (0..count)
+                        .filter(|&t| emits(primitive.triangle_radiance(t, of_material)))
+                        .count();
+                    counts.triangles += count;
+                    counts.emissive += lit;
+                    counts.mesh_lights += usize::from(lit > 0);
+                }
+                counts
+            })
+            .collect();
+        let mut total = Counts::default();
+        for mesh in data.nodes.iter().filter_map(|node| node.mesh) {
+            let counts = per_mesh[mesh as usize];
+            total.triangles = total.triangles.saturating_add(counts.triangles);
+            total.emissive = total.emissive.saturating_add(counts.emissive);
+            total.mesh_lights = total.mesh_lights.saturating_add(counts.mesh_lights);
+        }
+        self.limit("triangles over all instances", total.triangles, MAX_TRIANGLES)?;
+        if total.triangles == 0 {
+            return Err(SceneError::Empty { scene: self.scene() });
+        }
+        Ok(total)
+    }
+}
+
+/// +0 for what is too small to matter: devices may flush subnormal numbers where the CPU does not.
+fn flush_tiny(data: &mut SceneData) {
+    // NaN and infinity stay, to be reported.
+    let flush_all =
+        |values: &mut [f32], smallest: f32| values.iter_mut().for_each(|x| *x = flush(*x, smallest));
+    flush_all(&mut data.background, MIN_RADIANCE);
+    for material in &mut data.materials {
+        flush_all(&mut material.radiance, MIN_RADIANCE);
+        flush_all(&mut material.base_color, MIN_RADIANCE);
+    }
+    for primitive in data.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
+        flush_all(primitive.positions.as_flattened_mut(), MIN_COORDINATE);
+        if let Some(radiance) = &mut primitive.radiance {
+            flush_all(radiance.as_flattened_mut(), MIN_RADIANCE);
+        }
+    }
+}

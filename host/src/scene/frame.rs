@@ -1,0 +1,135 @@
+//! One frame of a scene: world-space triangles and lights, in the same order every frame.
+
+use lightbvh::light::{EmissiveTriangle, MIN_COORDINATE, TWO_SIDED};
+use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
+use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
+
+use crate::render::View;
+
+use super::animate::world_transforms;
+use super::camera::view_of_node;
+use super::model::{Scene, SceneData};
+use super::transform::Affine;
+
+/// The paper animates its scenes at a simulated 25 frames per second (section 4.1).
+pub const FRAMES_PER_SECOND: u32 = 25;
+
+/// A mesh light: one instance of one emissive primitive, its triangles contiguous.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MeshRange {
+    /// Index of the first triangle in [`Frame::emissive`].
+    pub first: u32,
+    /// Number of triangles, above zero.
+    pub count: u32,
+    /// Node and mesh, for messages.
+    pub name: String,
+}
+
+/// A scene at one time. Lengths and order are the same in every frame of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Every triangle, emissive or not.
+    pub triangles: Vec<SurfaceTriangle>,
+    /// Triangles with radiance above zero, those of zero area included.
+    pub emissive: Vec<EmissiveTriangle>,
+    /// Ranges of `emissive`, in order, without gaps.
+    pub mesh_lights: Vec<MeshRange>,
+    /// By [`SurfaceTriangle::material`].
+    pub materials: Vec<SurfaceMaterial>,
+    /// Where the frame is seen from.
+    pub camera: View,
+    /// Radiance of rays that leave the scene, W/(m² sr).
+    pub background: [f32; 3],
+}
+
+impl Scene {
+    /// The scene at `frame` / [`FRAMES_PER_SECOND`] seconds.
+    #[must_use]
+    pub fn frame(&self, frame: u32) -> Frame {
+        let data = self.data();
+        let world = world_transforms(data, f64::from(frame) / f64::from(FRAMES_PER_SECOND));
+        let mut out = Frame {
+            triangles: Vec::with_capacity(self.counts.triangles),
+            emissive: Vec::with_capacity(self.counts.emissive),
+            mesh_lights: Vec::with_capacity(self.counts.mesh_lights),
+            materials: data.materials.iter().map(super::Material::surface).collect(),
+            camera: match data.cameras.first() {
+                Some(camera) => view_of_node(&world[camera.node as usize], camera.yfov),
+                None => self.default_camera,
+            },
+            background: data.background,
+        };
+        place_meshes(data, &world, &mut out);
+        out
+    }
+}
+
+/// Appends the triangles of every node, in the order node, primitive, triangle.
+pub(super) fn place_meshes(data: &SceneData, world: &[Affine], out: &mut Frame) {
+    for (node, to_world) in data.nodes.iter().zip(world) {
+        let Some(mesh) = node.mesh.map(|mesh| &data.meshes[mesh as usize]) else {
+            continue;
+        };
+        let mirrored = to_world.mirrors();
+        for primitive in &mesh.primitives {
+            let material = &data.materials[primitive.material as usize];
+            let flags = if material.double_sided { TWO_SIDED } else { 0 };
+            let mesh_light = out.mesh_lights.len() as u32;
+            let first = out.emissive.len() as u32;
+            let points: Vec<[f32; 3]> = primitive
+                .positions
+                .iter()
+                .map(|&p| world_point(to_world, p))
+                .collect();
+
+            for (index, &[a, b, c]) in primitive.triangles.iter().enumerate() {
+                // A mirrored instance would show its back; swapping two vertices keeps the front in front.
+                let [b, c] = if mirrored { [c, b] } else { [b, c] };
+                let p = [a, b, c].map(|vertex| points[vertex as usize]);
+                let radiance = primitive.triangle_radiance(index, material.radiance);
+                let light = if emits(radiance) {
+                    out.emissive.push(EmissiveTriangle {
+                        p,
+                        radiance,
+                        mesh: mesh_light,
+                        flags,
+                    });
+                    out.emissive.len() as u32 - 1
+                } else {
+                    NONE
+                };
+                out.triangles.push(SurfaceTriangle {
+                    p,
+                    material: primitive.material,
+                    light,
+                });
+            }
+
+            let count = out.emissive.len() as u32 - first;
+            if count > 0 {
+                out.mesh_lights.push(MeshRange {
+                    first,
+                    count,
+                    name: format!("{}/{}", node.name, mesh.name),
+                });
+            }
+        }
+    }
+}
+
+/// Whether any channel is above zero.
+pub(super) fn emits(radiance: [f32; 3]) -> bool {
+    radiance.iter().any(|&channel| channel > 0.0)
+}
+
+/// Rounds once, from `f64`.
+fn world_point(to_world: &Affine, p: [f32; 3]) -> [f32; 3] {
+    to_world
+        .point(p.map(f64::from))
+        .map(|x| flush(x as f32, MIN_COORDINATE))
+}
+
+/// +0 below `smallest` in magnitude and for -0: devices may flush subnormal numbers where the CPU does not.
+pub(super) fn flush(x: f32, smallest: f32) -> f32 {
+    if x.abs() < smallest { 0.0 } else { x }
+}

@@ -1,0 +1,257 @@
+//! Accessors, read with every range checked (glTF 2.0, section 3.6.2).
+
+use gltf::json::accessor::{Accessor, ComponentType, GenericComponentType, IndexComponentType};
+use gltf::json::validation::Checked;
+use gltf::json::{self, Index, buffer};
+
+use super::super::error::SceneError;
+use super::{Document, MAX_ELEMENTS};
+
+/// Where the elements of an accessor lie.
+struct Layout<'a> {
+    /// From the first element on; empty for an accessor of zeros.
+    bytes: &'a [u8],
+    stride: usize,
+    components: usize,
+    component: ComponentType,
+    normalized: bool,
+    count: usize,
+}
+
+const ADVICE: &str = "the file is damaged; export it again";
+
+impl Document<'_> {
+    /// Elements of `N` numbers each, integers converted as glTF says.
+    pub(super) fn floats<const N: usize>(
+        &self,
+        index: Index<Accessor>,
+        element: &str,
+    ) -> Result<Vec<[f32; N]>, SceneError> {
+        let accessor = self.get(&self.root.accessors, index, "accessor", element)?;
+        let name = format!("accessors[{}] (used by {element})", index.value());
+        let layout = self.layout(accessor, &name)?;
+        if layout.components != N {
+            let problem = format!("has {} numbers per element, expected {N}", layout.components);
+            return Err(self.malformed(name, problem, ADVICE));
+        }
+        let mut values: Vec<[f32; N]> = (0..layout.count).map(|i| layout.element(i)).collect();
+        if let Some(sparse) = &accessor.sparse {
+            self.substitute(&mut values, sparse, &layout, &name)?;
+        }
+        Ok(values)
+    }
+
+    /// Vertex indices: one unsigned integer per element.
+    pub(super) fn indices(&self, index: Index<Accessor>, element: &str) -> Result<Vec<u32>, SceneError> {
+        let accessor = self.get(&self.root.accessors, index, "accessor", element)?;
+        let name = format!("accessors[{}] (used by {element})", index.value());
+        let layout = self.layout(accessor, &name)?;
+        let unsigned = matches!(
+            layout.component,
+            ComponentType::U8 | ComponentType::U16 | ComponentType::U32
+        );
+        if layout.components != 1 || !unsigned || accessor.sparse.is_some() {
+            return Err(self.malformed(name, "is not a plain list of unsigned integers", ADVICE));
+        }
+        Ok((0..layout.count).map(|i| layout.unsigned(i)).collect())
+    }
+
+    /// Checks that all elements lie inside the accessor's view, and that the file stays within its budget.
+    fn layout(&self, accessor: &Accessor, name: &str) -> Result<Layout<'_>, SceneError> {
+        let (Checked::Valid(GenericComponentType(component)), Checked::Valid(shape)) =
+            (accessor.component_type, accessor.type_)
+        else {
+            return Err(self.malformed(name, "has an unknown component type or element type", ADVICE));
+        };
+        let components = shape.multiplicity();
+        let (bytes, stride) = match accessor.buffer_view {
+            Some(view) => self.view(view, name)?,
+            None => (&[][..], None),
+        };
+        let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
+        let layout = self.place(
+            name,
+            bytes,
+            stride,
+            offset,
+            accessor.count.0,
+            (component, components),
+        )?;
+
+        // An accessor without a view holds zeros: nothing else bounds its count.
+        let all_bytes: u64 = self.buffers.iter().map(|buffer| buffer.len() as u64).sum();
+        let elements = self.elements.get().saturating_add(accessor.count.0);
+        if elements > MAX_ELEMENTS || (accessor.buffer_view.is_none() && accessor.count.0 > all_bytes) {
+            let count = accessor.count.0;
+            let what = "accessor elements in all";
+            let found = elements.max(count);
+            return Err(SceneError::TooMany {
+                scene: self.path.to_owned(),
+                what,
+                count: found,
+                limit: MAX_ELEMENTS,
+            });
+        }
+        self.elements.set(elements);
+        Ok(Layout {
+            normalized: accessor.normalized,
+            ..layout
+        })
+    }
+
+    /// `count` elements from `offset` on, all inside `bytes` unless `bytes` is empty for want of a view.
+    fn place<'b>(
+        &self,
+        name: &str,
+        bytes: &'b [u8],
+        stride: Option<usize>,
+        offset: u64,
+        count: u64,
+        (component, components): (ComponentType, usize),
+    ) -> Result<Layout<'b>, SceneError> {
+        let size = component.size() * components;
+        let stride = stride.unwrap_or(size);
+        if stride < size {
+            let problem = format!("has elements of {size} bytes at a stride of {stride}");
+            return Err(self.malformed(name, problem, ADVICE));
+        }
+        let end = count.checked_sub(1).map_or(Some(offset), |last| {
+            last.checked_mul(stride as u64)?
+                .checked_add(size as u64)?
+                .checked_add(offset)
+        });
+        let inside = end.is_some_and(|end| end <= bytes.len() as u64);
+        // Zeros of a sparse accessor need no bytes; their count is bounded by the caller.
+        if !inside && !bytes.is_empty() {
+            let problem = format!(
+                "claims {count} elements from byte {offset}, beyond its {} bytes",
+                bytes.len()
+            );
+            return Err(self.malformed(name, problem, ADVICE));
+        }
+        let bytes = if inside { &bytes[offset as usize..] } else { &[] };
+        Ok(Layout {
+            bytes,
+            stride,
+            components,
+            component,
+            normalized: false,
+            count: count as usize,
+        })
+    }
+
+    /// The bytes of a view and its stride.
+    pub(super) fn view(
+        &self,
+        index: Index<buffer::View>,
+        element: &str,
+    ) -> Result<(&[u8], Option<usize>), SceneError> {
+        let view = self.get(&self.root.buffer_views, index, "bufferView", element)?;
+        let name = format!("bufferViews[{}] (used by {element})", index.value());
+        self.get(&self.root.buffers, view.buffer, "buffer", &name)?;
+        let buffer = &self.buffers[view.buffer.value()];
+        let start = view.byte_offset.map_or(0, |offset| offset.0);
+        let end = start.checked_add(view.byte_length.0);
+        let Some(end) = end.filter(|&end| end <= buffer.len() as u64 && view.byte_length.0 > 0) else {
+            let problem = format!(
+                "claims {} bytes from byte {start} of buffer {}, which has {}",
+                view.byte_length.0,
+                view.buffer.value(),
+                buffer.len()
+            );
+            return Err(self.malformed(name, problem, ADVICE));
+        };
+        Ok((
+            &buffer[start as usize..end as usize],
+            view.byte_stride.map(|stride| stride.0),
+        ))
+    }
+
+    /// Replaces single elements (glTF 2.0, section 3.6.2.3).
+    fn substitute<const N: usize>(
+        &self,
+        values: &mut [[f32; N]],
+        sparse: &json::accessor::sparse::Sparse,
+        of: &Layout<'_>,
+        name: &str,
+    ) -> Result<(), SceneError> {
+        let Checked::Valid(IndexComponentType(component)) = sparse.indices.component_type else {
+            return Err(self.malformed(name, "has sparse indices of an unknown type", ADVICE));
+        };
+        let count = sparse.count.0;
+        if count > values.len() as u64 {
+            let problem = format!("substitutes {count} of {} elements", values.len());
+            return Err(self.malformed(name, problem, ADVICE));
+        }
+        let (bytes, stride) = self.view(sparse.indices.buffer_view, name)?;
+        let at = self.place(
+            name,
+            bytes,
+            stride,
+            sparse.indices.byte_offset.0,
+            count,
+            (component, 1),
+        )?;
+        let (bytes, stride) = self.view(sparse.values.buffer_view, name)?;
+        let shape = (of.component, of.components);
+        let new = self.place(name, bytes, stride, sparse.values.byte_offset.0, count, shape)?;
+        let new = Layout {
+            normalized: of.normalized,
+            ..new
+        };
+        for i in 0..at.count {
+            let target = at.unsigned(i) as usize;
+            let total = values.len();
+            let Some(value) = values.get_mut(target) else {
+                let problem = format!("substitutes element {target} of {total}");
+                return Err(self.malformed(name, problem, ADVICE));
+            };
+            *value = new.element(i);
+        }
+        Ok(())
+    }
+}
+
+impl Layout<'_> {
+    /// Element `index`; zeros where there are no bytes.
+    fn element<const N: usize>(&self, index: usize) -> [f32; N] {
+        let mut element = [0.0; N];
+        for (component, value) in element.iter_mut().enumerate() {
+            *value = self.float(index, component);
+        }
+        element
+    }
+
+    /// Four little-endian bytes, missing ones zero.
+    fn word(&self, index: usize, component: usize) -> [u8; 4] {
+        let size = self.component.size();
+        let at = index * self.stride + component * size;
+        let mut word = [0; 4];
+        if let Some(bytes) = self.bytes.get(at..at + size) {
+            word[..size].copy_from_slice(bytes);
+        }
+        word
+    }
+
+    fn unsigned(&self, index: usize) -> u32 {
+        u32::from_le_bytes(self.word(index, 0))
+    }
+
+    /// glTF 2.0, section 3.6.2.2 and section 3.11: normalized integers map to [0, 1] or [-1, 1].
+    fn float(&self, index: usize, component: usize) -> f32 {
+        let word = self.word(index, component);
+        let (value, largest) = match self.component {
+            ComponentType::F32 => return f32::from_le_bytes(word),
+            ComponentType::I8 => (f32::from(word[0] as i8), 127.0),
+            ComponentType::U8 => (f32::from(word[0]), 255.0),
+            ComponentType::I16 => (f32::from(i16::from_le_bytes([word[0], word[1]])), 32767.0),
+            ComponentType::U16 => (f32::from(u16::from_le_bytes([word[0], word[1]])), 65535.0),
+            ComponentType::U32 => (u32::from_le_bytes(word) as f32, 4_294_967_295.0),
+        };
+        if self.normalized {
+            (value / largest).max(-1.0)
+        } else {
+            value
+        }
+    }
+}

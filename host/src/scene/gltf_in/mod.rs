@@ -1,0 +1,180 @@
+//! glTF 2.0 in: `.gltf` with external or embedded buffers, and `.glb`.
+//!
+//! The `gltf` crate gives the JSON model only. Its own readers index buffers by numbers from the file and panic on
+//! hostile ones, so buffers are read here, every range checked before it is used and every count before anything is
+//! allocated for it.
+//!
+//! Read: triangle meshes, instances, node animation, metallic-roughness factors, emission (factor, texture averaged per
+//! triangle, `KHR_materials_emissive_strength`), `doubleSided`, perspective cameras. Radiance is taken as
+//! W/(m² sr) where glTF says nits; only the exposure differs. The rest is left out with a note in
+//! [`super::SceneData::warnings`], or refused where the file says that it is required.
+
+mod accessor;
+mod animation;
+mod container;
+mod image;
+mod material;
+mod mesh;
+mod node;
+
+use std::borrow::Cow;
+use std::cell::{Cell, RefCell};
+use std::path::Path;
+
+use gltf::json;
+
+use super::error::SceneError;
+use super::model::{Scene, SceneData};
+
+/// Attribute of vertices, without the underscore: radiance of the triangle that the vertex belongs to. Written by
+/// [`super::glb_out`] for emission that differs from triangle to triangle; glTF leaves names with `_` to applications.
+pub(super) const RADIANCE_ATTRIBUTE: &str = "RADIANCE";
+
+/// Key in the scene's `extras`: background radiance, three numbers.
+pub(super) const BACKGROUND_EXTRA: &str = "lightbvh_background";
+
+/// Required extensions that change nothing that is used here, besides all of `KHR_materials_`.
+const HARMLESS_EXTENSIONS: [&str; 2] = ["KHR_mesh_quantization", "KHR_lights_punctual"];
+
+/// Most elements read from accessors over the whole file: 2^27, so that many primitives that share one accessor
+/// cannot turn a small file into unbounded memory.
+const MAX_ELEMENTS: u64 = 1 << 27;
+
+/// Warnings kept; the rest is counted.
+const MAX_WARNINGS: usize = 50;
+
+impl Scene {
+    /// Reads a `.gltf` or `.glb` file and checks it.
+    ///
+    /// # Errors
+    /// What [`Scene::new`] refuses, and unreadable, truncated or malformed files.
+    pub fn read_gltf(path: &Path) -> Result<Self, SceneError> {
+        let bytes = container::read_file(path)?;
+        Self::read_gltf_slice(&path.display().to_string(), &bytes, path.parent())
+    }
+
+    /// The same for a file in memory; `name` stands for the path in messages, `folder` is where external buffers and
+    /// images lie (`None`: there are none).
+    ///
+    /// # Errors
+    /// As [`Scene::read_gltf`].
+    pub fn read_gltf_slice(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Self, SceneError> {
+        let (text, binary) = container::split(name, bytes)?;
+        let root: json::Root = json::deserialize::from_slice(text)
+            .map_err(|error| container::broken(name, format!("its JSON part: {error}")))?;
+        let mut document = Document {
+            path: name,
+            folder,
+            root: &root,
+            buffers: Vec::new(),
+            elements: Cell::new(0),
+            pixels: Cell::new(0),
+            warnings: RefCell::default(),
+        };
+        document.check_required_extensions()?;
+        document.buffers = container::buffers(&document, binary)?;
+        let mut data = SceneData {
+            name: name.to_owned(),
+            ..SceneData::default()
+        };
+        data.materials = material::read(&document)?;
+        data.meshes = mesh::read(&document, &mut data.materials)?;
+        let order = node::read(&document, &mut data)?;
+        data.animations = animation::read(&document, &order)?;
+        data.warnings = document.into_warnings();
+        Self::new(data)
+    }
+}
+
+/// A parsed file and what has been read of it.
+struct Document<'a> {
+    path: &'a str,
+    folder: Option<&'a Path>,
+    root: &'a json::Root,
+    /// By index; each has the length that the JSON claims.
+    buffers: Vec<Cow<'a, [u8]>>,
+    /// Accessor elements read so far, against [`MAX_ELEMENTS`].
+    elements: Cell<u64>,
+    /// Pixels decoded so far.
+    pixels: Cell<u64>,
+    warnings: RefCell<Vec<String>>,
+}
+
+impl Document<'_> {
+    fn malformed(
+        &self,
+        element: impl Into<String>,
+        problem: impl Into<String>,
+        advice: &'static str,
+    ) -> SceneError {
+        let path = self.path.to_owned();
+        SceneError::Malformed {
+            path,
+            element: element.into(),
+            problem: problem.into(),
+            advice,
+        }
+    }
+
+    fn unsupported(
+        &self,
+        element: impl Into<String>,
+        feature: impl Into<String>,
+        advice: &'static str,
+    ) -> SceneError {
+        let path = self.path.to_owned();
+        SceneError::Unsupported {
+            path,
+            element: element.into(),
+            feature: feature.into(),
+            advice,
+        }
+    }
+
+    fn warn(&self, warning: String) {
+        self.warnings.borrow_mut().push(warning);
+    }
+
+    fn into_warnings(self) -> Vec<String> {
+        let mut warnings = self.warnings.into_inner();
+        if warnings.len() > MAX_WARNINGS {
+            let more = warnings.len() - MAX_WARNINGS;
+            warnings.truncate(MAX_WARNINGS);
+            warnings.push(format!("and {more} more"));
+        }
+        warnings
+    }
+
+    /// `list[index]`, or an error that names who asked.
+    fn get<'r, T>(
+        &self,
+        list: &'r [T],
+        index: json::Index<T>,
+        what: &str,
+        element: &str,
+    ) -> Result<&'r T, SceneError> {
+        list.get(index.value()).ok_or_else(|| {
+            let problem = format!(
+                "refers to {what} {}, but there are only {}",
+                index.value(),
+                list.len()
+            );
+            self.malformed(element, problem, "repair the reference or export the file again")
+        })
+    }
+
+    fn check_required_extensions(&self) -> Result<(), SceneError> {
+        for (index, name) in self.root.extensions_required.iter().enumerate() {
+            if !name.starts_with("KHR_materials_") && !HARMLESS_EXTENSIONS.contains(&name.as_str()) {
+                let advice = "export the file without this extension (for example without compression)";
+                return Err(self.unsupported(format!("extensionsRequired[{index}]"), name.clone(), advice));
+            }
+        }
+        for name in &self.root.extensions_used {
+            if name == "KHR_lights_punctual" || name == "KHR_texture_transform" {
+                self.warn(format!("extension {name} is ignored"));
+            }
+        }
+        Ok(())
+    }
+}

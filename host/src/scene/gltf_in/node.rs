@@ -1,0 +1,165 @@
+//! Nodes of the file's default scene, parents before children; cameras and the background.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use gltf::json;
+
+use super::super::error::SceneError;
+use super::super::model::{Camera, Node, SceneData};
+use super::super::transform::Transform;
+use super::{BACKGROUND_EXTRA, Document};
+
+/// Fills nodes, cameras and background; gives the place of each of the file's nodes, `None` where the scene does not
+/// use it.
+pub(super) fn read(document: &Document<'_>, data: &mut SceneData) -> Result<Vec<Option<u32>>, SceneError> {
+    let nodes = &document.root.nodes;
+    let parents = parents(document)?;
+    let roots = roots(document, &parents, data)?;
+
+    // Lowest index first among those whose parent is placed: files that are in order keep their order.
+    let mut ready: BinaryHeap<Reverse<usize>> = roots.into_iter().map(Reverse).collect();
+    let mut place: Vec<Option<u32>> = vec![None; nodes.len()];
+    let mut cameras = Vec::new();
+    while let Some(Reverse(index)) = ready.pop() {
+        if place[index].is_some() {
+            continue;
+        }
+        place[index] = Some(data.nodes.len() as u32);
+        let parent = parents[index].and_then(|parent| place[parent]);
+        add(document, index, parent, data, &mut cameras)?;
+        ready.extend(
+            nodes[index]
+                .children
+                .iter()
+                .flatten()
+                .map(|child| Reverse(child.value())),
+        );
+    }
+    // The file's first camera is the one to see from, wherever its node stands.
+    cameras.sort_by_key(|&(index, _)| index);
+    data.cameras = cameras.into_iter().map(|(_, camera)| camera).collect();
+    Ok(place)
+}
+
+/// The parent of each node; refuses nodes with two (glTF 2.0, section 3.5.1: node hierarchies are trees).
+fn parents(document: &Document<'_>) -> Result<Vec<Option<usize>>, SceneError> {
+    let nodes = &document.root.nodes;
+    let mut parents: Vec<Option<usize>> = vec![None; nodes.len()];
+    for (index, node) in nodes.iter().enumerate() {
+        let element = format!("nodes[{index}].children");
+        for &child in node.children.iter().flatten() {
+            document.get(nodes, child, "node", &element)?;
+            if let Some(other) = parents[child.value()].replace(index) {
+                let problem = format!("node {} is also a child of node {other}", child.value());
+                return Err(document.malformed(element, problem, "give each node one parent"));
+            }
+        }
+    }
+    Ok(parents)
+}
+
+/// Roots of the default scene, or all roots where the file has no scene.
+fn roots(
+    document: &Document<'_>,
+    parents: &[Option<usize>],
+    data: &mut SceneData,
+) -> Result<Vec<usize>, SceneError> {
+    let scene = match document.root.scene {
+        Some(index) => Some(document.get(&document.root.scenes, index, "scene", "scene")?),
+        None => document.root.scenes.first(),
+    };
+    let Some(scene) = scene else {
+        return Ok((0..parents.len())
+            .filter(|&node| parents[node].is_none())
+            .collect());
+    };
+    data.background = background(document, scene)?;
+    let mut roots = Vec::new();
+    for &node in &scene.nodes {
+        document.get(&document.root.nodes, node, "node", "scene.nodes")?;
+        if let Some(parent) = parents[node.value()] {
+            // Also how every cycle that a scene can reach shows, as each node has at most one parent.
+            let problem = format!(
+                "node {} is a root, and also a child of node {parent}",
+                node.value()
+            );
+            return Err(document.malformed("scene.nodes", problem, "list only nodes without a parent"));
+        }
+        roots.push(node.value());
+    }
+    Ok(roots)
+}
+
+/// Appends a node; its camera goes to `cameras`, with the camera's index in the file.
+fn add(
+    document: &Document<'_>,
+    index: usize,
+    parent: Option<u32>,
+    data: &mut SceneData,
+    cameras: &mut Vec<(usize, Camera)>,
+) -> Result<(), SceneError> {
+    let node = &document.root.nodes[index];
+    let element = format!("nodes[{index}]");
+    let mesh = match node.mesh {
+        Some(mesh) => {
+            document.get(&document.root.meshes, mesh, "mesh", &element)?;
+            Some(mesh.value() as u32)
+        }
+        None => None,
+    };
+    if node.skin.is_some() {
+        document.warn(format!(
+            "{element}: its skin is ignored, the mesh stays in its rest pose"
+        ));
+    }
+    if let Some(index) = node.camera {
+        let camera = document.get(&document.root.cameras, index, "camera", &element)?;
+        let index = index.value();
+        match &camera.perspective {
+            Some(perspective) => {
+                let place = Camera {
+                    node: data.nodes.len() as u32,
+                    yfov: perspective.yfov,
+                };
+                cameras.push((index, place));
+            }
+            None => document.warn(format!("{element}: its camera is not perspective and is ignored")),
+        }
+    }
+    let name = node.name.clone().unwrap_or_else(|| format!("node {index}"));
+    data.nodes.push(Node {
+        name,
+        parent,
+        transform: transform(node),
+        mesh,
+    });
+    Ok(())
+}
+
+fn transform(node: &json::Node) -> Transform {
+    match node.matrix {
+        // The last row of an affine matrix is (0, 0, 0, 1) (glTF 2.0, section 3.5.3).
+        Some(m) => Transform::Matrix([0, 4, 8, 12].map(|column| [m[column], m[column + 1], m[column + 2]])),
+        None => Transform::Trs {
+            translation: node.translation.unwrap_or_default(),
+            rotation: node.rotation.unwrap_or_default().0,
+            scale: node.scale.unwrap_or([1.0; 3]),
+        },
+    }
+}
+
+/// From the scene's extras; black where there is none.
+fn background(document: &Document<'_>, scene: &json::Scene) -> Result<[f32; 3], SceneError> {
+    let Some(extras) = &scene.extras else {
+        return Ok([0.0; 3]);
+    };
+    let value: serde_json::Value = serde_json::from_str(extras.get()).unwrap_or_default();
+    let Some(background) = value.get(BACKGROUND_EXTRA) else {
+        return Ok([0.0; 3]);
+    };
+    serde_json::from_value(background.clone()).map_err(|error| {
+        let element = format!("scene.extras.{BACKGROUND_EXTRA}");
+        document.malformed(element, error.to_string(), "write three numbers")
+    })
+}

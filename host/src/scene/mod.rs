@@ -1,0 +1,45 @@
+//! Scenes: triangles, emissive materials, node animation and a camera, turned into world-space triangles per frame.
+//!
+//! ```text
+//! Scene::open("street" | "path.glb")      load.rs: a built-in name or a glTF 2.0 file
+//!   └─ Scene (checked)                    model.rs: nodes, meshes, materials, animations; check.rs: what is refused
+//!        ├─ Scene::frame(n) -> Frame      frame.rs: triangles, emissive triangles, mesh lights, camera at n / 25 s
+//!        └─ Scene::write_glb(path)        glb_out.rs: any scene as .glb
+//! ```
+//!
+//! The three built-ins stand for the test scenes of the two-level light BVH paper, which cannot be shipped: [`street`]
+//! for Bistro Exterior (a long street along which lights are carried), [`square`] for Emerald Square (wide, thousands
+//! of small lights), [`carousel`] for Measure One (tens of thousands of emissive triangles, most of them moving).
+//!
+//! Conventions are those of glTF 2.0: metres, +Y up, right-handed, cameras look along -Z, the front of a triangle is
+//! its counter-clockwise side. All trigonometry goes through the `libm` crate and all hierarchies are multiplied in
+//! `f64`, so that a scene has the same words on every machine.
+
+mod animate;
+mod builder;
+mod camera;
+mod check;
+mod dice;
+mod error;
+mod frame;
+mod glb_out;
+mod gltf_in;
+mod load;
+mod model;
+mod reach;
+mod shapes;
+mod track;
+mod transform;
+
+pub mod carousel;
+pub mod square;
+pub mod street;
+
+pub use check::MAX_TRIANGLES;
+pub use error::SceneError;
+pub use frame::{FRAMES_PER_SECOND, Frame, MeshRange};
+pub use load::BUILT_IN;
+pub use model::{
+    Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
+};
+pub use transform::Transform;

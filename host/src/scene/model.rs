@@ -1,0 +1,274 @@
+//! The scene model: a checked [`Scene`] around plain [`SceneData`].
+
+use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
+
+use crate::render::View;
+
+use super::error::SceneError;
+use super::transform::Transform;
+
+/// A scene that passed every check of [`Scene::new`]: finite, in range, references whole.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    data: SceneData,
+    /// Camera for scenes that bring none, made from the bounds at frame 0.
+    pub(super) default_camera: View,
+    pub(super) counts: Counts,
+}
+
+/// Everything a scene is made of, unchecked, open for construction.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SceneData {
+    /// Built-in name or path of the file.
+    pub name: String,
+    /// Parents before their children.
+    pub nodes: Vec<Node>,
+    /// Meshes, placed by nodes, any number of times each.
+    pub meshes: Vec<Mesh>,
+    /// Materials, named by primitives.
+    pub materials: Vec<Material>,
+    /// All animations run at once, each looping over its own duration.
+    pub animations: Vec<Animation>,
+    /// The first one is the one that frames are seen from.
+    pub cameras: Vec<Camera>,
+    /// Radiance of rays that leave the scene, W/(m² sr), linear RGB.
+    pub background: [f32; 3],
+    /// What the loader left out, one sentence each.
+    pub warnings: Vec<String>,
+}
+
+/// One place in the hierarchy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Node {
+    /// For messages; need not be unique.
+    pub name: String,
+    /// Index into [`SceneData::nodes`], below the node's own index.
+    pub parent: Option<u32>,
+    /// Relative to the parent.
+    pub transform: Transform,
+    /// Index into [`SceneData::meshes`].
+    pub mesh: Option<u32>,
+}
+
+/// Primitives that move together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// For messages and for the names of mesh lights.
+    pub name: String,
+    /// One material each.
+    pub primitives: Vec<Primitive>,
+}
+
+/// Indexed triangles of one material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Primitive {
+    /// Metres, in the node's space; each coordinate within ±2^40.
+    pub positions: Vec<[f32; 3]>,
+    /// Vertex indices, counter-clockwise seen from the front.
+    pub triangles: Vec<[u32; 3]>,
+    /// Index into [`SceneData::materials`].
+    pub material: u32,
+    /// Radiance of each triangle where an emissive texture makes them differ; replaces the material's.
+    pub radiance: Option<Vec<[f32; 3]>>,
+}
+
+/// How a surface reflects and emits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// For messages.
+    pub name: String,
+    /// Linear RGB, each in [0, 1].
+    pub base_color: [f32; 3],
+    /// Emitted radiance, W/(m² sr), linear RGB, emissive strength included; not negative.
+    pub radiance: [f32; 3],
+    /// Whether the back side reflects and emits too.
+    pub double_sided: bool,
+    /// In [0, 1].
+    pub metallic: f32,
+    /// Perceptual roughness in [0, 1].
+    pub roughness: f32,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self {
+            name: String::from("default"),
+            base_color: [1.0; 3],
+            radiance: [0.0; 3],
+            double_sided: false,
+            metallic: 0.0,
+            roughness: 1.0,
+        }
+    }
+}
+
+impl Material {
+    /// Maps metallic and roughness to the reference renderer's two lobes.
+    ///
+    /// Normal-incidence reflectance is 0.04 for dielectrics and the base colour for metals (glTF 2.0, appendix B.2).
+    /// The exponent follows Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces",
+    /// section 5.2: n = 2/α² - 2 with α = roughness², rounded down to a power of two. The glossy lobe is white in the
+    /// reference renderer, so a metal keeps its colour in the diffuse lobe that is left.
+    #[must_use]
+    pub fn surface(&self) -> SurfaceMaterial {
+        let [r, g, b] = self.base_color;
+        let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        let alpha = (self.roughness * self.roughness).max(1.0 / 32.0);
+        let exponent = (2.0 / (alpha * alpha) - 2.0).clamp(1.0, 1024.0) as u32;
+        SurfaceMaterial {
+            albedo: self.base_color,
+            specular: 0.04 * (1.0 - self.metallic) + luminance * self.metallic,
+            exponent_log2: exponent.ilog2(),
+        }
+    }
+}
+
+/// Channels that share a clock.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Animation {
+    /// For messages.
+    pub name: String,
+    /// What moves.
+    pub channels: Vec<Channel>,
+}
+
+impl Animation {
+    /// Time of the last key of any channel, in seconds; the animation starts again there.
+    #[must_use]
+    pub fn duration(&self) -> f32 {
+        self.channels
+            .iter()
+            .filter_map(|c| c.times.last().copied())
+            .fold(0.0, f32::max)
+    }
+}
+
+/// Keys for one property of one node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// Index into [`SceneData::nodes`]; the node's transform must be [`Transform::Trs`].
+    pub node: u32,
+    /// What the values replace.
+    pub property: Property,
+    /// How values between keys are found.
+    pub interpolation: Interpolation,
+    /// Seconds, not negative, ascending.
+    pub times: Vec<f32>,
+    /// One per key, or in-tangent, value, out-tangent per key for [`Interpolation::CubicSpline`]. The fourth
+    /// component counts for rotations only.
+    pub values: Vec<[f32; 4]>,
+}
+
+/// The animated part of a transform.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Property {
+    /// Metres.
+    Translation,
+    /// Quaternion `[x, y, z, w]`.
+    Rotation,
+    /// Factors.
+    Scale,
+}
+
+/// glTF 2.0, appendix C.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interpolation {
+    /// The last key's value.
+    Step,
+    /// Straight lines; spherical for rotations.
+    Linear,
+    /// Hermite splines with given tangents.
+    CubicSpline,
+}
+
+/// A perspective camera on a node, looking along the node's -Z.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Index into [`SceneData::nodes`].
+    pub node: u32,
+    /// Vertical field of view, radians, in (0, π).
+    pub yfov: f32,
+}
+
+/// Sizes of every frame of a scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Counts {
+    pub triangles: usize,
+    pub emissive: usize,
+    pub mesh_lights: usize,
+}
+
+impl Primitive {
+    /// Whether triangle `index` emits, given its material's radiance.
+    pub(super) fn triangle_radiance(&self, index: usize, of_material: [f32; 3]) -> [f32; 3] {
+        self.radiance
+            .as_ref()
+            .map_or(of_material, |radiance| radiance[index])
+    }
+}
+
+impl Scene {
+    /// Wraps data that [`Scene::new`] found sound.
+    pub(super) fn from_checked(data: SceneData, counts: Counts, default_camera: View) -> Self {
+        Self {
+            data,
+            default_camera,
+            counts,
+        }
+    }
+
+    /// Built-in name or path of the file.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.data.name
+    }
+
+    /// What the scene is made of.
+    #[must_use]
+    pub fn data(&self) -> &SceneData {
+        &self.data
+    }
+
+    /// Gives the parts back, for changes; [`Scene::new`] checks them again.
+    #[must_use]
+    pub fn into_data(self) -> SceneData {
+        self.data
+    }
+
+    /// What the loader left out, one sentence each.
+    #[must_use]
+    pub fn warnings(&self) -> &[String] {
+        &self.data.warnings
+    }
+
+    /// Triangles of every frame.
+    #[must_use]
+    pub fn triangle_count(&self) -> usize {
+        self.counts.triangles
+    }
+
+    /// Emissive triangles of every frame.
+    #[must_use]
+    pub fn emissive_count(&self) -> usize {
+        self.counts.emissive
+    }
+
+    /// Mesh lights of every frame: instances of emissive primitives.
+    #[must_use]
+    pub fn mesh_light_count(&self) -> usize {
+        self.counts.mesh_lights
+    }
+
+    /// For commands that sample lights.
+    ///
+    /// # Errors
+    /// [`SceneError::NoEmissive`] where no triangle emits.
+    pub fn require_lights(&self) -> Result<(), SceneError> {
+        if self.counts.emissive == 0 {
+            return Err(SceneError::NoEmissive {
+                scene: self.data.name.clone(),
+            });
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,238 @@
+//! Small glTF files and scenes for the tests of the loader.
+
+use lightbvh_host::scene::{
+    Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
+    SceneError, Transform,
+};
+use serde_json::{Value, json};
+
+/// Reads bytes as a file called `test`.
+///
+/// # Errors
+/// As the loader.
+pub fn read(bytes: &[u8]) -> Result<Scene, SceneError> {
+    Scene::read_gltf_slice("test", bytes, None)
+}
+
+/// Reads JSON as a `.gltf` file called `test`.
+///
+/// # Errors
+/// As the loader.
+pub fn read_json(root: &Value) -> Result<Scene, SceneError> {
+    read(root.to_string().as_bytes())
+}
+
+/// Base64 as in RFC 4648, for buffers inside JSON.
+#[must_use]
+pub fn base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::new();
+    for chunk in bytes.chunks(3) {
+        let word = [0, 1, 2].map(|i| u32::from(chunk.get(i).copied().unwrap_or(0)));
+        let word = word[0] << 16 | word[1] << 8 | word[2];
+        for digit in 0..4 {
+            let filled = digit <= chunk.len();
+            text.push(if filled {
+                char::from(DIGITS[(word >> (18 - 6 * digit) & 63) as usize])
+            } else {
+                '='
+            });
+        }
+    }
+    text
+}
+
+/// One emissive triangle with vertices (0,0,0), (1,0,0), (0,1,0) and indices 0 1 2 behind them.
+#[must_use]
+pub fn triangle() -> Value {
+    let mut bytes: Vec<u8> = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]
+        .iter()
+        .flat_map(|x| x.to_le_bytes())
+        .collect();
+    bytes.extend([0_u16, 1, 2].iter().flat_map(|i| i.to_le_bytes()));
+    json!({
+        "asset": { "version": "2.0" },
+        "scene": 0,
+        "scenes": [{ "nodes": [0] }],
+        "nodes": [{ "mesh": 0 }],
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "indices": 1, "material": 0 }] }],
+        "materials": [{ "emissiveFactor": [1.0, 0.5, 0.25] }],
+        "accessors": [
+            { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3" },
+            { "bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR" },
+        ],
+        "bufferViews": [
+            { "buffer": 0, "byteOffset": 0, "byteLength": 36 },
+            { "buffer": 0, "byteOffset": 36, "byteLength": 6 },
+        ],
+        "buffers": [
+            { "byteLength": 42, "uri": format!("data:application/octet-stream;base64,{}", base64(&bytes)) },
+        ],
+    })
+}
+
+/// [`triangle`] with one place changed.
+#[must_use]
+pub fn changed(pointer: &str, value: Value) -> Value {
+    let mut root = triangle();
+    let (parent, key) = pointer.rsplit_once('/').expect("a pointer starts with a slash");
+    let parent = root.pointer_mut(parent).expect("the parent is there");
+    match parent {
+        Value::Array(list) => list[key.parse::<usize>().expect("a list index")] = value,
+        _ => parent[key] = value,
+    }
+    root
+}
+
+/// A 2 by 1 PNG: left texel white, right texel black (stored blocks, by hand, so that no encoder is needed).
+#[must_use]
+pub fn png_white_black() -> Vec<u8> {
+    fn crc(bytes: &[u8]) -> u32 {
+        let mut crc = !0_u32;
+        for &byte in bytes {
+            crc ^= u32::from(byte);
+            for _ in 0..8 {
+                crc = if crc & 1 == 1 {
+                    crc >> 1 ^ 0xedb8_8320
+                } else {
+                    crc >> 1
+                };
+            }
+        }
+        !crc
+    }
+    fn adler(bytes: &[u8]) -> u32 {
+        let (mut a, mut b) = (1_u32, 0_u32);
+        for &byte in bytes {
+            a = (a + u32::from(byte)) % 65_521;
+            b = (b + a) % 65_521;
+        }
+        b << 16 | a
+    }
+    let mut png = b"\x89PNG\r\n\x1a\n".to_vec();
+    let mut chunk = |kind: &[u8; 4], content: &[u8]| {
+        png.extend((content.len() as u32).to_be_bytes());
+        let body = [kind.as_slice(), content].concat();
+        png.extend(&body);
+        png.extend(crc(&body).to_be_bytes());
+    };
+    chunk(b"IHDR", &[0, 0, 0, 2, 0, 0, 0, 1, 8, 2, 0, 0, 0]);
+    let row = [0, 255, 255, 255, 0, 0, 0];
+    let mut stream = vec![0x78, 0x01, 1, 7, 0, 248, 255];
+    stream.extend(row);
+    stream.extend(adler(&row).to_be_bytes());
+    chunk(b"IDAT", &stream);
+    chunk(b"IEND", &[]);
+    png
+}
+
+/// Two nodes, one swinging on the other, every interpolation, a camera, radiance per triangle, a matrix node.
+#[must_use]
+pub fn busy() -> SceneData {
+    let key = |x: f32| [x, 0.5 * x, 0.0, 0.0];
+    let channel = |node, property, interpolation, values: Vec<[f32; 4]>, times: &[f32]| Channel {
+        node,
+        property,
+        interpolation,
+        times: times.to_vec(),
+        values,
+    };
+    let node = |parent, transform, mesh| Node {
+        name: String::from("n"),
+        parent,
+        transform,
+        mesh,
+    };
+    SceneData {
+        name: String::from("test"),
+        nodes: vec![
+            node(None, Transform::at([1.0, 2.0, 3.0]), Some(0)),
+            node(Some(0), Transform::IDENTITY, Some(0)),
+            node(
+                Some(1),
+                Transform::Matrix([[1.0, 0.5, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [0.1; 3]]),
+                Some(1),
+            ),
+            node(Some(0), Transform::IDENTITY, None),
+        ],
+        meshes: vec![
+            Mesh {
+                name: String::from("a"),
+                primitives: vec![tetrahedron(0, None)],
+            },
+            Mesh {
+                name: String::from("b"),
+                primitives: vec![
+                    tetrahedron(1, None),
+                    tetrahedron(1, Some(vec![[0.1; 3], [0.0; 3], [0.3; 3], [1e-3; 3]])),
+                ],
+            },
+        ],
+        materials: vec![
+            Material {
+                radiance: [12.5, 1e-3, 700.0],
+                double_sided: true,
+                ..Material::default()
+            },
+            Material {
+                base_color: [0.1, 0.2, 0.3],
+                metallic: 0.7,
+                roughness: 0.2,
+                ..Material::default()
+            },
+        ],
+        animations: vec![
+            Animation {
+                name: String::from("one"),
+                channels: vec![
+                    channel(
+                        0,
+                        Property::Translation,
+                        Interpolation::Linear,
+                        vec![key(0.0), key(3.0), key(0.0)],
+                        &[0.0, 1.0, 2.0],
+                    ),
+                    channel(
+                        0,
+                        Property::Scale,
+                        Interpolation::Step,
+                        vec![[1.0; 4], [-2.0, 1.0, 1.0, 0.0]],
+                        &[0.0, 0.7],
+                    ),
+                ],
+            },
+            Animation {
+                name: String::from("two"),
+                channels: vec![
+                    channel(
+                        1,
+                        Property::Rotation,
+                        Interpolation::Linear,
+                        vec![[0.0, 0.0, 0.0, 1.0], [0.0, 0.7, 0.0, 0.7]],
+                        &[0.0, 1.3],
+                    ),
+                    channel(
+                        1,
+                        Property::Translation,
+                        Interpolation::CubicSpline,
+                        (0..6).map(|i| key(i as f32)).collect(),
+                        &[0.1, 0.9],
+                    ),
+                ],
+            },
+        ],
+        cameras: vec![Camera { node: 3, yfov: 0.7 }],
+        background: [0.1, 0.2, 0.3],
+        warnings: Vec::new(),
+    }
+}
+
+fn tetrahedron(material: u32, radiance: Option<Vec<[f32; 3]>>) -> Primitive {
+    let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    Primitive {
+        positions,
+        triangles: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+        material,
+        radiance,
+    }
+}
