@@ -2,7 +2,10 @@
 #![deny(unsafe_code)]
 
 pub mod backend;
+pub mod cli;
 pub mod compare;
+pub mod error;
 pub mod render;
 pub mod scene;
 pub mod vulkan;
+pub mod workload;

@@ -1,0 +1,277 @@
+//! `lightbvh bench`: time per item and bytes per light, beside a plain copy of the same bytes; and what speed costs in
+//! accuracy.
+
+mod trade;
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use lightbvh::exact::{hash, unit_f32};
+use lightbvh::{BuildParams, EmissiveTriangle, Lights, ShadingPoint};
+use lightbvh_kernels::query::Query;
+use serde::Serialize;
+use serde_json::json;
+
+use super::{Context, Outcome, devices, table};
+use crate::backend::{Backend, Bvh, CpuBackend, DeviceBackend, Sampler};
+use crate::error::HostError;
+use crate::workload::build;
+
+/// Side of the box that the lights lie in and edge of a light, metres: the scene of the speed bar.
+const SIDE: f32 = 100.0;
+const EDGE: f32 = 0.1;
+/// Cells along each side that group the triangles into mesh lights: about a hundred triangles each at 10^5.
+const CELLS: u32 = 10;
+/// Runs of each measurement; the median counts.
+const RUNS: usize = 5;
+/// Queries of one run.
+const QUERIES: u32 = 200_000;
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// Number of emissive triangles, 1 to 10^8.
+    #[arg(long, default_value_t = 100_000)]
+    lights: u32,
+    /// Leave out the table of accuracy against speed.
+    #[arg(long)]
+    no_trade: bool,
+}
+
+/// A measurement.
+#[derive(Clone, Debug, Serialize)]
+struct Case {
+    what: &'static str,
+    structure: &'static str,
+    lights: u32,
+    backend: String,
+    threads: usize,
+    ns_per_item: f64,
+    /// Least and greatest of the runs.
+    ns_least: f64,
+    ns_most: f64,
+    bytes_per_light: f64,
+    /// Time of the whole pass over that of copying the structure's bytes once with one thread.
+    copies: f64,
+}
+
+pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
+    if args.lights == 0 || args.lights > 100_000_000 {
+        let value = args.lights.into();
+        return Err(HostError::Range {
+            option: "--lights",
+            value,
+            expected: "1 to 100000000",
+        });
+    }
+    let opened = devices::open(context)?;
+    let lights = random_lights(args.lights);
+    let queries = random_queries(QUERIES);
+    let one = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .expect("a pool of one thread");
+    let all = rayon::current_num_threads();
+
+    let mut cases = Vec::new();
+    for structure in [Sampler::SingleLevel, Sampler::TwoLevel] {
+        eprintln!("{}", structure.name());
+        let build_times = measure(|| {
+            black_box(build(&lights, structure, &BuildParams::default()));
+        });
+        let bvh: Bvh = build(&lights, structure, &BuildParams::default());
+        let words: &[u32] = bytemuck::cast_slice(bvh.nodes());
+        let mut target = words.to_vec();
+        let copy = median(&measure(|| target.copy_from_slice(black_box(words))));
+        let copy = copy.as_secs_f64() * bvh.bytes() as f64 / size_of_val(words) as f64;
+
+        let mut push = |what, backend: &str, threads, times: &[Duration], items: u32| {
+            let ns = |time: Duration| time.as_nanos() as f64 / f64::from(items);
+            cases.push(Case {
+                what,
+                structure: structure.name(),
+                lights: args.lights,
+                backend: backend.to_owned(),
+                threads,
+                ns_per_item: ns(median(times)),
+                ns_least: ns(times.iter().copied().min().unwrap_or_default()),
+                ns_most: ns(times.iter().copied().max().unwrap_or_default()),
+                bytes_per_light: bvh.bytes() as f64 / f64::from(args.lights),
+                copies: median(times).as_secs_f64() / copy,
+            });
+        };
+        push("build", "cpu", 1, &build_times, args.lights);
+        let mut cpu = CpuBackend::new(bvh.clone(), lights.clone());
+        for threads in [1, all] {
+            let times = |cpu: &mut CpuBackend| passes(cpu, &lights, &queries);
+            let times = if threads == 1 {
+                one.install(|| times(&mut cpu))?
+            } else {
+                times(&mut cpu)?
+            };
+            push("refit", "cpu", threads, &times.refit, args.lights);
+            push("sample", "cpu", threads, &times.sample, QUERIES);
+            push("pmf", "cpu", threads, &times.pmf, QUERIES);
+            if all == 1 {
+                break;
+            }
+        }
+        for o in &opened {
+            let mut device = DeviceBackend::new(&o.device, &bvh, &lights)?;
+            let times = passes(&mut device, &lights, &queries)?;
+            push("refit", o.device.name(), 0, &times.refit, args.lights);
+            push("sample", o.device.name(), 0, &times.sample, QUERIES);
+            push("pmf", o.device.name(), 0, &times.pmf, QUERIES);
+        }
+    }
+    devices::close(opened)?;
+    let trade = if args.no_trade { Vec::new() } else { trade::rows() };
+    print(context, &cases, &trade)?;
+    Ok(Outcome::Good)
+}
+
+/// Times of several runs of each pass.
+struct Times {
+    refit: Vec<Duration>,
+    sample: Vec<Duration>,
+    pmf: Vec<Duration>,
+}
+
+fn passes(backend: &mut dyn Backend, lights: &Lights, queries: &[Query]) -> Result<Times, HostError> {
+    let mut times = Times {
+        refit: Vec::new(),
+        sample: Vec::new(),
+        pmf: Vec::new(),
+    };
+    // A device compiles at the first dispatch; that run is not counted.
+    for run in 0..=RUNS {
+        let refit = backend.refit(lights)?.time;
+        let sampled = backend.sample(queries)?;
+        let asked: Vec<Query> = queries
+            .iter()
+            .zip(&sampled.value)
+            .map(|(query, sampled)| Query {
+                random_or_light: sampled.light,
+                ..*query
+            })
+            .collect();
+        let pmf = backend.pmf(&asked)?.time;
+        if run > 0 {
+            times.refit.push(refit);
+            times.sample.push(sampled.time);
+            times.pmf.push(pmf);
+        }
+    }
+    Ok(times)
+}
+
+fn measure(mut work: impl FnMut()) -> Vec<Duration> {
+    (0..RUNS)
+        .map(|_| {
+            let start = Instant::now();
+            work();
+            start.elapsed()
+        })
+        .collect()
+}
+
+fn median(times: &[Duration]) -> Duration {
+    let mut sorted = times.to_vec();
+    sorted.sort_unstable();
+    sorted.get(sorted.len() / 2).copied().unwrap_or_default()
+}
+
+/// Small triangles anywhere in the box, grouped into mesh lights by the cell that they lie in.
+fn random_lights(count: u32) -> Lights {
+    let draw = |i: u32, k: u32| unit_f32(hash(hash(i).wrapping_add(k)));
+    let mut triangles: Vec<(u32, EmissiveTriangle)> = (0..count)
+        .map(|i| {
+            let corner: [f32; 3] = std::array::from_fn(|k| draw(i, k as u32) * SIDE);
+            let vertex = |v: u32| std::array::from_fn(|k| corner[k] + EDGE * draw(i, 3 + 3 * v + k as u32));
+            let radiance = std::array::from_fn(|k| 0.1 + draw(i, 12 + k as u32));
+            let cell = corner.map(|c| (c / SIDE * CELLS as f32) as u32);
+            let cell = (cell[0] * CELLS + cell[1]) * CELLS + cell[2];
+            let p = [vertex(0), vertex(1), vertex(2)];
+            (
+                cell,
+                EmissiveTriangle {
+                    p,
+                    radiance,
+                    mesh: 0,
+                    flags: 0,
+                },
+            )
+        })
+        .collect();
+    triangles.sort_by_key(|&(cell, _)| cell);
+    let mut mesh = 0;
+    let mut last = None;
+    let numbered = triangles.into_iter().map(|(cell, mut triangle)| {
+        mesh += u32::from(last.is_some_and(|last| last != cell));
+        last = Some(cell);
+        triangle.mesh = mesh;
+        triangle
+    });
+    Lights::new(numbered.collect()).expect("the lights are made within the domain")
+}
+
+/// Points in the box with any normal.
+fn random_queries(count: u32) -> Vec<Query> {
+    (0..count)
+        .map(|i| {
+            let draw = |k: u32| unit_f32(hash(hash(!i).wrapping_add(k)));
+            let p = std::array::from_fn(|k| draw(k as u32) * SIDE);
+            let d: [f32; 3] = std::array::from_fn(|k| 2.0 * draw(3 + k as u32) - 1.0);
+            let length = d.iter().map(|x| x * x).sum::<f32>().sqrt().max(1e-6);
+            Query {
+                point: ShadingPoint {
+                    p,
+                    n: d.map(|x| x / length),
+                },
+                random_or_light: hash(i),
+            }
+        })
+        .collect()
+}
+
+fn print(context: &Context, cases: &[Case], trade: &[trade::Row]) -> Result<(), HostError> {
+    if context.json {
+        table::print_json(&json!({ "cases": cases, "trade": trade }))?;
+        return Ok(());
+    }
+    let header = [
+        "what",
+        "structure",
+        "lights",
+        "backend",
+        "threads",
+        "ns/item",
+        "least",
+        "most",
+        "bytes/light",
+        "copies",
+    ];
+    let rows: Vec<Vec<String>> = cases
+        .iter()
+        .map(|c| {
+            vec![
+                c.what.to_owned(),
+                c.structure.to_owned(),
+                c.lights.to_string(),
+                c.backend.clone(),
+                if c.threads == 0 {
+                    "-".to_owned()
+                } else {
+                    c.threads.to_string()
+                },
+                format!("{:.1}", c.ns_per_item),
+                format!("{:.1}", c.ns_least),
+                format!("{:.1}", c.ns_most),
+                format!("{:.1}", c.bytes_per_light),
+                format!("{:.1}", c.copies),
+            ]
+        })
+        .collect();
+    table::print(&header, &rows)?;
+    trade::print(trade)?;
+    Ok(())
+}

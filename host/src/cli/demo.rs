@@ -1,0 +1,291 @@
+//! `lightbvh demo`: the main job from end to end on a built-in scene.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use bytemuck::cast_slice;
+use lightbvh::BuildParams;
+use serde::Serialize;
+use serde_json::json;
+
+use super::{Context, Outcome, devices, table};
+use crate::backend::{
+    Backend, Bvh, CpuBackend, DeviceBackend, NODE_RECORD, PIXEL_RECORD, SAMPLED_RECORD, Sampler, SceneArrays,
+};
+use crate::compare::{Record, compare_words};
+use crate::error::HostError;
+use crate::render::Film;
+use crate::scene::Scene;
+use crate::workload::{Shot, arrays_at, build, lights_at, queries};
+
+const SCENE: &str = "street";
+/// Frames shown: those of the paper's Table 1.
+const FRAMES: [u32; 4] = [0, 50, 100, 150];
+const WIDTH: u32 = 480;
+const HEIGHT: u32 = 270;
+/// Light samples per pixel of the frames, and of the reference that the last one is measured against.
+const SAMPLES: u32 = 4;
+const REFERENCE_SAMPLES: u32 = 64;
+/// Lights sampled per frame, besides those of the image.
+const QUERIES: u32 = 100_000;
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// Folder for the images; made if it is not there.
+    #[arg(long, default_value = "out", value_name = "DIR")]
+    out: PathBuf,
+}
+
+/// A row of the table.
+#[derive(Clone, Debug, Serialize)]
+struct Row {
+    backend: String,
+    scene: &'static str,
+    lights: usize,
+    triangles: usize,
+    nodes: usize,
+    depth: u32,
+    /// Milliseconds: the build once (on the CPU in either case), the others as the median over the frames.
+    build_ms: f64,
+    refit_ms: f64,
+    sample_ms: f64,
+    render_ms: f64,
+    compared: u64,
+    different: u64,
+    /// Mean squared error of the last frame's radiance against the reference.
+    mse: f64,
+}
+
+/// What one backend did over the frames.
+#[derive(Default)]
+struct Run {
+    refit: Vec<Duration>,
+    sample: Vec<Duration>,
+    render: Vec<Duration>,
+    compared: u64,
+    different: u64,
+    first: Option<String>,
+    image: Vec<[f32; 3]>,
+}
+
+pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
+    std::fs::create_dir_all(&args.out).map_err(|source| HostError::Folder {
+        path: args.out.clone(),
+        source,
+    })?;
+    let opened = devices::open(context)?;
+    let scene = Scene::open(SCENE)?;
+    let lights = lights_at(&scene, 0)?;
+    let start = Instant::now();
+    let bvh: Bvh = build(&lights, Sampler::TwoLevel, &BuildParams::default());
+    let build_time = start.elapsed();
+
+    let mut cpu = CpuBackend::new(bvh.clone(), lights.clone());
+    let mut on_devices = opened
+        .iter()
+        .map(|o| DeviceBackend::new(&o.device, &bvh, &lights))
+        .collect::<Result<Vec<_>, _>>()?;
+    let mut records: Vec<Run> = (0..=opened.len()).map(|_| Run::default()).collect();
+    let mut written = Vec::new();
+    let mut exposure = None;
+    for frame in FRAMES {
+        eprintln!("frame {frame}");
+        let arrays = arrays_at(&scene, frame, WIDTH, HEIGHT)?;
+        let shot = Shot {
+            frame,
+            width: WIDTH,
+            height: HEIGHT,
+            samples: SAMPLES,
+            seed: frame,
+        };
+        frame_on_all(&scene, &arrays, &shot, &mut cpu, &mut on_devices, &mut records)?;
+
+        let film = Film::new(WIDTH, HEIGHT, records[0].image.clone())?;
+        // One exposure for all frames, so that they can be compared.
+        let exposure = *exposure.get_or_insert_with(|| film.auto_exposure());
+        written.push(write(
+            &args.out,
+            &format!("{SCENE}-{frame:03}.png"),
+            &film,
+            exposure,
+        )?);
+    }
+
+    eprintln!("reference");
+    let last = FRAMES[FRAMES.len() - 1];
+    let arrays = arrays_at(&scene, last, WIDTH, HEIGHT)?;
+    let shot = Shot {
+        frame: last,
+        width: WIDTH,
+        height: HEIGHT,
+        samples: REFERENCE_SAMPLES,
+        seed: u32::MAX,
+    };
+    let params = shot.params(scene.frame(last).background);
+    let reference = Film::new(
+        WIDTH,
+        HEIGHT,
+        cpu.render(&arrays, &params, Sampler::TwoLevel)?.value,
+    )?;
+    let name = format!("{SCENE}-{last:03}-reference.png");
+    written.push(write(&args.out, &name, &reference, exposure.unwrap_or(1.0))?);
+
+    let names = std::iter::once("cpu".to_owned()).chain(opened.iter().map(|o| o.device.name().to_owned()));
+    let rows = names
+        .zip(&records)
+        .map(|(backend, record)| {
+            Ok(Row {
+                backend,
+                scene: SCENE,
+                lights: lights.triangles().len(),
+                triangles: scene.triangle_count(),
+                nodes: bvh.nodes().len(),
+                depth: bvh.depth(),
+                build_ms: milliseconds(build_time),
+                refit_ms: median(&record.refit),
+                sample_ms: median(&record.sample),
+                render_ms: median(&record.render),
+                compared: record.compared,
+                different: record.different,
+                mse: Film::new(WIDTH, HEIGHT, record.image.clone())?.mean_squared_error(&reference)?,
+            })
+        })
+        .collect::<Result<Vec<_>, HostError>>()?;
+    drop(on_devices);
+    devices::close(opened)?;
+    print(context, &rows, &records, &written)?;
+    Ok(if rows.iter().all(|row| row.different == 0) {
+        Outcome::Good
+    } else {
+        Outcome::Bad
+    })
+}
+
+/// Refits, samples and renders one frame on the CPU, then on each device, and compares.
+fn frame_on_all(
+    scene: &Scene,
+    arrays: &SceneArrays,
+    shot: &Shot,
+    cpu: &mut CpuBackend,
+    devices: &mut [DeviceBackend<'_>],
+    records: &mut [Run],
+) -> Result<(), HostError> {
+    let asked = queries(arrays, shot.frame, 0, QUERIES);
+    let params = shot.params(scene.frame(shot.frame).background);
+    let mut expected = None;
+    let backends =
+        std::iter::once(cpu as &mut dyn Backend).chain(devices.iter_mut().map(|d| d as &mut dyn Backend));
+    for (backend, record) in backends.zip(records) {
+        let nodes = backend.refit(&arrays.lights)?;
+        let sampled = backend.sample(&asked)?;
+        let image = backend.render(arrays, &params, Sampler::TwoLevel)?;
+        record.refit.push(nodes.time);
+        record.sample.push(sampled.time);
+        record.render.push(image.time);
+        record.image.clone_from(&image.value);
+        match &expected {
+            None => expected = Some((nodes.value, sampled.value, image.value)),
+            Some((cpu_nodes, cpu_sampled, cpu_image)) => {
+                record.take(
+                    "refit",
+                    &NODE_RECORD,
+                    cast_slice(cpu_nodes),
+                    cast_slice(&nodes.value),
+                )?;
+                record.take(
+                    "sample",
+                    &SAMPLED_RECORD,
+                    cast_slice(cpu_sampled),
+                    cast_slice(&sampled.value),
+                )?;
+                record.take(
+                    "render",
+                    &PIXEL_RECORD,
+                    cast_slice(cpu_image),
+                    cast_slice(&image.value),
+                )?;
+            }
+        }
+    }
+    Ok(())
+}
+
+impl Run {
+    fn take(&mut self, kernel: &str, record: &Record, cpu: &[u32], device: &[u32]) -> Result<(), HostError> {
+        let comparison = compare_words(record, cpu, device)?;
+        self.compared += comparison.compared;
+        self.different += comparison.different;
+        if let (None, Some(first)) = (&self.first, comparison.first) {
+            self.first = Some(format!("{kernel}: {first}"));
+        }
+        Ok(())
+    }
+}
+
+fn write(folder: &Path, name: &str, film: &Film, exposure: f32) -> Result<PathBuf, HostError> {
+    let path = folder.join(name);
+    film.write(&path, exposure)?;
+    Ok(path)
+}
+
+fn milliseconds(time: Duration) -> f64 {
+    time.as_secs_f64() * 1e3
+}
+
+fn median(times: &[Duration]) -> f64 {
+    let mut sorted = times.to_vec();
+    sorted.sort_unstable();
+    sorted.get(sorted.len() / 2).copied().map_or(0.0, milliseconds)
+}
+
+fn print(context: &Context, rows: &[Row], records: &[Run], written: &[PathBuf]) -> Result<(), HostError> {
+    if context.json {
+        table::print_json(&json!({ "rows": rows, "images": written }))?;
+        return Ok(());
+    }
+    let header = [
+        "backend",
+        "scene",
+        "lights",
+        "triangles",
+        "nodes",
+        "depth",
+        "build ms",
+        "refit ms",
+        "sample ms",
+        "render ms",
+        "words compared",
+        "different",
+        "MSE",
+    ];
+    let cells: Vec<Vec<String>> = rows
+        .iter()
+        .map(|r| {
+            vec![
+                r.backend.clone(),
+                r.scene.to_owned(),
+                r.lights.to_string(),
+                r.triangles.to_string(),
+                r.nodes.to_string(),
+                r.depth.to_string(),
+                format!("{:.1}", r.build_ms),
+                format!("{:.2}", r.refit_ms),
+                format!("{:.1}", r.sample_ms),
+                format!("{:.0}", r.render_ms),
+                r.compared.to_string(),
+                r.different.to_string(),
+                format!("{:.3e}", r.mse),
+            ]
+        })
+        .collect();
+    table::print(&header, &cells)?;
+    for (row, record) in rows.iter().zip(records) {
+        if let Some(first) = &record.first {
+            println!("{}: first difference: {first}", row.backend);
+        }
+    }
+    for path in written {
+        println!("{}", path.display());
+    }
+    Ok(())
+}

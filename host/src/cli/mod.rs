@@ -1,0 +1,103 @@
+//! The command line. Tables go to standard output, or one JSON object with `--json`; progress and notes go to standard
+//! error. Exit status: 0 done, 1 results differ or an invariant is violated, 2 the input or the machine is at fault.
+
+mod bench;
+mod demo;
+mod devices;
+mod export;
+mod info;
+mod render;
+mod table;
+mod verify;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::error::HostError;
+
+/// A two-level light BVH on the CPU and on Vulkan devices, compared bit for bit.
+#[derive(Debug, Parser)]
+#[command(name = "lightbvh", version)]
+struct Args {
+    #[command(subcommand)]
+    command: Command,
+    /// Print one JSON object instead of tables.
+    #[arg(long, global = true)]
+    json: bool,
+    /// Use only the Vulkan device of this index or name (a part of it is enough).
+    #[arg(long, global = true, value_name = "INDEX|NAME")]
+    device: Option<String>,
+    /// Run devices under the Khronos validation layer; any message of it is an error.
+    #[arg(long, global = true)]
+    validation: bool,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Build, animate, refit, sample and render a street on the CPU and every device, and compare.
+    Demo(demo::Args),
+    /// Render a frame of a scene.
+    Render(render::Args),
+    /// Compare refit, sample, pmf and render on every device with the CPU, word for word.
+    Verify(verify::Args),
+    /// Time build, refit, sample and pmf, and measure what accuracy costs.
+    Bench(bench::Args),
+    /// List the Vulkan devices and whether their arithmetic is exact.
+    Info,
+    /// Write a scene as a .glb file.
+    Export(export::Args),
+}
+
+/// What all commands share.
+struct Context {
+    json: bool,
+    device: Option<String>,
+    validation: bool,
+}
+
+/// How a command that ran to its end went.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outcome {
+    /// As it should.
+    Good,
+    /// Results differ, or an invariant is violated.
+    Bad,
+}
+
+/// Runs the program.
+#[must_use]
+pub fn main() -> ExitCode {
+    let args = match Args::try_parse() {
+        Ok(args) => args,
+        Err(error) => {
+            // clap's own exit code for wrong usage is 2, as ours.
+            let code = error.exit_code();
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(code).unwrap_or(2));
+        }
+    };
+    let context = Context {
+        json: args.json,
+        device: args.device,
+        validation: args.validation,
+    };
+    let result = match &args.command {
+        Command::Demo(args) => demo::run(&context, args),
+        Command::Render(args) => render::run(&context, args),
+        Command::Verify(args) => verify::run(&context, args),
+        Command::Bench(args) => bench::run(&context, args),
+        Command::Info => info::run(&context),
+        Command::Export(args) => export::run(&context, args),
+    };
+    match result {
+        Ok(Outcome::Good) => ExitCode::SUCCESS,
+        Ok(Outcome::Bad) => ExitCode::from(1),
+        // Whoever read our output has had enough of it.
+        Err(HostError::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("lightbvh: {error}");
+            ExitCode::from(2)
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! What can go wrong in a command; the program prints it and exits with 2.
+
+use std::path::PathBuf;
+
+use lightbvh::LightsError;
+
+use crate::compare::CompareError;
+use crate::render::{FilmError, RayBvhError};
+use crate::scene::SceneError;
+use crate::vulkan::VulkanError;
+
+/// An error of a command.
+#[derive(Debug, thiserror::Error)]
+pub enum HostError {
+    /// The scene.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// Its lights.
+    #[error("scene `{scene}`, frame {frame}: {source}")]
+    Lights {
+        /// Name of the scene.
+        scene: String,
+        /// Number of the frame.
+        frame: u32,
+        /// What is wrong with them.
+        source: LightsError,
+    },
+    /// Its geometry.
+    #[error("scene `{scene}`, frame {frame}: {source}")]
+    RayBvh {
+        /// Name of the scene.
+        scene: String,
+        /// Number of the frame.
+        frame: u32,
+        /// What is wrong with it.
+        source: RayBvhError,
+    },
+    /// The power sampler has no table for this scene.
+    #[error(
+        "scene `{scene}` has {lights} lights, beyond what the `{sampler}` sampler can tell apart (2^24), or none of \
+         them has flux; use `--sampler two-level`"
+    )]
+    Sampler {
+        /// Name of the scene.
+        scene: String,
+        /// Name of the sampler.
+        sampler: &'static str,
+        /// Number of its lights.
+        lights: usize,
+    },
+    /// A device.
+    #[error(transparent)]
+    Vulkan(#[from] VulkanError),
+    /// A comparison that makes no sense.
+    #[error(transparent)]
+    Compare(#[from] CompareError),
+    /// An image.
+    #[error(transparent)]
+    Film(#[from] FilmError),
+    /// A folder for output.
+    #[error("cannot create the folder {path}: {source}; choose another with --out")]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// Why not.
+        source: std::io::Error,
+    },
+    /// A number on the command line is out of range.
+    #[error("{option} {value} is out of range: expected {expected}")]
+    Range {
+        /// The option.
+        option: &'static str,
+        /// What was given.
+        value: u64,
+        /// What would do.
+        expected: &'static str,
+    },
+    /// No device, where one is required.
+    #[error("no Vulkan device, and LIGHTBVH_REQUIRE_VULKAN is set: {0}")]
+    DeviceRequired(String),
+    /// Standard output is gone.
+    #[error("cannot write to standard output: {0}")]
+    Output(#[from] std::io::Error),
+}

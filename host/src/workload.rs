@@ -1,0 +1,168 @@
+//! From a scene to what the backends run: arrays of a frame, light BVHs, queries.
+
+use lightbvh::exact::{hash, unit_f32};
+use lightbvh::{BuildParams, LightBvh, Lights, ShadingPoint};
+use lightbvh_kernels::query::Query;
+use lightbvh_kernels::render::RenderParams;
+
+use crate::backend::{Bvh, Sampler, SceneArrays};
+use crate::error::HostError;
+use crate::render::{RayBvh, camera};
+use crate::scene::Scene;
+
+/// Image and frame of a rendering.
+#[derive(Clone, Copy, Debug)]
+pub struct Shot {
+    /// Frame of the animation, 25 per second.
+    pub frame: u32,
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Light samples per pixel.
+    pub samples: u32,
+    /// Seed of the light samples.
+    pub seed: u32,
+}
+
+impl Shot {
+    /// Parameters of the render pass.
+    #[must_use]
+    pub fn params(&self, background: [f32; 3]) -> RenderParams {
+        RenderParams {
+            width: self.width,
+            height: self.height,
+            samples: self.samples,
+            seed: self.seed,
+            jitter: 0,
+            background,
+        }
+    }
+}
+
+/// The lights of `scene` at `frame`.
+///
+/// # Errors
+/// [`HostError`] when there is none, or one is outside the domain.
+pub fn lights_at(scene: &Scene, frame: u32) -> Result<Lights, HostError> {
+    scene.require_lights()?;
+    Lights::new(scene.frame(frame).emissive).map_err(|source| HostError::Lights {
+        scene: scene.name().to_owned(),
+        frame,
+        source,
+    })
+}
+
+/// The arrays of `scene` at `frame` for an image of `width` × `height`.
+///
+/// # Errors
+/// [`HostError`] when the scene has no lights, or is outside the domain of lights or rays.
+pub fn arrays_at(scene: &Scene, frame: u32, width: u32, height: u32) -> Result<SceneArrays, HostError> {
+    let lights = lights_at(scene, frame)?;
+    let data = scene.frame(frame);
+    let rays = RayBvh::build(&data.triangles).map_err(|source| HostError::RayBvh {
+        scene: scene.name().to_owned(),
+        frame,
+        source,
+    })?;
+    Ok(SceneArrays::new(
+        rays,
+        data.materials,
+        lights,
+        camera(&data.camera, width, height),
+    ))
+}
+
+/// The light BVH that `sampler` walks; the other samplers walk none and get the two-level one.
+#[must_use]
+pub fn build(lights: &Lights, sampler: Sampler, params: &BuildParams) -> Bvh {
+    match sampler {
+        Sampler::SingleLevel => LightBvh::single_level(lights, params),
+        _ => LightBvh::two_level(lights, params),
+    }
+}
+
+/// `count` queries numbered from `first`: most on surfaces of the scene, some in volumes, some anywhere in and around
+/// it, a few where arithmetic is hard: on a light, at the origin, far away.
+#[must_use]
+pub fn queries(scene: &SceneArrays, seed: u32, first: u32, count: u32) -> Vec<Query> {
+    let bounds = scene_box(scene);
+    (first..first.wrapping_add(count))
+        .map(|i| query(scene, &bounds, hash(seed ^ hash(i))))
+        .collect()
+}
+
+fn query(scene: &SceneArrays, bounds: &([f32; 3], [f32; 3]), random: u32) -> Query {
+    let draw = |k: u32| unit_f32(hash(random.wrapping_add(k)));
+    let pick = |k: u32, n: usize| ((draw(k) * n as f32) as usize).min(n - 1);
+    let kind = draw(0);
+    let (mut p, mut n) = if kind < 0.75 || kind >= 0.98 {
+        let lights = scene.lights.triangles();
+        let corners = if kind < 0.75 {
+            scene.rays.triangles[pick(1, scene.rays.triangles.len())].p
+        } else {
+            lights[pick(1, lights.len())].p
+        };
+        on_triangle(&corners, draw(2), draw(3), draw(4) < 0.5)
+    } else {
+        let p = std::array::from_fn(|k| {
+            let (low, high) = (bounds.0[k], bounds.1[k]);
+            low + (high - low) * (1.5 * draw(5 + k as u32) - 0.25)
+        });
+        (p, direction(draw(2), draw(3), draw(4)))
+    };
+    if draw(8) < 0.0625 {
+        n = [0.0; 3];
+    }
+    if kind >= 0.997 {
+        p = p.map(|x| x * 1.0e6);
+    } else if kind >= 0.995 {
+        p = [0.0; 3];
+    }
+    Query {
+        point: ShadingPoint { p, n },
+        random_or_light: hash(random ^ 0x5555_5555),
+    }
+}
+
+/// A point of a triangle and its unit normal on one side; an arbitrary normal if it has no area.
+fn on_triangle(p: &[[f32; 3]; 3], u: f32, v: f32, flip: bool) -> ([f32; 3], [f32; 3]) {
+    let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
+    let e1: [f32; 3] = std::array::from_fn(|k| p[1][k] - p[0][k]);
+    let e2: [f32; 3] = std::array::from_fn(|k| p[2][k] - p[0][k]);
+    let point = std::array::from_fn(|k| p[0][k] + e1[k] * u + e2[k] * v);
+    let m: [f64; 3] = std::array::from_fn(|k| {
+        let (a, b) = ((k + 1) % 3, (k + 2) % 3);
+        f64::from(e1[a]) * f64::from(e2[b]) - f64::from(e1[b]) * f64::from(e2[a])
+    });
+    let length = m.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let sign = if flip { -1.0 } else { 1.0 };
+    let normal = if length > 0.0 {
+        m.map(|x| (x / length * sign) as f32)
+    } else {
+        [0.0, 1.0, 0.0]
+    };
+    (point, normal)
+}
+
+/// A direction: from the centre of a cube to a point of it, so denser towards its corners, which does not matter here.
+fn direction(u: f32, v: f32, w: f32) -> [f32; 3] {
+    let d = [u, v, w].map(|x| 2.0 * x - 1.0);
+    let length = d.iter().map(|x| x * x).sum::<f32>().sqrt();
+    if length > 0.0 {
+        d.map(|x| x / length)
+    } else {
+        [0.0, 1.0, 0.0]
+    }
+}
+
+fn scene_box(scene: &SceneArrays) -> ([f32; 3], [f32; 3]) {
+    let (mut low, mut high) = ([f32::MAX; 3], [f32::MIN; 3]);
+    for p in scene.rays.triangles.iter().flat_map(|t| t.p) {
+        for k in 0..3 {
+            low[k] = low[k].min(p[k]);
+            high[k] = high[k].max(p[k]);
+        }
+    }
+    (low, high)
+}
