@@ -28,6 +28,17 @@ pub struct LightBvh<N, const W: usize> {
     depth: u32,
 }
 
+/// The arrays of a [`LightBvh`], open to any change.
+#[doc(hidden)]
+#[derive(Debug)]
+pub struct Parts<'a, N> {
+    pub nodes: &'a mut [N],
+    pub meshes: &'a mut [MeshLight],
+    pub trails: &'a mut [u32],
+    pub bottom: &'a mut [u32],
+    pub top: &'a mut [u32],
+}
+
 /// The nodes with inner children, level by level, deepest first: what `refit::level` is to run over.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Levels {
@@ -234,6 +245,18 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
     /// The nodes, to be refitted elsewhere (in parallel, or read back from a device).
     pub fn nodes_mut(&mut self) -> &mut [N] {
         &mut self.nodes
+    }
+
+    /// Every array that [`validate`](Self::validate) checks, for tests that put wrong words into them.
+    #[doc(hidden)]
+    pub fn parts_mut(&mut self) -> Parts<'_, N> {
+        Parts {
+            nodes: &mut self.nodes,
+            meshes: &mut self.meshes,
+            trails: &mut self.trails,
+            bottom: &mut self.bottom.nodes,
+            top: &mut self.top.nodes,
+        }
     }
 
     /// The levels of the bottom trees (of the only tree in a single-level BVH).

@@ -88,6 +88,8 @@ pub mod build;
 pub mod bvh;
 #[cfg(feature = "alloc")]
 pub mod lights;
+#[cfg(feature = "alloc")]
+pub mod validate;
 
 #[cfg(feature = "alloc")]
 pub use build::{BuildParams, Heuristic};
@@ -95,6 +97,8 @@ pub use build::{BuildParams, Heuristic};
 pub use bvh::LightBvh;
 #[cfg(feature = "alloc")]
 pub use lights::{Lights, LightsError};
+#[cfg(feature = "alloc")]
+pub use validate::{Stats, Violation};
 
 pub use bounds::LightBounds;
 pub use importance::{Eq4, FluxOverDistance, ImportanceModel};

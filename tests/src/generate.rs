@@ -95,6 +95,65 @@ pub fn point(random: &mut Random, side: f32) -> ShadingPoint {
     ShadingPoint { p, n }
 }
 
+/// 2^e with `e` uniform in `low..=high`, times a significand.
+pub fn log_uniform(random: &mut Random, low: i32, high: i32) -> f32 {
+    let e = low + random.below((high - low + 1) as u32) as i32;
+    exact::pow2(e) * (1.0 + random.unit())
+}
+
+/// A triangle anywhere in the crate's domain: edges of 2^-100 to 2^39 m near the origin or far from it, needles, thin
+/// boxes, without area, one-sided or not, radiance 2^-100 to 2^100.
+pub fn extreme_triangle(random: &mut Random) -> EmissiveTriangle {
+    let scale = log_uniform(random, -99, 37);
+    let edge = |random: &mut Random| random.direction().map(|x| x * scale);
+    let corner = match random.below(3) {
+        0 => [0.0; 3],
+        1 => edge(random),
+        _ => {
+            let far = log_uniform(random, 0, 36);
+            random.direction().map(|x| x * far)
+        }
+    };
+    let (mut e1, mut e2) = (edge(random), edge(random));
+    match random.below(8) {
+        // A needle, by a short edge or by two edges almost the same.
+        0 => e2 = e2.map(|x| x * exact::pow2(-(random.below(30) as i32))),
+        1 => {
+            let share = exact::pow2(-(random.below(30) as i32));
+            e2 = [0, 1, 2].map(|k| e1[k] + e2[k] * share);
+        }
+        // A box without extent along an axis, or two.
+        2 => {
+            let k = random.below(3) as usize;
+            (e1[k], e2[k]) = (0.0, 0.0);
+        }
+        3 => {
+            let k = random.below(3) as usize;
+            e1 = [0.0; 3];
+            e1[k] = scale;
+        }
+        // No area.
+        4 => e2 = e1.map(|x| 0.5 * x),
+        5 => (e1, e2) = ([0.0; 3], [0.0; 3]),
+        _ => {}
+    }
+    let radiance = [0; 3].map(|_| {
+        if random.below(4) == 0 {
+            0.0
+        } else {
+            log_uniform(random, -100, 99)
+        }
+    });
+    let add = |a: [f32; 3], b: [f32; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+    let triangle = EmissiveTriangle {
+        p: [corner, add(corner, e1), add(corner, e2)],
+        radiance,
+        mesh: 0,
+        flags: u32::from(random.below(4) == 0),
+    };
+    triangle.checked().expect("within the domain")
+}
+
 /// How a generated set of triangles is degenerate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {

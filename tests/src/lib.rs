@@ -3,5 +3,6 @@
 pub mod devices;
 pub mod generate;
 pub mod gltf_files;
+pub mod oracle;
 pub mod soup;
 pub mod statistics;

@@ -1,0 +1,205 @@
+//! The invariants of a light BVH, checked one by one; the first that does not hold is named.
+//!
+//! [`LightBvh::validate`] trusts no word: links, kinds and trails may hold anything. It runs on the CPU only, takes
+//! time linear in the number of nodes, and needs as much memory again as the tree.
+
+mod bounds;
+mod topology;
+
+use core::fmt;
+
+use crate::bvh::LightBvh;
+use crate::lights::Lights;
+use crate::node::LightNode;
+use crate::tree::INVALID;
+
+/// What a valid light BVH consists of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stats {
+    /// Number of nodes, of all levels.
+    pub nodes: u32,
+    /// Number of leaves: triangles, and in a two-level BVH mesh lights too.
+    pub leaves: u32,
+    /// Greatest number of nodes on a way from the root to a light.
+    pub depth: u32,
+    /// Bytes that sampling and pmf read.
+    pub bytes: usize,
+    /// The same per triangle.
+    pub bytes_per_light: f32,
+}
+
+/// A word that is not what it must be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Violation {
+    /// Index of the node, or [`INVALID`] where it is about no node.
+    pub node: u32,
+    /// Slot of the child, or [`INVALID`] where it is about no child.
+    pub slot: u32,
+    /// What the words are.
+    pub what: What,
+    /// The word expected, or the greatest or least that would do; the bits of an `f32` where [`What::is_float`].
+    pub expected: u32,
+    /// The word found.
+    pub found: u32,
+}
+
+/// What a [`Violation`] is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum What {
+    /// Number of mesh lights; 0 in a single-level BVH.
+    MeshCount,
+    /// Number of words of bit trails.
+    TrailCount,
+    /// Words per bit trail.
+    TrailWords,
+    /// Index of the root, in its tree's part of the nodes.
+    Root,
+    /// Kind of a child in a level where it has no place (a mesh light outside the top level, a triangle within it).
+    Kind,
+    /// A link, below the number of what it leads to; 0 in an empty slot.
+    Link,
+    /// How often a node is reached from the root of its tree.
+    Reached,
+    /// Level of a node, below the trail's capacity.
+    Level,
+    /// How often a triangle (`slot` is its index) is a leaf.
+    Triangle,
+    /// How often a mesh light (`slot` is its index) is a leaf.
+    Mesh,
+    /// First triangle of a mesh light (`slot` is its index).
+    First,
+    /// A triangle of another mesh light than the bottom level is of.
+    Owner,
+    /// Low word of the trail of a leaf.
+    TrailLow,
+    /// High word of the trail of a leaf.
+    TrailHigh,
+    /// Depth of the whole.
+    Depth,
+    /// How often a node is in the list of levels: once if it has inner children, else never.
+    Listed,
+    /// Level of a node in the list: that of its range, and below the range before.
+    ListedLevel,
+    /// A word that does not show in the decoded bounds; the number counts the words of a child.
+    Word(u32),
+    /// Bounds that refit would not give, by component: 0–2 least corner, 3–5 greatest corner, 6–8 axis, 9 cos θ_o,
+    /// 10 cos θ_e, 11 Φ.
+    Bounds(u32),
+    /// A component of a child's bounds that reaches out of its parent's; counted as in [`Bounds`](Self::Bounds).
+    Containment(u32),
+}
+
+/// Names of the components of bounds, in the order of [`What::Bounds`].
+const COMPONENTS: [&str; 12] = [
+    "least x",
+    "least y",
+    "least z",
+    "greatest x",
+    "greatest y",
+    "greatest z",
+    "axis x",
+    "axis y",
+    "axis z",
+    "cos θ_o",
+    "cos θ_e",
+    "flux",
+];
+
+impl What {
+    /// Whether the words are the bits of an `f32`.
+    #[must_use]
+    pub fn is_float(self) -> bool {
+        matches!(self, Self::Bounds(_) | Self::Containment(_))
+    }
+}
+
+impl fmt::Display for What {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = |component: u32| COMPONENTS.get(component as usize).copied().unwrap_or("word");
+        match *self {
+            Self::MeshCount => write!(f, "number of mesh lights"),
+            Self::TrailCount => write!(f, "number of trail words"),
+            Self::TrailWords => write!(f, "words per trail"),
+            Self::Root => write!(f, "index of the root"),
+            Self::Kind => write!(f, "kind of child"),
+            Self::Link => write!(f, "link"),
+            Self::Reached => write!(f, "times reached"),
+            Self::Level => write!(f, "level"),
+            Self::Triangle => write!(f, "times that the triangle is a leaf"),
+            Self::Mesh => write!(f, "times that the mesh light is a leaf"),
+            Self::First => write!(f, "first triangle of the mesh light"),
+            Self::Owner => write!(f, "mesh light of the triangle"),
+            Self::TrailLow => write!(f, "low word of the leaf's trail"),
+            Self::TrailHigh => write!(f, "high word of the leaf's trail"),
+            Self::Depth => write!(f, "depth"),
+            Self::Listed => write!(f, "times in the list of levels"),
+            Self::ListedLevel => write!(f, "level in the list of levels"),
+            Self::Word(word) => write!(f, "word {word} of the child"),
+            Self::Bounds(component) => write!(f, "{} of the refitted bounds", name(component)),
+            Self::Containment(component) => write!(f, "{} within the parent's bounds", name(component)),
+        }
+    }
+}
+
+impl fmt::Display for Violation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.node != INVALID {
+            write!(f, "node {}, ", self.node)?;
+        }
+        if self.slot != INVALID {
+            write!(f, "slot {}, ", self.slot)?;
+        }
+        if self.what.is_float() {
+            let (expected, found) = (f32::from_bits(self.expected), f32::from_bits(self.found));
+            write!(f, "{}: expected {expected:e}, found {found:e}", self.what)
+        } else {
+            write!(
+                f,
+                "{}: expected {}, found {}",
+                self.what, self.expected, self.found
+            )
+        }
+    }
+}
+
+impl core::error::Error for Violation {}
+
+/// `Ok` if the words are equal.
+fn equal(node: u32, slot: u32, what: What, expected: u32, found: u32) -> Result<(), Violation> {
+    if expected == found {
+        Ok(())
+    } else {
+        Err(Violation {
+            node,
+            slot,
+            what,
+            expected,
+            found,
+        })
+    }
+}
+
+impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
+    /// Checks every invariant of the BVH over `lights`, which must be those of the last refit:
+    /// - each link is in range and of a kind that its level may hold; each node of each tree is reached exactly once;
+    /// - each triangle and each mesh light is a leaf exactly once, and its trail leads to just that leaf;
+    /// - the lists of levels are complete and run from the deepest level to the root;
+    /// - no tree is deeper than a trail can say;
+    /// - every word of every bounds is what refit makes of the lights;
+    /// - a child's box, cone and flux lie within its parent's.
+    ///
+    /// # Errors
+    /// The first [`Violation`].
+    pub fn validate(&self, lights: &Lights) -> Result<Stats, Violation> {
+        let leaves = topology::validate(self, lights)?;
+        bounds::validate(self, lights)?;
+        let bytes = self.bytes();
+        Ok(Stats {
+            nodes: self.nodes().len() as u32,
+            leaves,
+            depth: self.depth(),
+            bytes,
+            bytes_per_light: bytes as f32 / lights.triangles().len() as f32,
+        })
+    }
+}
