@@ -14,8 +14,11 @@ use crate::vector::{dot, length_squared};
 const WIDEN_SIN: f32 = exact::pow2(-11);
 const WIDEN_COS_DEFECT: f32 = exact::pow2(-23);
 
-/// Below this squared sine two axes count as parallel: 2^-40.
-const PARALLEL: f32 = exact::pow2(-40);
+/// Below this squared sine, 2^-20, two axes count as parallel. The part of one across the other then has a relative error
+/// of up to 2^-13, and turning towards it would leave emitters outside: `validate` found such a cone in a street's sign,
+/// around two opposite ones.
+const PARALLEL: f32 = exact::pow2(-20);
+const LEAST_SINE: f32 = exact::pow2(-10);
 
 /// All directions within the angle θ_o of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,7 +72,7 @@ impl Cone {
         );
         let sin_d_squared = exact::min(length_squared(across), 1.0);
         let parallel = sin_d_squared < PARALLEL;
-        let sin_d = exact::sqrt(exact::max(sin_d_squared, PARALLEL));
+        let sin_d = exact::sqrt(sin_d_squared);
 
         // One contains the other when θ_d + θ_other ≤ θ_own. A sum above π shows in its negative sine.
         let (cos_db, sin_db) = (cos_d * cos_b - sin_d * sin_b, sin_d * cos_b + cos_d * sin_b);
@@ -86,7 +89,7 @@ impl Cone {
         let sin_o = sine_of(cos_o);
         // The new axis is this axis turned towards the other by θ_o − θ_a.
         let (cos_r, sin_r) = (cos_o * cos_a + sin_o * sin_a, sin_o * cos_a - cos_o * sin_a);
-        let turn = sin_r * exact::recip(sin_d);
+        let turn = sin_r * exact::recip(exact::max(sin_d, LEAST_SINE));
         let axis = Vec3::new(
             self.axis.x * cos_r + across.x * turn,
             self.axis.y * cos_r + across.y * turn,
@@ -97,8 +100,12 @@ impl Cone {
             cos_theta_o: cos_o,
         };
 
-        // Parallel axes: the wider of the two; opposite axes: everything.
-        let wider = if cos_a <= cos_b { self } else { other };
+        // Parallel axes: the wider of the two, widened by θ_d; opposite axes: everything.
+        let wide = if cos_a <= cos_b { self } else { other };
+        let wider = Self {
+            axis: wide.axis,
+            cos_theta_o: widened(wide.cos_theta_o, sin_d, 1.0 - cos_d),
+        };
         let chosen = if contains_other {
             self
         } else if contained {
