@@ -74,16 +74,19 @@ impl Cone {
         let parallel = sin_d_squared < PARALLEL;
         let sin_d = exact::sqrt(sin_d_squared);
 
-        // One contains the other when θ_d + θ_other ≤ θ_own. A sum above π shows in its negative sine.
+        // One contains the other when θ_d + θ_other ≤ θ_own. A sum above π shows in its negative sine; near 2π it may not,
+        // for rounding, but both angles are obtuse then.
         let (cos_db, sin_db) = (cos_d * cos_b - sin_d * sin_b, sin_d * cos_b + cos_d * sin_b);
         let (cos_da, sin_da) = (cos_d * cos_a - sin_d * sin_a, sin_d * cos_a + cos_d * sin_a);
-        let contains_other = cos_a <= -1.0 || (sin_db >= 0.0 && cos_db >= cos_a);
-        let contained = cos_b <= -1.0 || (sin_da >= 0.0 && cos_da >= cos_b);
+        let beyond_db = sin_db < 0.0 || (cos_d < 0.0 && cos_b < 0.0);
+        let beyond_da = sin_da < 0.0 || (cos_d < 0.0 && cos_a < 0.0);
+        let contains_other = cos_a <= -1.0 || (!beyond_db && cos_db >= cos_a);
+        let contained = cos_b <= -1.0 || (!beyond_da && cos_da >= cos_b);
 
         // Half of x = θ_a + θ_d + θ_b, by the half-angle formula; x beyond 2π means everything.
         let (cos_x, sin_x) = (cos_db * cos_a - sin_db * sin_a, sin_db * cos_a + cos_db * sin_a);
-        let beyond_pi = sin_db < 0.0 || sin_x < 0.0;
-        let everything = sin_db < 0.0 && sin_x >= 0.0;
+        let beyond_pi = beyond_db || sin_x < 0.0;
+        let everything = beyond_db && sin_x >= 0.0;
         let half = exact::sqrt(exact::max(0.5 + 0.5 * cos_x, 0.0));
         let cos_o = if beyond_pi { -half } else { half };
         let sin_o = sine_of(cos_o);
