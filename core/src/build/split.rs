@@ -38,16 +38,24 @@ impl Bucketing {
 }
 
 /// Splits `range` in two at the cheapest of all planes between buckets, moving the primitives; where all centroids
-/// coincide, into equal halves. Returns where the right part begins, in `1..range.len()`.
-pub(super) fn split(range: &mut [Primitive], node: &Group, params: &BuildParams) -> usize {
+/// coincide, into equal halves. Returns where the right part begins, in `1..range.len()`, and the unions of both parts
+/// where they are known.
+pub(super) fn split(
+    range: &mut [Primitive],
+    node: &Group,
+    params: &BuildParams,
+) -> (usize, Option<[Group; 2]>) {
     if range.len() == 2 {
-        return 1;
+        return (1, None);
     }
     match cheapest(range, node, params) {
-        Some(plane) => partition(range, |p| {
-            plane.bucketing.bucket(p.centroid(plane.axis)) < plane.bucket
-        }),
-        None => range.len() / 2,
+        Some((plane, groups)) => {
+            let middle = partition(range, |p| {
+                plane.bucketing.bucket(p.centroid(plane.axis)) < plane.bucket
+            });
+            (middle, Some(groups))
+        }
+        None => (range.len() / 2, None),
     }
 }
 
@@ -69,13 +77,13 @@ pub(super) fn halve(range: &mut [Primitive]) -> usize {
     middle
 }
 
-fn cheapest(range: &[Primitive], node: &Group, params: &BuildParams) -> Option<Plane> {
+fn cheapest(range: &[Primitive], node: &Group, params: &BuildParams) -> Option<(Plane, [Group; 2])> {
     let (low, high) = centroid_box(range);
     let scales = Scales::of(node);
     let wanted = params.buckets.clamp(2, MAX_BUCKETS) as usize;
     let buckets = if range.len() < wanted { range.len() } else { wanted };
 
-    let mut best: Option<Plane> = None;
+    let mut best = None;
     let mut best_cost = f32::MAX;
     for axis in 0..3 {
         if high[axis] <= low[axis] {
@@ -94,11 +102,16 @@ fn cheapest(range: &[Primitive], node: &Group, params: &BuildParams) -> Option<P
             let cost = cost * scales.regularization(params.heuristic, node, axis);
             if cost < best_cost {
                 best_cost = cost;
-                best = Some(Plane {
+                let plane = Plane {
                     axis,
                     bucket,
                     bucketing,
-                });
+                };
+                let [mut left, mut right] = [Group::EMPTY; 2];
+                for (b, group) in groups[..buckets].iter().enumerate() {
+                    if b < bucket { &mut left } else { &mut right }.merge(group);
+                }
+                best = Some((plane, [left, right]));
             }
         }
     }

@@ -98,7 +98,10 @@ pub(super) fn descend<N: LightNode<W>, I: ImportanceModel, const W: usize>(
         right.replace((some >> chosen) > 1, &here);
 
         let passes = alive & (weight > 0.0);
-        let product = exact::max(out.pmf * exact::div(weight, if alive { sum } else { 1.0 }), MIN_PMF);
+        let product = exact::max(
+            out.pmf * exact::div(weight, if alive { sum } else { 1.0 }),
+            MIN_PMF,
+        );
         out.pmf = if passes { product } else { 0.0 };
         out.path = out.path.with::<W>(position, chosen);
         let at_light = passes & (to == kind::LIGHT);
