@@ -68,7 +68,16 @@ pub(super) struct Found {
     pub mesh: u32,
 }
 
-/// The first (`ascending`) or last reachable light below `start`, which has importance.
+/// What [`find_live`] looks for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Order {
+    /// The first reachable light, else the last.
+    ascending: bool,
+    /// Any light will do, only whether there is one matters.
+    any: bool,
+}
+
+/// The first or last reachable light below `start`, which has importance.
 ///
 /// A depth-first search without a stack: after a dead end it starts over along the trail, changed at the deepest
 /// alternative (the restart trail of Laine 2010). In any well-formed tree it ends within the bound; hostile words end
@@ -77,7 +86,7 @@ fn find_live<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     tree: &LightTree<'_, N>,
     point: &ShadingPoint,
     start: &Neighbor,
-    ascending: bool,
+    order: Order,
 ) -> Found {
     let (first_index, first_position, first_mesh) =
         enter::<N, W>(tree, start.kind, start.link, start.position, start.mesh);
@@ -108,33 +117,31 @@ fn find_live<N: LightNode<W>, I: ImportanceModel, const W: usize>(
         };
         let mut chosen = INVALID;
         let mut after = INVALID;
+        let mut lights = false;
         for i in 0..W {
-            let slot = if ascending { i } else { W - 1 - i };
-            let open = valid && weights[slot] > 0.0;
-            let reached = from == INVALID || chosen != INVALID || slot as u32 == from;
-            if open && reached {
-                if chosen == INVALID {
-                    chosen = slot as u32;
-                } else if after == INVALID {
-                    after = slot as u32;
-                }
-            }
+            let slot = if order.ascending { i } else { W - 1 - i };
+            let open = valid & (weights[slot] > 0.0);
+            let reached = (from == INVALID) | (chosen != INVALID) | (slot as u32 == from);
+            let takes = open & reached;
+            let first = takes & (chosen == INVALID);
+            let second = takes & !first & (after == INVALID);
+            chosen = if first { slot as u32 } else { chosen };
+            after = if second { slot as u32 } else { after };
+            // A light among the children settles whether there is one at once.
+            lights |= open & (node.kind(slot) == kind::LIGHT);
         }
         if after != INVALID {
             other_position = position;
             other_slot = after;
         }
 
-        if chosen != INVALID {
+        if order.any & lights {
+            found = Found { light: 0, mesh };
+            done = true;
+        } else if chosen != INVALID {
             path = path.with::<W>(position, chosen);
-            let mut to = kind::EMPTY;
-            let mut link = 0;
-            for slot in 0..W {
-                if slot as u32 == chosen {
-                    to = node.kind(slot);
-                    link = node.link(slot);
-                }
-            }
+            let slot = if chosen < W as u32 { chosen as usize } else { 0 };
+            let (to, link) = (node.kind(slot), node.link(slot));
             if to == kind::LIGHT {
                 found = Found { light: link, mesh };
                 done = true;
@@ -240,13 +247,8 @@ fn node_at<N: LightNode<W>, const W: usize>(tree: &LightTree<'_, N>, path: Path,
         steps -= 1;
         let slot = path.slot::<W>(at);
         let node = &tree.nodes[index as usize];
-        let (mut to, mut link) = (kind::EMPTY, 0);
-        for s in 0..W {
-            if s as u32 == slot {
-                to = node.kind(s);
-                link = node.link(s);
-            }
-        }
+        let slot = if slot < W as u32 { slot as usize } else { 0 };
+        let (to, link) = (node.kind(slot), node.link(slot));
         let (next, next_position, _) = enter::<N, W>(tree, to, link, at, INVALID);
         index = next;
         at = next_position;
@@ -261,6 +263,10 @@ pub(super) fn adopted<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     point: &ShadingPoint,
     d: &Descent,
 ) -> f32 {
+    const ANY: Order = Order {
+        ascending: true,
+        any: true,
+    };
     let mut total = 0.0;
     // Left side first, then right, in one loop so that the kernel holds the search once.
     let mut right = false;
@@ -273,7 +279,7 @@ pub(super) fn adopted<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     while !done && steps > 0 {
         steps -= 1;
         let none = neighbor.is_none();
-        let live = !none && find_live::<N, I, W>(tree, point, &neighbor, true).light != INVALID;
+        let live = !none && find_live::<N, I, W>(tree, point, &neighbor, ANY).light != INVALID;
         if none || live {
             if right {
                 total += if live && neighbor.position == pending_position {
@@ -321,7 +327,15 @@ pub(super) fn heir<N: LightNode<W>, I: ImportanceModel, const W: usize>(
         // The deeper neighbour is the nearer; of one node's slots, the right ones come first.
         let to_right = !right.is_none() && (left.is_none() || right.position >= left.position);
         let neighbor = if to_right { right } else { left };
-        found = find_live::<N, I, W>(tree, point, &neighbor, to_right);
+        found = find_live::<N, I, W>(
+            tree,
+            point,
+            &neighbor,
+            Order {
+                ascending: to_right,
+                any: false,
+            },
+        );
         done = neighbor.is_none() || found.light != INVALID;
         if !done {
             let next = next_neighbor::<N, I, W>(tree, point, d, &neighbor, to_right);
