@@ -17,7 +17,9 @@ use crate::tree::{INVALID, LightTree};
 
 /// A child beside a way down.
 #[derive(Clone, Copy)]
-pub(super) struct Neighbor {
+pub(super) struct Neighbor<const W: usize> {
+    /// The node that it is a child of.
+    pub index: u32,
     /// [`kind`] of the child; `EMPTY` for no neighbour.
     pub kind: u32,
     /// Its link.
@@ -30,29 +32,38 @@ pub(super) struct Neighbor {
     pub slot: u32,
     /// Probability of reaching that node.
     pub before: f32,
-    /// Its weight among the node's children.
-    pub weight: f32,
+    /// The weights of that node's children.
+    pub weights: [f32; W],
     /// The sum of their weights.
     pub sum: f32,
 }
 
-impl Neighbor {
+impl<const W: usize> Neighbor<W> {
     /// No neighbour.
     pub const NONE: Self = Self {
+        index: 0,
         kind: kind::EMPTY,
         link: 0,
         mesh: INVALID,
         position: 0,
         slot: 0,
         before: 0.0,
-        weight: 0.0,
+        weights: [0.0; W],
         sum: 1.0,
     };
 
     /// Probability of entering it; divided only here, since few neighbours turn out dead.
     #[inline(always)]
     pub fn mass(&self) -> f32 {
-        self.before * exact::div(self.weight, self.sum)
+        let mut weight = 0.0;
+        for slot in 0..W {
+            weight = if slot as u32 == self.slot {
+                self.weights[slot]
+            } else {
+                weight
+            };
+        }
+        self.before * exact::div(weight, self.sum)
     }
 
     #[inline(always)]
@@ -85,7 +96,7 @@ struct Order {
 fn find_live<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     tree: &LightTree<'_, N>,
     point: &ShadingPoint,
-    start: &Neighbor,
+    start: &Neighbor<W>,
     order: Order,
 ) -> Found {
     let (first_index, first_position, first_mesh) =
@@ -181,25 +192,30 @@ fn search_bound(nodes: u32, levels: u32) -> u32 {
 fn next_neighbor<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     tree: &LightTree<'_, N>,
     point: &ShadingPoint,
-    d: &Descent,
-    neighbor: &Neighbor,
+    d: &Descent<W>,
+    neighbor: &Neighbor<W>,
     right: bool,
-) -> Neighbor {
+) -> Neighbor<W> {
     let mut next = Neighbor::NONE;
     let mut position = neighbor.position;
     let mut slot = neighbor.slot;
     let mut before = neighbor.before;
     let mut mesh = neighbor.mesh;
-    // The first node looked at is the neighbour's own; its probability is known.
+    // The first node looked at is the neighbour's own; its probability and weights are known.
     let mut undo = false;
     let mut steps = 2 * max_levels(W);
     let mut done = neighbor.is_none();
     while !done && steps > 0 {
         steps -= 1;
-        let index = node_at::<N, W>(tree, d.path, position);
+        let index = if undo {
+            node_at::<N, W>(tree, d.path, position)
+        } else {
+            neighbor.index
+        };
         let node = &tree.nodes[index as usize];
-        let (weights, sum) = node.weights::<I>(point);
+        let (mut weights, mut sum) = (neighbor.weights, neighbor.sum);
         if undo {
+            (weights, sum) = node.weights::<I>(point);
             let mut taken = 0.0;
             for s in 0..W {
                 taken = if s as u32 == slot { weights[s] } else { taken };
@@ -211,13 +227,14 @@ fn next_neighbor<N: LightNode<W>, I: ImportanceModel, const W: usize>(
             let beyond = if right { s as u32 > slot } else { (s as u32) < slot };
             if beyond && weights[s] > 0.0 && !done {
                 next = Neighbor {
+                    index,
                     kind: node.kind(s),
                     link: node.link(s),
                     mesh,
                     position,
                     slot: s as u32,
                     before,
-                    weight: weights[s],
+                    weights,
                     sum,
                 };
                 done = true;
@@ -257,11 +274,37 @@ fn node_at<N: LightNode<W>, const W: usize>(tree: &LightTree<'_, N>, path: Path,
     if index < tree.nodes.len() as u32 { index } else { 0 }
 }
 
-/// The probability that the light at the end of `d` takes over from dead neighbours.
+/// Slots of one node that are known to be dead or of no importance.
+#[derive(Clone, Copy)]
+pub(super) struct Dead {
+    /// Position of the node.
+    pub position: u32,
+    /// The first of them.
+    pub first: u32,
+    /// The one after the last.
+    pub end: u32,
+}
+
+impl Dead {
+    /// Nothing is known.
+    pub const UNKNOWN: Self = Self {
+        position: 0,
+        first: 0,
+        end: 0,
+    };
+
+    #[inline(always)]
+    fn holds<const W: usize>(&self, neighbor: &Neighbor<W>) -> bool {
+        (neighbor.position == self.position) & (neighbor.slot >= self.first) & (neighbor.slot < self.end)
+    }
+}
+
+/// The probability that the light at the end of `d` takes over from dead neighbours; `dead` saves searches.
 pub(super) fn adopted<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     tree: &LightTree<'_, N>,
     point: &ShadingPoint,
-    d: &Descent,
+    d: &Descent<W>,
+    dead: &Dead,
 ) -> f32 {
     const ANY: Order = Order {
         ascending: true,
@@ -279,7 +322,9 @@ pub(super) fn adopted<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     while !done && steps > 0 {
         steps -= 1;
         let none = neighbor.is_none();
-        let live = !none && find_live::<N, I, W>(tree, point, &neighbor, ANY).light != INVALID;
+        let live = !none
+            && !dead.holds(&neighbor)
+            && find_live::<N, I, W>(tree, point, &neighbor, ANY).light != INVALID;
         if none || live {
             if right {
                 total += if live && neighbor.position == pending_position {
@@ -309,16 +354,17 @@ pub(super) fn adopted<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     total
 }
 
-/// The light that takes over from the dead end of `d`.
+/// The light that takes over from the dead end of `d`, and the slots that the search found dead beside it.
 pub(super) fn heir<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     tree: &LightTree<'_, N>,
     point: &ShadingPoint,
-    d: &Descent,
-) -> Found {
+    d: &Descent<W>,
+) -> (Found, Dead) {
     let mut found = Found {
         light: INVALID,
         mesh: INVALID,
     };
+    let mut dead = Dead::UNKNOWN;
     let (mut left, mut right) = (d.left, d.right);
     let mut done = false;
     let mut steps = 4 * W as u32 * max_levels(W);
@@ -337,6 +383,17 @@ pub(super) fn heir<N: LightNode<W>, I: ImportanceModel, const W: usize>(
             },
         );
         done = neighbor.is_none() || found.light != INVALID;
+        // What was tried before in this node: from the way's own slot up to this one; or, coming back from the right,
+        // all beyond this one.
+        dead = Dead {
+            position: neighbor.position,
+            first: if to_right {
+                d.path.slot::<W>(neighbor.position)
+            } else {
+                neighbor.slot.wrapping_add(1)
+            },
+            end: if to_right { neighbor.slot } else { W as u32 },
+        };
         if !done {
             let next = next_neighbor::<N, I, W>(tree, point, d, &neighbor, to_right);
             if to_right {
@@ -346,5 +403,5 @@ pub(super) fn heir<N: LightNode<W>, I: ImportanceModel, const W: usize>(
             }
         }
     }
-    found
+    (found, dead)
 }

@@ -21,7 +21,7 @@ pub(super) struct Guide {
 
 /// Where a descent ended, and what it saw on its way.
 #[derive(Clone, Copy)]
-pub(super) struct Descent {
+pub(super) struct Descent<const W: usize> {
     /// The triangle reached, or [`INVALID`].
     pub light: u32,
     /// The mesh light passed, or [`INVALID`].
@@ -33,9 +33,9 @@ pub(super) struct Descent {
     /// The way taken.
     pub path: Path,
     /// Deepest child left of the way that has importance.
-    pub left: Neighbor,
+    pub left: Neighbor<W>,
     /// Deepest child right of the way that has importance.
-    pub right: Neighbor,
+    pub right: Neighbor<W>,
 }
 
 /// A pmf never falls below 2^-120: a light less probable than that is never drawn, and must not seem impossible.
@@ -45,7 +45,7 @@ pub(super) fn descend<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     tree: &LightTree<'_, N>,
     point: &ShadingPoint,
     guide: &Guide,
-) -> Descent {
+) -> Descent<W> {
     let mut out = Descent {
         light: INVALID,
         mesh: INVALID,
@@ -159,10 +159,9 @@ impl<const W: usize> Beside<W> {
 
     /// The child with importance nearest to the slot that the way of `d` took there.
     #[inline(always)]
-    fn nearest<N: LightNode<W>>(&self, tree: &LightTree<'_, N>, d: &Descent, right: bool) -> Neighbor {
+    fn nearest<N: LightNode<W>>(&self, tree: &LightTree<'_, N>, d: &Descent<W>, right: bool) -> Neighbor<W> {
         let taken = d.path.slot::<W>(self.position);
         let mut nearest = INVALID;
-        let mut weight = 0.0;
         for i in 0..W {
             // From the far end of the side, so that the nearest comes last.
             let slot = if right { W - 1 - i } else { i };
@@ -171,15 +170,14 @@ impl<const W: usize> Beside<W> {
             } else {
                 (slot as u32) < taken
             };
-            let w = self.weights[slot];
-            let better = beyond & (w > 0.0);
+            let better = beyond & (self.weights[slot] > 0.0);
             nearest = if better { slot as u32 } else { nearest };
-            weight = if better { w } else { weight };
         }
         let exists = self.index < tree.nodes.len() as u32 && nearest < W as u32;
         let node = &tree.nodes[if exists { self.index as usize } else { 0 }];
         let slot = if exists { nearest as usize } else { 0 };
         Neighbor {
+            index: if exists { self.index } else { 0 },
             kind: if exists { node.kind(slot) } else { kind::EMPTY },
             link: node.link(slot),
             mesh: if self.position < max_levels(W) {
@@ -190,7 +188,7 @@ impl<const W: usize> Beside<W> {
             position: self.position,
             slot: nearest,
             before: self.before,
-            weight,
+            weights: self.weights,
             sum: self.sum,
         }
     }
