@@ -2,9 +2,9 @@
 
 use alloc::vec::Vec;
 
-use super::BuildParams;
 use super::primitive::{Group, Primitive};
-use super::split::{halve, split};
+use super::split::{Buckets, halve, split};
+use super::{BuildParams, MAX_BUCKETS};
 
 /// A child: an inner node's index, or the index of a primitive with this bit set.
 pub(super) const LEAF: u32 = 1 << 31;
@@ -32,6 +32,7 @@ pub(super) fn binary_tree(
     let mut builder = Builder {
         params,
         most_levels,
+        buckets: [Group::EMPTY; MAX_BUCKETS as usize],
         out: BinaryTree {
             nodes: Vec::with_capacity(primitives.len()),
             depth: 0,
@@ -45,6 +46,7 @@ pub(super) fn binary_tree(
 struct Builder<'a> {
     params: &'a BuildParams,
     most_levels: u32,
+    buckets: Buckets,
     out: BinaryTree,
 }
 
@@ -61,7 +63,7 @@ impl Builder<'_> {
 
         // Where the parts would not fit into the levels that remain, they are made equal instead.
         let capacity = 1u64.checked_shl(self.most_levels - 1 - level).unwrap_or(u64::MAX);
-        let (mut middle, mut groups) = split(primitives, group, self.params);
+        let (mut middle, mut groups) = split(primitives, group, self.params, &mut self.buckets);
         if middle.max(primitives.len() - middle) as u64 > capacity {
             middle = halve(primitives);
             groups = None;
