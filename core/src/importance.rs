@@ -84,12 +84,10 @@ impl ImportanceModel for Eq4 {
         let d_squared = exact::max(length_squared(v), MIN_DISTANCE_SQUARED);
         let r_squared = cluster.radius_squared;
 
-        // Lengths instead of sines and cosines: with d = |v|, d cos θ_i = n·v, d cos θ = −axis·v, d sin θ_u = r, and
+        // Lengths instead of sines and cosines: with d = |v|, d cos θ = −axis·v, d sin θ_u = r, and
         // the others by Pythagoras. Every root then starts from d² and none waits for another. Selects, not branches:
         // the compiler computes a node's children side by side.
-        let along_n = dot(n, v);
         let along_axis = TINY_LENGTH - dot(cluster.axis, v);
-        let across_n = root(d_squared - along_n * along_n);
         let across_axis = root(d_squared - along_axis * along_axis);
         let radius = root(r_squared);
         let tangent = root(d_squared - r_squared);
@@ -99,16 +97,18 @@ impl ImportanceModel for Eq4 {
         // Inside the sphere the lights may be anywhere.
         let inside = r_squared >= d_squared;
 
-        // cos θ'_i = cos max(0, θ_i − θ_u), and 1 in a volume. Zero only when the whole box lies below the horizon: the
-        // sphere would leave many branches alive below which nothing is (a third of all node visits).
-        let in_volume = n.x == 0.0 && n.y == 0.0 && n.z == 0.0;
+        // The incident cosine that the highest corner of the box has, as seen at the centre's distance; 1 in a volume.
+        let in_volume = (n.x == 0.0) & (n.y == 0.0) & (n.z == 0.0);
         let reach_up = (exact::abs(n.x) * cluster.extent.x + exact::abs(n.y) * cluster.extent.y)
             + exact::abs(n.z) * cluster.extent.z;
-        let below = along_n + reach_up < -HORIZON_SLACK * (d_squared * inverse);
-        let towards = (along_n * tangent + across_n * radius) * inverse_squared;
-        let around = in_volume | inside | (along_n >= tangent);
-        let cosine = if around { 1.0 } else { exact::max(towards, 0.0) };
-        let incident = if below { 0.0 } else { cosine + SLACK };
+        let cos_incident = (dot(n, v) + reach_up) * inverse;
+        let bounded = exact::min(exact::max(cos_incident, SLACK), 1.0);
+        let above = if cos_incident < -HORIZON_SLACK {
+            0.0
+        } else {
+            bounded
+        };
+        let incident = if in_volume { 1.0 } else { above };
 
         // cos θ' = cos max(0, θ − θ_o − θ_u), with α = θ_o + θ_u; an α above π shows in its negative sine.
         let cos_alpha = cluster.cos_theta_o * tangent - cluster.sin_theta_o * radius;
