@@ -130,5 +130,6 @@ impl<const W: usize> Collapse<W> {
 
 /// Most levels of a binary tree that surely fits into `max_levels(W)` levels of a wide one.
 pub(super) const fn binary_levels<const W: usize>() -> u32 {
+    const { assert!(W >= 2, "a node has at least two children") };
     max_levels(W) * W.ilog2()
 }

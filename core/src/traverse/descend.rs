@@ -1,6 +1,6 @@
 //! One way down, chosen at random or followed.
 
-use super::dead::Neighbor;
+use super::neighbor::Neighbor;
 use crate::exact::{self, hash};
 use crate::importance::ImportanceModel;
 use crate::node::{LightNode, kind};
