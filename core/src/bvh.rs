@@ -79,14 +79,16 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
     /// One tree over all triangles: the paper's baseline.
     #[must_use]
     pub fn single_level(lights: &Lights, params: &BuildParams) -> Self {
-        let mut primitives = triangle_primitives(lights, 0..lights.triangles().len());
+        let bounds = triangle_bounds(lights);
+        let mut primitives = primitives(&bounds, 0..bounds.len());
         let topology = build::<N, W>(&mut primitives, kind::LIGHT, 0, params);
         drop(primitives);
         let mut bvh = Self::empty(lights, topology.depth);
         let pairs = inner_nodes::<N, W>(&topology, 0);
         bvh.append(topology);
         bvh.bottom = Levels::gather(pairs);
-        bvh.refit(lights);
+        bvh.set_leaves(&bounds);
+        bvh.refit_inner();
         bvh
     }
 
@@ -95,11 +97,12 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
     #[must_use]
     pub fn two_level(lights: &Lights, params: &BuildParams) -> Self {
         // Bottom levels, one after the other.
+        let bounds = triangle_bounds(lights);
         let mut bottoms = Vec::with_capacity(lights.mesh_count());
         let mut next = 0;
         let mut bottom_depth = 0;
         for mesh in 0..lights.mesh_count() {
-            let mut primitives = triangle_primitives(lights, lights.mesh(mesh));
+            let mut primitives = primitives(&bounds, lights.mesh(mesh));
             let topology = build::<N, W>(&mut primitives, kind::LIGHT, next, params);
             next += topology.nodes.len() as u32;
             bottom_depth = bottom_depth.max(topology.depth);
@@ -120,7 +123,8 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
         }
         bvh.bottom = Levels::gather(pairs);
         bvh.root = bvh.nodes.len() as u32;
-        bvh.refit(lights);
+        bvh.set_leaves(&bounds);
+        bvh.refit_inner();
 
         bvh.build_top(params);
         bvh
@@ -182,6 +186,22 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
         for i in 0..bottom_end {
             self.nodes[i] = refit::leaves(&self.nodes, lights.triangles(), i as u32);
         }
+        self.refit_inner();
+    }
+
+    /// What `refit::leaves` does, from bounds that are known already.
+    fn set_leaves(&mut self, bounds: &[LightBounds]) {
+        for node in &mut self.nodes {
+            for slot in 0..W {
+                if node.kind(slot) == kind::LIGHT {
+                    node.set_bounds(slot, &bounds[node.link(slot) as usize]);
+                }
+            }
+        }
+    }
+
+    /// The passes of refit after the first.
+    fn refit_inner(&mut self) {
         for k in 0..self.bottom.nodes.len() {
             let i = self.bottom.nodes[k];
             self.nodes[i as usize] = refit::level(&self.nodes, i);
@@ -296,10 +316,12 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
     }
 }
 
-fn triangle_primitives(lights: &Lights, range: Range<usize>) -> Vec<Primitive> {
-    range
-        .map(|i| Primitive::new(i as u32, &LightBounds::of_triangle(&lights.triangles()[i])))
-        .collect()
+fn triangle_bounds(lights: &Lights) -> Vec<LightBounds> {
+    lights.triangles().iter().map(LightBounds::of_triangle).collect()
+}
+
+fn primitives(bounds: &[LightBounds], range: Range<usize>) -> Vec<Primitive> {
+    range.map(|i| Primitive::new(i as u32, &bounds[i])).collect()
 }
 
 /// (level, index) of the nodes that have inner children.
