@@ -120,7 +120,8 @@ fn is_structure(op: Op) -> bool {
             | Op::ReturnValue
             | Op::Unreachable
             | Op::Load
-            | Op::Store | Op::CopyMemory
+            | Op::Store
+            | Op::CopyMemory
             | Op::AccessChain
             | Op::InBoundsAccessChain
             | Op::ArrayLength
