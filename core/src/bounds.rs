@@ -54,7 +54,8 @@ impl LightBounds {
         let (e1, e2) = (p1 - p0, p2 - p0);
 
         // Scale the edges, then their cross product, to about 1 by powers of two, so that no product leaves the range.
-        let edge_scale = max_exponent(e1, max_exponent(e2, -127));
+        let (e1_scale, e2_scale) = (max_exponent(e1, -127), max_exponent(e2, -127));
+        let edge_scale = if e1_scale > e2_scale { e1_scale } else { e2_scale };
         let to_one = pow2(-edge_scale);
         let across = cross(e1 * to_one, e2 * to_one);
         let across_scale = max_exponent(across, -127);
@@ -65,6 +66,14 @@ impl LightBounds {
             Vec3::new(0.0, 0.0, 1.0)
         };
         let length = exact::sqrt(dot(n, n));
+
+        // Rounding turns the normal by up to 2^-21 |e1||e2| / |e1 × e2| rad: 2^-24 for each edge, as much again for
+        // products and difference, and some for safety. In a needle that may be any angle, so its cone is opened.
+        let (a, b) = (e1 * pow2(-e1_scale), e2 * pow2(-e2_scale));
+        let excess = e1_scale + e2_scale - (across_scale + edge_scale + edge_scale);
+        let bounded = if excess < 40 { excess } else { 40 };
+        let turn_squared = dot(a, a) * dot(b, b) * exact::recip(dot(n, n)) * pow2(bounded + bounded - 42);
+        let any_normal = triangle.is_two_sided() || turn_squared > 0.015_625;
 
         // Φ = significand · 2^exponent, put together once, within the stated range.
         let luminance = triangle.luminance();
@@ -85,7 +94,7 @@ impl LightBounds {
             min: min3(p0, min3(p1, p2)),
             max: max3(p0, max3(p1, p2)),
             axis: normalized(n),
-            cos_theta_o: if triangle.is_two_sided() { -1.0 } else { 1.0 },
+            cos_theta_o: if any_normal { -1.0 } else { 1.0 - turn_squared },
             cos_theta_e: 0.0,
             phi: if emits { phi } else { 0.0 },
         }

@@ -20,6 +20,9 @@ const WIDEN_COS_DEFECT: f32 = exact::pow2(-23);
 const PARALLEL: f32 = exact::pow2(-20);
 const LEAST_SINE: f32 = exact::pow2(-10);
 
+/// Components of directions below this count as zero, so that a device that flushes subnormal numbers agrees.
+const TINY: f32 = exact::pow2(-60);
+
 /// All directions within the angle θ_o of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone {
@@ -33,7 +36,8 @@ pub struct Cone {
 #[inline]
 #[must_use]
 pub fn sine_of(cosine: f32) -> f32 {
-    exact::sqrt(exact::max(1.0 - cosine * cosine, 0.0))
+    // In this form the differences are precise near ±1 too, where that of 1 − cos² is not.
+    exact::sqrt(exact::max((1.0 - cosine) * (1.0 + cosine), 0.0))
 }
 
 /// cos(θ + δ), −1 from θ + δ = π on. `cosine` is cos θ; δ is small and given by its sine and 1 − cos δ.
@@ -64,12 +68,10 @@ impl Cone {
         let (cos_a, cos_b) = (self.cos_theta_o, other.cos_theta_o);
         let (sin_a, sin_b) = (sine_of(cos_a), sine_of(cos_b));
         let cos_d = exact::clamp(dot(self.axis, other.axis), -1.0, 1.0);
-        // The part of the other axis across this one: its length is sin θ_d, precise where 1 − cos² is not.
-        let across = Vec3::new(
-            other.axis.x - self.axis.x * cos_d,
-            other.axis.y - self.axis.y * cos_d,
-            other.axis.z - self.axis.z * cos_d,
-        );
+        // The part of the other axis across this one: its length is sin θ_d, precise where 1 − cos² is not. Where it is
+        // short, the rounding of the first difference still lies along this axis; the second takes that away.
+        let first = other.axis - self.axis * cos_d;
+        let across = first - self.axis * exact::flush(dot(self.axis, first), TINY);
         let sin_d_squared = exact::min(length_squared(across), 1.0);
         let parallel = sin_d_squared < PARALLEL;
         let sin_d = exact::sqrt(sin_d_squared);
@@ -80,16 +82,24 @@ impl Cone {
         let (cos_da, sin_da) = (cos_d * cos_a - sin_d * sin_a, sin_d * cos_a + cos_d * sin_a);
         let beyond_db = sin_db < 0.0 || (cos_d < 0.0 && cos_b < 0.0);
         let beyond_da = sin_da < 0.0 || (cos_d < 0.0 && cos_a < 0.0);
-        let contains_other = cos_a <= -1.0 || (!beyond_db && cos_db >= cos_a);
-        let contained = cos_b <= -1.0 || (!beyond_da && cos_da >= cos_b);
+        // Cosines do not tell angles near 0 and π apart, so the sine of the difference must agree: it is precise there, and
+        // ambiguous only where the angles are π apart.
+        let b_within_a = cos_db >= cos_a && sin_db * cos_a <= cos_db * sin_a;
+        let a_within_b = cos_da >= cos_b && sin_da * cos_b <= cos_da * sin_b;
+        let contains_other = cos_a <= -1.0 || (!beyond_db && b_within_a);
+        let contained = cos_b <= -1.0 || (!beyond_da && a_within_b);
 
-        // Half of x = θ_a + θ_d + θ_b, by the half-angle formula; x beyond 2π means everything.
+        // Half of x = θ_a + θ_d + θ_b, by the half-angle formula for the larger of cosine and sine, and from sin x for the
+        // other, which the formula would lose near its zero; x beyond 2π means everything.
         let (cos_x, sin_x) = (cos_db * cos_a - sin_db * sin_a, sin_db * cos_a + cos_db * sin_a);
         let beyond_pi = beyond_db || sin_x < 0.0;
         let everything = beyond_db && sin_x >= 0.0;
-        let half = exact::sqrt(exact::max(0.5 + 0.5 * cos_x, 0.0));
+        let larger = exact::sqrt(0.5 + 0.5 * exact::abs(cos_x));
+        let smaller = exact::div(0.5 * exact::abs(sin_x), larger);
+        let obtuse = cos_x < 0.0;
+        let half = if obtuse { smaller } else { larger };
+        let sin_o = if obtuse { larger } else { smaller };
         let cos_o = if beyond_pi { -half } else { half };
-        let sin_o = sine_of(cos_o);
         // The new axis is this axis turned towards the other by θ_o − θ_a.
         let (cos_r, sin_r) = (cos_o * cos_a + sin_o * sin_a, sin_o * cos_a - cos_o * sin_a);
         let turn = sin_r * exact::recip(exact::max(sin_d, LEAST_SINE));
@@ -127,12 +137,10 @@ impl Cone {
     }
 }
 
-/// `v` scaled to unit length; `v` need only be within a factor of 2^20 of it. Components below 2^-60 become +0, so that
-/// a device that flushes subnormal numbers agrees.
+/// `v` scaled to unit length; `v` need only be within a factor of 2^20 of it. Components below 2^-60 become +0.
 #[inline]
 #[must_use]
 pub fn normalized(v: Vec3) -> Vec3 {
-    const TINY: f32 = exact::pow2(-60);
     let length = exact::sqrt(exact::max(length_squared(v), 1e-30));
     Vec3::new(
         exact::flush(exact::div(v.x, length), TINY),

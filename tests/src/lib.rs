@@ -1,6 +1,7 @@
 //! Generators, oracles, statistics and devices shared by the tests.
 
 pub mod devices;
+pub mod direct;
 pub mod generate;
 pub mod gltf_files;
 pub mod oracle;

@@ -54,7 +54,14 @@ fn of_triangle_contains_it(light: &EmissiveTriangle) {
             "flux {} of {phi}: {light:?}",
             bounds.phi
         );
-        assert_eq!(bounds.cos_theta_o, if light.is_two_sided() { -1.0 } else { 1.0 });
+        // The cone is opened by the error, except below what a cosine near 1 resolves.
+        let open = half_angle(bounds.cos_theta_o);
+        assert!(
+            off <= open + 2f64.powi(-11),
+            "axis off by {off}, cone {open}: {light:?}"
+        );
+        assert!(open <= 2.0 * error + 2f64.powi(-11) || open == PI && (error > 0.12 || light.is_two_sided()));
+        assert!(!light.is_two_sided() || open == PI);
     }
 }
 

@@ -191,10 +191,13 @@ fn pack_box(min: Vec3, max: Vec3) -> (Vec3, u32) {
     let carries = ceil_u32(greatest * pow2(7 - bounded)) > 255;
     let unit_exponent = if carries { bounded - 6 } else { bounded - 7 };
     let per_unit = pow2(-unit_exponent);
-    let word = (((unit_exponent + UNIT_BIAS) as u32) << 24)
-        | (ceil_u32(hx * per_unit) << 16)
-        | (ceil_u32(hy * per_unit) << 8)
-        | ceil_u32(hz * per_unit);
+    let units = |h: f32| {
+        // A product that a device flushes to zero still takes one unit, if it was of anything.
+        let up = ceil_u32(h * per_unit);
+        if up == 0 && h > 0.0 { 1 } else { up }
+    };
+    let word =
+        (((unit_exponent + UNIT_BIAS) as u32) << 24) | (units(hx) << 16) | (units(hy) << 8) | units(hz);
     (center, if greatest > 0.0 { word } else { 0 })
 }
 
@@ -222,8 +225,9 @@ fn pack_cone(cos_theta_o: f32) -> u32 {
     }
 }
 
-/// Least integer not below `x`, for `x` in `[0, 2^23]`.
+/// Least integer not below `x`, for `x` in `[0, 2^23]`; any other from hostile words.
 fn ceil_u32(x: f32) -> u32 {
     let down = exact::floor_u32(x);
-    if (down as i32 as f32) < x { down + 1 } else { down }
+    let up = (down as i32 as f32) < x;
+    if up { down.wrapping_add(1) } else { down }
 }

@@ -236,7 +236,7 @@ impl<N: LightNode<W>, const W: usize> Walk<'_, N, W> {
                 let of_range = *level.get_or_insert(own);
                 equal(node, INVALID, What::ListedLevel, of_range, own)?;
                 if own >= above {
-                    return equal(node, INVALID, What::ListedLevel, above - 1, own);
+                    return equal(node, INVALID, What::ListedLevel, above.wrapping_sub(1), own);
                 }
             }
             above = level.unwrap_or(above);

@@ -1,0 +1,283 @@
+//! Trees as deep as trails are long, and flux over forty powers of two.
+
+use lightbvh::trail::max_levels;
+use lightbvh::{
+    BuildParams, CompactNode, EmissiveTriangle, Eq4, FullNode, Heuristic, INVALID, LightBvh, LightNode,
+    Lights, ShadingPoint, exact,
+};
+use lightbvh_tests::generate::Random;
+use lightbvh_tests::oracle::{all_pmfs, sum_tolerance};
+use lightbvh_tests::statistics::{chi_squared, chi_squared_quantile};
+
+fn triangle(corner: [f32; 3], size: f32, radiance: f32, mesh: u32) -> EmissiveTriangle {
+    let [x, y, z] = corner;
+    EmissiveTriangle {
+        p: [corner, [x, y + size, z], [x, y, z + size]],
+        radiance: [radiance; 3],
+        mesh,
+        flags: 1,
+    }
+}
+
+/// `count` lights, each at half the distance from the origin of the one before, in meshes of `per_mesh`.
+fn shrinking(count: u32, per_mesh: u32, brighter: bool) -> Lights {
+    let light = |i: u32| {
+        let x = exact::pow2(38 - i as i32);
+        // Radiance as the inverse square of the size gives all the same flux, or each twice that of the one before.
+        let flux = if brighter { exact::pow2(i as i32 - 60) } else { 1.0 };
+        let size = if i > 120 { 0.0 } else { x * 0.125 };
+        triangle([x, 0.0, 0.0], size.max(exact::pow2(-40)), flux, i / per_mesh)
+    };
+    Lights::new((0..count).map(light).collect()).expect("within the domain")
+}
+
+/// Boxes one within the other: triangles around the origin, each half as large as the one before.
+fn nested(count: u32) -> Lights {
+    let light = |i: u32| {
+        let s = exact::pow2(38 - i as i32);
+        let mut t = triangle([-s; 3], 3.0 * s, 1.0, i);
+        t.p[1][0] = s;
+        t
+    };
+    Lights::new((0..count).map(light).collect()).expect("within the domain")
+}
+
+/// Mesh lights at halving distances along x, the triangles of each at halving distances along y: deep in both levels.
+fn deep_in_both(meshes: u32, triangles: u32) -> Lights {
+    let light = |i: u32| {
+        let (m, t) = (i / triangles, i % triangles);
+        let (x, y) = (exact::pow2(20 - m as i32), exact::pow2(20 - t as i32));
+        triangle([x, y, 0.0], y * 0.125, 1.0, m)
+    };
+    Lights::new((0..meshes * triangles).map(light).collect()).expect("within the domain")
+}
+
+/// Points near the origin, at every distance from it.
+fn point(random: &mut Random) -> ShadingPoint {
+    let d = exact::pow2(38 - random.below(100) as i32);
+    ShadingPoint {
+        p: random.direction().map(|x| x * d),
+        n: [0.0; 3],
+    }
+}
+
+/// A valid tree within the levels of a trail, whose pmfs sum to one and are those of its samples.
+fn check<N: LightNode<W>, const W: usize>(bvh: &LightBvh<N, W>, lights: &Lights, seed: u32) {
+    bvh.validate(lights).unwrap_or_else(|v| panic!("{v}"));
+    let levels = if bvh.is_two_level() { 2 } else { 1 };
+    assert!(bvh.depth() <= levels * max_levels(W), "depth {}", bvh.depth());
+    let random = &mut Random::new(seed);
+    for _ in 0..12 {
+        let point = point(random);
+        let pmfs = all_pmfs::<Eq4, N, W>(bvh, lights, &point);
+        let sum: f64 = pmfs.iter().map(|&p| f64::from(p)).sum();
+        assert!(
+            (sum - 1.0).abs() <= sum_tolerance(bvh.depth()),
+            "sum {sum} at {point:?}"
+        );
+        // In a volume two-sided lights reach every point outside of their planes.
+        assert!(pmfs.iter().all(|&p| p > 0.0), "a starved light at {point:?}");
+        for _ in 0..64 {
+            let sampled = bvh.sample::<Eq4>(&point, random.bits());
+            assert_ne!(sampled.light, INVALID);
+            assert_eq!(sampled.pmf.to_bits(), pmfs[sampled.light as usize].to_bits());
+        }
+    }
+}
+
+fn every_tree(lights: &Lights, least_depth: u32) {
+    for heuristic in [Heuristic::Sah, Heuristic::Saoh] {
+        let mut deepest = 0;
+        for buckets in [2, 16] {
+            let params = BuildParams { heuristic, buckets };
+            let binary = LightBvh::<CompactNode<2>, 2>::single_level(lights, &params);
+            deepest = deepest.max(binary.depth());
+            check(&binary, lights, 1);
+            check(
+                &LightBvh::<CompactNode<2>, 2>::two_level(lights, &params),
+                lights,
+                2,
+            );
+            check(&LightBvh::<FullNode<2>, 2>::two_level(lights, &params), lights, 3);
+            check(
+                &LightBvh::<CompactNode<4>, 4>::two_level(lights, &params),
+                lights,
+                4,
+            );
+            check(
+                &LightBvh::<CompactNode<8>, 8>::single_level(lights, &params),
+                lights,
+                5,
+            );
+            check(
+                &LightBvh::<CompactNode<16>, 16>::two_level(lights, &params),
+                lights,
+                6,
+            );
+        }
+        assert!(deepest >= least_depth, "{heuristic:?}: only {deepest} levels");
+    }
+}
+
+#[test]
+fn halving_distances() {
+    every_tree(&shrinking(78, 1, false), 33);
+    every_tree(&shrinking(78, 78, false), 33);
+    every_tree(&shrinking(78, 9, true), 0);
+}
+
+/// More halvings than a trail has levels: the builder must make the parts equal before it runs out of them.
+#[test]
+fn more_halvings_than_levels() {
+    let lights = shrinking(130, 130, false);
+    for heuristic in [Heuristic::Sah, Heuristic::Saoh] {
+        let params = BuildParams {
+            heuristic,
+            buckets: 2,
+        };
+        let bvh = LightBvh::<CompactNode<2>, 2>::single_level(&lights, &params);
+        assert!((33..=64).contains(&bvh.depth()), "depth {}", bvh.depth());
+        bvh.validate(&lights).unwrap_or_else(|v| panic!("{v}"));
+        let wide = LightBvh::<CompactNode<16>, 16>::single_level(&lights, &params);
+        assert!(wide.depth() <= max_levels(16));
+        wide.validate(&lights).unwrap_or_else(|v| panic!("{v}"));
+    }
+}
+
+#[test]
+fn nested_boxes() {
+    every_tree(&nested(70), 4);
+}
+
+#[test]
+fn deep_in_both_levels() {
+    let lights = deep_in_both(48, 48);
+    let params = BuildParams {
+        heuristic: Heuristic::Sah,
+        buckets: 2,
+    };
+    let bvh = LightBvh::<CompactNode<2>, 2>::two_level(&lights, &params);
+    assert!(bvh.depth() > 2 * 33, "only {} levels", bvh.depth());
+    assert_eq!(bvh.tree().trail_words, 2);
+    check(&bvh, &lights, 1);
+    frequencies_match(
+        &bvh,
+        &lights,
+        &ShadingPoint {
+            p: [0.0, 0.0, -1.0],
+            n: [0.0; 3],
+        },
+        100_000,
+        2,
+    );
+}
+
+/// Observed frequencies against evaluated probabilities, tail 1e-6.
+fn frequencies_match<N: LightNode<W>, const W: usize>(
+    bvh: &LightBvh<N, W>,
+    lights: &Lights,
+    point: &ShadingPoint,
+    samples: u32,
+    seed: u32,
+) -> Vec<u64> {
+    let random = &mut Random::new(seed);
+    let pmfs = all_pmfs::<Eq4, N, W>(bvh, lights, point);
+    let expected: Vec<f64> = pmfs.into_iter().map(f64::from).collect();
+    let mut observed = vec![0_u64; expected.len()];
+    for _ in 0..samples {
+        observed[bvh.sample::<Eq4>(point, random.bits()).light as usize] += 1;
+    }
+    let (statistic, degrees) = chi_squared(&observed, &expected);
+    let threshold = chi_squared_quantile(degrees, 1e-6);
+    assert!(
+        statistic < threshold,
+        "χ² {statistic} of {degrees} degrees, threshold {threshold}"
+    );
+    observed
+}
+
+/// Deep in a chain the random number must not run dry: the lights near the point are drawn as often as they should be.
+#[test]
+fn frequencies_below_32_levels() {
+    let lights = shrinking(78, 78, false);
+    let params = BuildParams {
+        heuristic: Heuristic::Sah,
+        buckets: 2,
+    };
+    let bvh = LightBvh::<CompactNode<2>, 2>::single_level(&lights, &params);
+    assert!(bvh.depth() > 33);
+    // About as far from the origin as the sixtieth light: it and its neighbours are drawn most.
+    let d = exact::pow2(38 - 60);
+    let observed = frequencies_match(
+        &bvh,
+        &lights,
+        &ShadingPoint {
+            p: [0.0, d, d],
+            n: [0.0; 3],
+        },
+        200_000,
+        3,
+    );
+    assert!(
+        observed.iter().filter(|&&count| count > 100).count() >= 3,
+        "{observed:?}"
+    );
+}
+
+/// One light among 64 shines 2^k times as bright as the others.
+#[test]
+fn one_light_outshines_all() {
+    for k in [0, 4, 8, 12, 40, 90] {
+        let light = |i: u32| {
+            let radiance = exact::pow2(if i == 20 { k } else { 0 });
+            triangle([i as f32, 2.0, 0.0], 0.5, radiance, i / 8)
+        };
+        let lights = Lights::new((0..64).map(light).collect()).expect("within the domain");
+        let point = ShadingPoint {
+            p: [30.0, 0.0, 0.0],
+            n: [0.0, 1.0, 0.0],
+        };
+        let params = BuildParams::default();
+        let (two, one, wide) = (
+            LightBvh::<CompactNode<2>, 2>::two_level(&lights, &params),
+            LightBvh::<CompactNode<2>, 2>::single_level(&lights, &params),
+            LightBvh::<CompactNode<4>, 4>::two_level(&lights, &params),
+        );
+        let samples = if k == 12 { 1 << 20 } else { 100_000 };
+        let observed = [
+            frequencies_match(&two, &lights, &point, samples, 1),
+            frequencies_match(&one, &lights, &point, samples, 2),
+            frequencies_match(&wide, &lights, &point, samples, 3),
+        ];
+        let pmfs = all_pmfs::<Eq4, _, 2>(&two, &lights, &point);
+        assert!(pmfs.iter().all(|&p| p > 0.0), "a starved light: {pmfs:?}");
+        for observed in observed {
+            let others = observed.iter().sum::<u64>() - observed[20];
+            assert!(
+                if k < 13 { others > 0 } else { others == 0 || k < 20 },
+                "{k}: {others}"
+            );
+        }
+        // Seen from behind the bright light's front it may not contribute; the others then have it all to themselves.
+        let turned = lights
+            .triangles()
+            .iter()
+            .enumerate()
+            .map(|(i, t)| EmissiveTriangle {
+                flags: u32::from(i != 20),
+                ..*t
+            });
+        let turned = Lights::new(turned.collect()).expect("within the domain");
+        let behind = ShadingPoint {
+            p: [0.0; 3],
+            n: [0.0; 3],
+        };
+        let bvh = LightBvh::<CompactNode<2>, 2>::two_level(&turned, &params);
+        frequencies_match(&bvh, &turned, &behind, 100_000, 4);
+        let pmfs = all_pmfs::<Eq4, _, 2>(&bvh, &turned, &behind);
+        assert!(
+            pmfs.iter().enumerate().all(|(i, &p)| p > 0.0 || i == 20),
+            "a starved light: {pmfs:?}"
+        );
+    }
+}

@@ -1,0 +1,222 @@
+//! Importance: zero only where nothing can contribute, finite everywhere, the same at every scale.
+
+use glam::Vec3;
+use lightbvh::node::kind;
+use lightbvh::{
+    BuildParams, CompactNode, EmissiveTriangle, Eq4, FluxOverDistance, FullNode, ImportanceModel,
+    LightBounds, LightBvh, LightNode, Lights, ShadingPoint, exact,
+};
+use lightbvh_tests::generate::{self, Random, extreme_triangle, log_uniform};
+use lightbvh_tests::oracle::{Triangle, all_pmfs, can_contribute};
+use proptest::prelude::*;
+
+/// What rounding of coordinates and of the unit normal may decide, as a part of the distance.
+const MARGIN: f64 = 1e-6;
+
+/// A point where it is hard to say whether `light` arrives: in its plane, just before or behind it, on it, within its
+/// box, just above the horizon of a surface, far away.
+fn adversarial_point(random: &mut Random, light: &EmissiveTriangle) -> ShadingPoint {
+    let [p0, p1, p2] = light.p.map(Vec3::from);
+    let size = (p1 - p0).length().max((p2 - p0).length()).max(exact::pow2(-40));
+    let normal = Triangle::new(light).normal.normalize_or_zero().as_vec3();
+    let (u, v) = (random.between(-2.0, 3.0), random.between(-2.0, 3.0));
+    let in_plane = p0 + (p1 - p0) * u + (p2 - p0) * v;
+    let inside = p0 + (p1 - p0) * (0.5 * random.unit()) + (p2 - p0) * (0.5 * random.unit());
+    let sign = if random.below(2) == 0 { 1.0 } else { -1.0 };
+    let away = Vec3::from(random.direction());
+    let p = match random.below(7) {
+        0 => in_plane,
+        1 => in_plane + normal * (sign * size * log_uniform(random, -24, 0)),
+        2 => inside,
+        3 => inside + normal * (sign * size * log_uniform(random, -24, 0)),
+        4 => inside + away * (size * log_uniform(random, -4, 10)),
+        5 => away * log_uniform(random, 0, 38),
+        _ => Vec3::from(light.p[random.below(3) as usize]),
+    };
+    let p = p.clamp(Vec3::splat(-exact::pow2(40)), Vec3::splat(exact::pow2(40)));
+    // A normal by which the nearest vertex is a little above or below the horizon, or any.
+    let to = light
+        .p
+        .map(|v| (Vec3::from(v).as_dvec3() - p.as_dvec3()).normalize_or_zero());
+    let n = match random.below(4) {
+        0 => Vec3::ZERO,
+        1 => Vec3::from(random.direction()),
+        _ => {
+            let towards = to[random.below(3) as usize];
+            let across = towards
+                .cross(Vec3::from(random.direction()).as_dvec3())
+                .normalize_or_zero();
+            let tilt = f64::from(sign * log_uniform(random, -24, -1));
+            (across + towards * tilt).normalize_or_zero().as_vec3()
+        }
+    };
+    ShadingPoint {
+        p: p.to_array(),
+        n: n.to_array(),
+    }
+}
+
+/// Every node that holds `light` with others must give it importance where it can contribute.
+fn importance_of<N: LightNode<W>, I: ImportanceModel, const W: usize>(
+    lights: &[EmissiveTriangle],
+    point: &ShadingPoint,
+) -> [f32; 2] {
+    let mut leaf = N::EMPTY;
+    for (slot, light) in lights.iter().enumerate() {
+        leaf.set_child(slot, kind::LIGHT, slot as u32);
+        leaf.set_bounds(slot, &LightBounds::of_triangle(light));
+    }
+    let mut inner = N::EMPTY;
+    inner.set_child(0, kind::INNER, 1);
+    inner.set_bounds(0, &leaf.merged());
+    let own = I::importance(&leaf.cluster(0), point);
+    let merged = I::importance(&inner.cluster(0), point);
+    for (importance, node) in [(own, &leaf), (merged, &inner)] {
+        let s = importance.significand;
+        assert!(
+            s.is_finite() && (0.0..8.0).contains(&s),
+            "{importance:?} {lights:?} {point:?}"
+        );
+        assert!(importance.exponent.abs() <= 1024);
+        let (weights, sum) = node.weights::<I>(point);
+        assert!(
+            sum.is_finite() && weights.iter().all(|w| *w >= 0.0 && *w <= sum),
+            "{weights:?}"
+        );
+        assert!((sum > 0.0) == weights.iter().any(|&w| w > 0.0));
+    }
+    [own.significand, merged.significand]
+}
+
+fn check(lights: &[EmissiveTriangle], point: &ShadingPoint) {
+    let contributes = can_contribute(&lights[0], point, MARGIN);
+    for (name, found) in [
+        ("compact", importance_of::<CompactNode<4>, Eq4, 4>(lights, point)),
+        ("full", importance_of::<FullNode<4>, Eq4, 4>(lights, point)),
+        (
+            "distance",
+            importance_of::<CompactNode<4>, FluxOverDistance, 4>(lights, point),
+        ),
+    ] {
+        let zero = found.contains(&0.0);
+        assert!(
+            !(contributes && zero),
+            "{name}: {found:?} for {lights:?} at {point:?}"
+        );
+    }
+}
+
+/// Whether rounding leaves the triangle an area at all.
+fn is_sound(light: &EmissiveTriangle) -> bool {
+    let triangle = Triangle::new(light);
+    let longest = (triangle.p[1] - triangle.p[0])
+        .length()
+        .max((triangle.p[2] - triangle.p[0]).length());
+    triangle.normal.length() > 2f64.powi(-96) * longest * longest && triangle.condition < 2f64.powi(21)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn positive_wherever_light_can_arrive(seed: u32) {
+        let random = &mut Random::new(seed);
+        for _ in 0..256 {
+            let lights: Vec<_> = (0..1 + random.below(4)).map(|_| extreme_triangle(random)).collect();
+            let point = adversarial_point(random, &lights[0]);
+            if is_sound(&lights[0]) {
+                check(&lights, &point);
+            }
+        }
+    }
+
+    /// The same with lights of one size beside each other, so that boxes and cones are not degenerate.
+    #[test]
+    fn positive_among_neighbours(seed: u32) {
+        let random = &mut Random::new(seed);
+        let scale = exact::pow2(random.below(60) as i32 - 30);
+        for _ in 0..256 {
+            let lights: Vec<_> = generate::small_triangles(4, 4, 4.0, 1.0, random.below(2) == 0, random.bits())
+                .into_iter()
+                .map(|t| EmissiveTriangle { p: t.p.map(|v| v.map(|x| x * scale)), ..t })
+                .collect();
+            check(&lights, &adversarial_point(random, &lights[0]));
+        }
+    }
+
+    /// Lengths and flux times powers of two: not one bit of a pmf changes while everything stays within the domain.
+    #[test]
+    fn scales_do_not_matter(lights in generate::lights(60), seed: u32, metres in -12..=12i32, watts in -20..=10i32) {
+        let random = &mut Random::new(seed);
+        let (length, flux) = (exact::pow2(metres), exact::pow2(watts));
+        let scaled = lights.triangles().iter().map(|t| EmissiveTriangle {
+            p: t.p.map(|v| v.map(|x| x * length)),
+            radiance: t.radiance.map(|x| x * flux),
+            ..*t
+        });
+        let scaled = Lights::new(scaled.collect()).expect("within the domain");
+        same_pmfs::<CompactNode<2>, 2>(&lights, &scaled, length, random);
+        same_pmfs::<CompactNode<4>, 4>(&lights, &scaled, length, random);
+        same_pmfs::<FullNode<2>, 2>(&lights, &scaled, length, random);
+    }
+}
+
+fn same_pmfs<N: LightNode<W>, const W: usize>(
+    lights: &Lights,
+    scaled: &Lights,
+    length: f32,
+    random: &mut Random,
+) {
+    let params = BuildParams::default();
+    let (a, b) = if random.below(2) == 0 {
+        (
+            LightBvh::<N, W>::two_level(lights, &params),
+            LightBvh::<N, W>::two_level(scaled, &params),
+        )
+    } else {
+        (
+            LightBvh::<N, W>::single_level(lights, &params),
+            LightBvh::<N, W>::single_level(scaled, &params),
+        )
+    };
+    for _ in 0..4 {
+        let point = generate::point(random, 10.0);
+        let far = ShadingPoint {
+            p: point.p.map(|x| x * length),
+            n: point.n,
+        };
+        let bits = |pmfs: Vec<f32>| pmfs.into_iter().map(f32::to_bits).collect::<Vec<_>>();
+        let (here, there) = (
+            all_pmfs::<Eq4, N, W>(&a, lights, &point),
+            all_pmfs::<Eq4, N, W>(&b, scaled, &far),
+        );
+        assert_eq!(
+            bits(here),
+            bits(there),
+            "{} at {point:?}, times {length}",
+            N::NAME
+        );
+    }
+}
+
+/// The extremes of place and flux together: no probability is lost to zero, infinity or NaN.
+#[test]
+fn corners_of_the_domain() {
+    let far = exact::pow2(40);
+    let mut random = Random::new(3);
+    for _ in 0..20_000 {
+        let mut light = extreme_triangle(&mut random);
+        light.radiance = [exact::pow2(if random.below(2) == 0 { -100 } else { 100 }); 3];
+        let p = [0; 3].map(|_| [0.0, far, -far, exact::pow2(-100), light.p[0][0]][random.below(5) as usize]);
+        let n = if random.below(4) == 0 {
+            [0.0; 3]
+        } else {
+            random.direction()
+        };
+        let point = ShadingPoint { p, n };
+        if is_sound(&light) {
+            check(&[light], &point);
+            check(&[light, extreme_triangle(&mut random)], &point);
+        }
+    }
+}

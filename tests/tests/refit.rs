@@ -1,0 +1,332 @@
+//! Refit and validation: the same bounds whatever way they are come by, and no wrong word unnoticed.
+
+use lightbvh::node::kind;
+use lightbvh::validate::What;
+use lightbvh::{
+    BuildParams, CompactNode, EmissiveTriangle, FullNode, Heuristic, INVALID, LightBounds, LightBvh,
+    LightNode, Lights, MeshLight, bvh, exact, refit,
+};
+use lightbvh_tests::generate::{self, Random};
+use proptest::prelude::*;
+
+fn words<T: bytemuck::Pod>(values: &[T]) -> Vec<u32> {
+    bytemuck::cast_slice(values).to_vec()
+}
+
+/// The lights a while later: moved, some faded, some dark, some lit.
+fn moved(lights: &Lights, random: &mut Random) -> Lights {
+    let triangles = lights.triangles().iter().map(|t| {
+        let by = [0; 3].map(|_| random.between(-5.0, 5.0));
+        let fade = [0.0, 0.5, 1.0, exact::pow2(30)][random.below(4) as usize];
+        EmissiveTriangle {
+            p: t.p.map(|v| [v[0] + by[0], v[1] + by[1], v[2] * by[2]]),
+            radiance: t
+                .radiance
+                .map(|x| if x == 0.0 { by[0].abs() + 1.0 } else { x * fade }),
+            ..*t
+        }
+    });
+    let mut later = lights.clone();
+    later.update(triangles.collect()).expect("the same mesh lights");
+    later
+}
+
+/// Bounds of node `index` and all below it from the lights alone, written into `out`: depth first, where refit goes
+/// level by level.
+fn recomputed<N: LightNode<W>, const W: usize>(
+    bvh: &LightBvh<N, W>,
+    lights: &Lights,
+    index: u32,
+    out: &mut [N],
+) -> LightBounds {
+    let tree = bvh.tree();
+    let old = tree.nodes[index as usize];
+    let mut node = N::EMPTY;
+    let mut all: Option<LightBounds> = None;
+    for slot in 0..W {
+        let (to, link) = (old.kind(slot), old.link(slot));
+        if to == kind::EMPTY {
+            continue;
+        }
+        let bounds = match to {
+            kind::LIGHT => LightBounds::of_triangle(&lights.triangles()[link as usize]),
+            kind::MESH => recomputed(bvh, lights, tree.meshes[link as usize].root, out),
+            _ => recomputed(bvh, lights, link, out),
+        };
+        node.set_child(slot, to, link);
+        node.set_bounds(slot, &bounds);
+        // What a parent is told is what is stored, rounding included.
+        let stored = node.bounds(slot);
+        all = Some(all.map_or(LightBounds::EMPTY.merge(&stored), |all| all.merge(&stored)));
+    }
+    out[index as usize] = node;
+    all.expect("a child")
+}
+
+/// Refit with the nodes of each pass in another order, and each pass reading only what the pass before it wrote.
+fn refitted_in_another_order<N: LightNode<W>, const W: usize>(
+    bvh: &LightBvh<N, W>,
+    lights: &Lights,
+    random: &mut Random,
+) -> Vec<N> {
+    let tree = bvh.tree();
+    let mut nodes = tree.nodes.to_vec();
+    let split = if bvh.is_two_level() {
+        tree.root
+    } else {
+        nodes.len() as u32
+    };
+    let mut pass = |nodes: &mut Vec<N>, list: &[u32], body: &dyn Fn(&[N], u32) -> N| {
+        let mut order = list.to_vec();
+        for i in (1..order.len()).rev() {
+            order.swap(i, random.below(i as u32 + 1) as usize);
+        }
+        let before = nodes.clone();
+        for i in order {
+            nodes[i as usize] = body(&before, i);
+        }
+    };
+    let all = |range: std::ops::Range<u32>| range.collect::<Vec<_>>();
+    pass(&mut nodes, &all(0..split), &|n, i| {
+        refit::leaves(n, lights.triangles(), i)
+    });
+    for range in bvh.bottom_levels().ranges() {
+        pass(&mut nodes, &bvh.bottom_levels().nodes()[range], &|n, i| {
+            refit::level(n, i)
+        });
+    }
+    pass(&mut nodes, &all(split..tree.nodes.len() as u32), &|n, i| {
+        refit::mesh_leaves(n, tree.meshes, i)
+    });
+    for range in bvh.top_levels().ranges() {
+        pass(&mut nodes, &bvh.top_levels().nodes()[range], &|n, i| {
+            refit::level(n, i)
+        });
+    }
+    nodes
+}
+
+fn built<N: LightNode<W>, const W: usize>(
+    lights: &Lights,
+    params: &BuildParams,
+    two: bool,
+) -> LightBvh<N, W> {
+    if two {
+        LightBvh::two_level(lights, params)
+    } else {
+        LightBvh::single_level(lights, params)
+    }
+}
+
+fn check<N: LightNode<W>, const W: usize>(
+    lights: &Lights,
+    params: &BuildParams,
+    two: bool,
+    random: &mut Random,
+) {
+    let mut bvh = built::<N, W>(lights, params, two);
+    let again = built::<N, W>(lights, params, two);
+    let parts = |bvh: &LightBvh<N, W>| {
+        let tree = bvh.tree();
+        (
+            words(tree.nodes),
+            words(tree.meshes),
+            tree.trails.to_vec(),
+            tree.root,
+            tree.trail_words,
+        )
+    };
+    let first = parts(&bvh);
+    assert_eq!(first, parts(&again), "a build is not deterministic");
+    assert_eq!(
+        (bvh.bottom_levels(), bvh.top_levels()),
+        (again.bottom_levels(), again.top_levels())
+    );
+
+    let stats = bvh
+        .validate(lights)
+        .unwrap_or_else(|v| panic!("{} {W}: {v}", N::NAME));
+    assert_eq!(stats.nodes as usize, bvh.nodes().len());
+    let meshes = if two { lights.mesh_count() } else { 0 };
+    assert_eq!(stats.leaves as usize, lights.triangles().len() + meshes);
+    assert_eq!((stats.depth, stats.bytes), (bvh.depth(), bvh.bytes()));
+
+    bvh.refit(lights);
+    assert_eq!(first, parts(&bvh), "refit of unchanged lights changes a word");
+
+    let later = moved(lights, random);
+    bvh.refit(&later);
+    let mut expected = bvh.nodes().to_vec();
+    let bounds = recomputed(&bvh, &later, bvh.tree().root, &mut expected);
+    assert_eq!(
+        words(bvh.nodes()),
+        words(&expected),
+        "refit is not what the lights give"
+    );
+    assert_eq!(bvh.bounds(), bounds);
+    bvh.validate(&later)
+        .unwrap_or_else(|v| panic!("after refit: {v}"));
+    if words(bvh.nodes()) != first.0 {
+        bvh.validate(lights).expect_err("bounds of other lights");
+    }
+
+    let mut stale = again;
+    let shuffled = refitted_in_another_order(&stale, &later, random);
+    assert_eq!(
+        words(bvh.nodes()),
+        words(&shuffled),
+        "the order within a pass shows"
+    );
+    stale.nodes_mut().copy_from_slice(&shuffled);
+
+    stale.refit(lights);
+    assert_eq!(first.0, words(stale.nodes()), "there and back");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_way_to_the_same_bounds(lights in generate::lights(150), seed: u32, sah: bool, two: bool, buckets in 2..=32u32) {
+        let random = &mut Random::new(seed);
+        let heuristic = if sah { Heuristic::Sah } else { Heuristic::Saoh };
+        let params = BuildParams { heuristic, buckets };
+        check::<CompactNode<2>, 2>(&lights, &params, two, random);
+        check::<CompactNode<4>, 4>(&lights, &params, two, random);
+        check::<CompactNode<8>, 8>(&lights, &params, two, random);
+        check::<CompactNode<16>, 16>(&lights, &params, two, random);
+        check::<FullNode<2>, 2>(&lights, &params, two, random);
+        check::<FullNode<4>, 4>(&lights, &params, two, random);
+        check::<FullNode<8>, 8>(&lights, &params, two, random);
+        check::<FullNode<16>, 16>(&lights, &params, two, random);
+    }
+}
+
+/// Every word of every array of a small BVH, each of its bits turned, and all of them: not one goes unnoticed. (None is
+/// harmless: links, kinds, trails and lists are held against the one walk that reaches everything once, all other words
+/// against what refit writes.)
+fn no_wrong_word_goes_unnoticed<N: LightNode<W>, const W: usize>(two: bool, seed: u32) {
+    let triangles = generate::small_triangles(11, 4, 10.0, 1.0, true, seed);
+    let lights = Lights::new(triangles).expect("lights");
+    let bvh = built::<N, W>(&lights, &BuildParams::default(), two);
+    bvh.validate(&lights).expect("valid as built");
+    type Part<N> = fn(bvh::Parts<'_, N>) -> &mut [u32];
+    let arrays: [(&str, Part<N>); 5] = [
+        ("nodes", |p| bytemuck::cast_slice_mut(p.nodes)),
+        ("meshes", |p| bytemuck::cast_slice_mut::<MeshLight, u32>(p.meshes)),
+        ("trails", |p| p.trails),
+        ("bottom levels", |p| p.bottom),
+        ("top levels", |p| p.top),
+    ];
+    for (name, array) in arrays {
+        let mut wrong = bvh.clone();
+        for i in 0..array(wrong.parts_mut()).len() {
+            for mask in (0..32).map(|b| 1_u32 << b).chain([u32::MAX]) {
+                array(wrong.parts_mut())[i] ^= mask;
+                assert!(
+                    wrong.validate(&lights).is_err(),
+                    "{} {W}, two levels {two}: word {i} of the {name} with bits {mask:#x} turned",
+                    N::NAME
+                );
+                array(wrong.parts_mut())[i] ^= mask;
+            }
+        }
+        wrong.validate(&lights).expect("all put back");
+    }
+}
+
+#[test]
+fn every_bit_counts() {
+    for two in [false, true] {
+        no_wrong_word_goes_unnoticed::<CompactNode<2>, 2>(two, 1);
+        no_wrong_word_goes_unnoticed::<CompactNode<4>, 4>(two, 2);
+        no_wrong_word_goes_unnoticed::<CompactNode<16>, 16>(two, 3);
+        no_wrong_word_goes_unnoticed::<FullNode<2>, 2>(two, 4);
+    }
+}
+
+/// Words at random, and nodes swapped and copied: a violation, never a panic.
+#[test]
+fn hostile_arrays_are_refused() {
+    let mut random = Random::new(5);
+    let lights = Lights::new(generate::small_triangles(40, 7, 10.0, 1.0, true, 6)).expect("lights");
+    for two in [false, true] {
+        let bvh = built::<CompactNode<2>, 2>(&lights, &BuildParams::default(), two);
+        for _ in 0..20_000 {
+            let mut wrong = bvh.clone();
+            let parts = wrong.parts_mut();
+            let count = parts.nodes.len() as u32;
+            for _ in 0..=random.below(3) {
+                let (i, j) = (random.below(count) as usize, random.below(count) as usize);
+                match random.below(6) {
+                    0 => parts.nodes.swap(i, j),
+                    1 => parts.nodes[i] = parts.nodes[j],
+                    2 => {
+                        let to = random.below(4);
+                        let link = [random.bits(), random.below(count), i as u32][random.below(3) as usize];
+                        parts.nodes[i].set_child(random.below(2) as usize, to, link);
+                    }
+                    3 => {
+                        bytemuck::cast_slice_mut::<_, u32>(parts.nodes)[random.below(count * 14) as usize] =
+                            random.bits()
+                    }
+                    4 => parts.trails[random.below(40) as usize] = random.bits(),
+                    _ if two => {
+                        let m = random.below(parts.meshes.len() as u32) as usize;
+                        parts.meshes[m].root = random.below(count + 2);
+                    }
+                    _ => parts.bottom[0] = random.bits(),
+                }
+            }
+            let same = words(wrong.nodes()) == words(bvh.nodes())
+                && words(wrong.tree().meshes) == words(bvh.tree().meshes)
+                && wrong.tree().trails == bvh.tree().trails
+                && wrong.bottom_levels() == bvh.bottom_levels();
+            let result = wrong.validate(&lights);
+            assert_eq!(result.is_ok(), same, "{result:?}");
+        }
+    }
+}
+
+#[test]
+fn violations_say_where_and_what() {
+    let lights = Lights::new(generate::small_triangles(8, 4, 10.0, 1.0, true, 7)).expect("lights");
+    let bvh = LightBvh::<FullNode<2>, 2>::two_level(&lights, &BuildParams::default());
+    let root = bvh.tree().root;
+
+    let mut wrong = bvh.clone();
+    wrong.nodes_mut()[root as usize].set_child(1, kind::INNER, 999);
+    let v = wrong.validate(&lights).expect_err("a link out of range");
+    assert_eq!((v.node, v.slot, v.what, v.found), (root, 1, What::Link, 999));
+    assert_eq!(
+        v.to_string(),
+        format!(
+            "node {root}, slot 1, link: expected {}, found 999",
+            bvh.nodes().len()
+        )
+    );
+
+    let mut wrong = bvh.clone();
+    let bounds = wrong.nodes()[0].bounds(0);
+    wrong.nodes_mut()[0].set_bounds(
+        0,
+        &LightBounds {
+            phi: f32::NAN,
+            ..bounds
+        },
+    );
+    let v = wrong.validate(&lights).expect_err("NaN");
+    assert_eq!((v.node, v.slot, v.what), (0, 0, What::Bounds(11)));
+    assert_eq!(
+        v.to_string(),
+        format!(
+            "node 0, slot 0, flux of the refitted bounds: expected {:e}, found NaN",
+            bounds.phi
+        )
+    );
+
+    let other = Lights::new(generate::small_triangles(9, 4, 10.0, 1.0, true, 7)).expect("lights");
+    let v = bvh.validate(&other).expect_err("other lights");
+    assert_eq!((v.node, v.slot), (INVALID, INVALID));
+    assert_eq!(v.to_string(), "number of mesh lights: expected 3, found 2");
+}
