@@ -14,11 +14,9 @@ use crate::vector::{dot, length_squared};
 const WIDEN_SIN: f32 = exact::pow2(-11);
 const WIDEN_COS_DEFECT: f32 = exact::pow2(-23);
 
-/// Below this squared sine, 2^-20, two axes count as parallel. The part of one across the other then has a relative error
-/// of up to 2^-13, and turning towards it would leave emitters outside: `validate` found such a cone in a street's sign,
-/// around two opposite ones.
-const PARALLEL: f32 = exact::pow2(-20);
-const LEAST_SINE: f32 = exact::pow2(-10);
+/// Below this squared sine, 2^-40, two axes count as parallel: what is left of one across the other is rounding noise.
+const PARALLEL: f32 = exact::pow2(-40);
+const LEAST_SINE: f32 = exact::pow2(-20);
 
 /// Components of directions below this count as zero, so that a device that flushes subnormal numbers agrees.
 const TINY: f32 = exact::pow2(-60);
@@ -69,7 +67,8 @@ impl Cone {
         let (sin_a, sin_b) = (sine_of(cos_a), sine_of(cos_b));
         let cos_d = exact::clamp(dot(self.axis, other.axis), -1.0, 1.0);
         // The part of the other axis across this one: its length is sin θ_d, precise where 1 − cos² is not. Where it is
-        // short, the rounding of the first difference still lies along this axis; the second takes that away.
+        // short, the rounding of the first difference still lies along this axis; the second takes that away. (Without it,
+        // validate found an emitter outside the cone around two opposite ones in a street's sign.)
         let first = other.axis - self.axis * cos_d;
         let across = first - self.axis * exact::flush(dot(self.axis, first), TINY);
         let sin_d_squared = exact::min(length_squared(across), 1.0);
