@@ -11,7 +11,7 @@ use crate::trail::BitTrail;
 
 /// A tree without bounds.
 pub(crate) struct Topology<N> {
-    /// Nodes in depth-first order, the root first; links within the tree already count from `base`.
+    /// Nodes in depth-first order, the root first; links count from it.
     pub nodes: Vec<N>,
     /// Level of each node, the root's is 0.
     pub levels: Vec<u32>,
@@ -21,12 +21,10 @@ pub(crate) struct Topology<N> {
     pub depth: u32,
 }
 
-/// Builds a tree over `primitives`, at least one, whose leaves are of `leaf_kind` and whose nodes will stand from index
-/// `base` on.
+/// Builds a tree over `primitives`, at least one, whose leaves are of `leaf_kind`.
 pub(crate) fn build<N: LightNode<W>, const W: usize>(
     primitives: &mut [Primitive],
     leaf_kind: u32,
-    base: u32,
     params: &BuildParams,
 ) -> Topology<N> {
     let mut out = Topology {
@@ -44,7 +42,6 @@ pub(crate) fn build<N: LightNode<W>, const W: usize>(
     } else {
         let binary = binary_tree(primitives, binary_levels::<W>(), params);
         let mut emitter = Emitter::<N, W> {
-            base,
             leaf_kind,
             binary: &binary.nodes,
             collapse: Collapse::of(&binary),
@@ -56,7 +53,6 @@ pub(crate) fn build<N: LightNode<W>, const W: usize>(
 }
 
 struct Emitter<'a, N, const W: usize> {
-    base: u32,
     leaf_kind: u32,
     binary: &'a [Binary],
     collapse: Collapse<W>,
@@ -79,7 +75,7 @@ impl<N: LightNode<W>, const W: usize> Emitter<'_, N, W> {
                 self.out.nodes[index].set_child(slot, self.leaf_kind, primitive);
                 self.out.trails.push((primitive, own_trail));
             } else {
-                let link = self.base + self.out.nodes.len() as u32;
+                let link = self.out.nodes.len() as u32;
                 self.out.nodes[index].set_child(slot, kind::INNER, link);
                 self.node(child, level + 1, own_trail);
             }
