@@ -1,16 +1,16 @@
 //! A light BVH that owns its arrays: built, refitted and sampled on the CPU, or uploaded as it is.
 
+mod construct;
+
 use alloc::vec::Vec;
-use core::ops::Range;
 
 use crate::bounds::LightBounds;
-use crate::build::{BuildParams, Primitive, Topology, build};
 use crate::importance::ImportanceModel;
+use crate::levels::Levels;
 use crate::lights::Lights;
-use crate::node::{LightNode, kind};
+use crate::node::LightNode;
 use crate::point::ShadingPoint;
 use crate::refit;
-use crate::trail::{BitTrail, slot_bits};
 use crate::traverse::{self, SampledLight};
 use crate::tree::{INVALID, LightTree, MeshLight};
 
@@ -39,138 +39,7 @@ pub struct Parts<'a, N> {
     pub top: &'a mut [u32],
 }
 
-/// The nodes with inner children, level by level, deepest first: what `refit::level` is to run over.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Levels {
-    nodes: Vec<u32>,
-    ends: Vec<u32>,
-}
-
-impl Levels {
-    /// The node indices of all levels, deepest level first.
-    #[must_use]
-    pub fn nodes(&self) -> &[u32] {
-        &self.nodes
-    }
-
-    /// The levels as ranges of [`nodes`](Self::nodes), in the order in which they must be refitted.
-    pub fn ranges(&self) -> impl Iterator<Item = Range<usize>> + '_ {
-        (0..self.ends.len()).map(|i| {
-            let start = if i == 0 { 0 } else { self.ends[i - 1] };
-            start as usize..self.ends[i] as usize
-        })
-    }
-
-    /// Gathers (level, node) pairs.
-    fn gather(mut pairs: Vec<(u32, u32)>) -> Self {
-        pairs.sort_unstable_by_key(|&(level, node)| (core::cmp::Reverse(level), node));
-        let mut levels = Self::default();
-        for (i, &(level, node)) in pairs.iter().enumerate() {
-            levels.nodes.push(node);
-            if pairs.get(i + 1).is_none_or(|&(next, _)| next != level) {
-                levels.ends.push(i as u32 + 1);
-            }
-        }
-        levels
-    }
-}
-
 impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
-    /// One tree over all triangles: the paper's baseline.
-    #[must_use]
-    pub fn single_level(lights: &Lights, params: &BuildParams) -> Self {
-        let mut primitives = triangle_primitives(lights, 0..lights.triangles().len());
-        let topology = build::<N, W>(&mut primitives, kind::LIGHT, 0, params);
-        drop(primitives);
-        let mut bvh = Self::empty(lights, topology.depth);
-        let pairs = inner_nodes::<N, W>(&topology, 0);
-        bvh.append(topology);
-        bvh.bottom = Levels::gather(pairs);
-        bvh.refit(lights);
-        bvh
-    }
-
-    /// A bottom level (BLAS) over the triangles of each mesh light, and a top level (TLAS) over the mesh lights (paper
-    /// section 3.2).
-    #[must_use]
-    pub fn two_level(lights: &Lights, params: &BuildParams) -> Self {
-        // Bottom levels, one after the other.
-        let mut bottoms = Vec::with_capacity(lights.mesh_count());
-        let mut next = 0;
-        let mut bottom_depth = 0;
-        for mesh in 0..lights.mesh_count() {
-            let mut primitives = triangle_primitives(lights, lights.mesh(mesh));
-            let topology = build::<N, W>(&mut primitives, kind::LIGHT, next, params);
-            next += topology.nodes.len() as u32;
-            bottom_depth = bottom_depth.max(topology.depth);
-            bottoms.push(topology);
-        }
-        let mut bvh = Self::empty(lights, bottom_depth);
-        let mut pairs = Vec::new();
-        for (mesh, topology) in bottoms.into_iter().enumerate() {
-            let root = bvh.nodes.len() as u32;
-            let first = lights.mesh(mesh).start as u32;
-            bvh.meshes.push(MeshLight {
-                root,
-                trail: [0; 2],
-                first,
-            });
-            pairs.extend(inner_nodes::<N, W>(&topology, root));
-            bvh.append(topology);
-        }
-        bvh.bottom = Levels::gather(pairs);
-        bvh.root = bvh.nodes.len() as u32;
-        bvh.refit(lights);
-
-        bvh.build_top(params);
-        bvh
-    }
-
-    /// Builds the top level over the bottom levels as they are.
-    fn build_top(&mut self, params: &BuildParams) {
-        self.nodes.truncate(self.root as usize);
-        let mut primitives: Vec<Primitive> = self
-            .meshes
-            .iter()
-            .enumerate()
-            .map(|(i, mesh)| Primitive::new(i as u32, &self.nodes[mesh.root as usize].merged()))
-            .collect();
-        let topology = build::<N, W>(&mut primitives, kind::MESH, self.root, params);
-        self.top = Levels::gather(inner_nodes::<N, W>(&topology, self.root));
-        self.depth += topology.depth;
-        for &(mesh, trail) in &topology.trails {
-            self.meshes[mesh as usize].trail = [trail.low, trail.high];
-        }
-        self.nodes.extend_from_slice(&topology.nodes);
-        self.refit_top();
-    }
-
-    fn empty(lights: &Lights, depth: u32) -> Self {
-        let trail_words = if depth * slot_bits(W) <= 32 { 1 } else { 2 };
-        Self {
-            nodes: Vec::new(),
-            root: 0,
-            meshes: Vec::new(),
-            trails: alloc::vec![0; lights.triangles().len() * trail_words as usize],
-            trail_words,
-            bottom: Levels::default(),
-            top: Levels::default(),
-            depth,
-        }
-    }
-
-    fn append(&mut self, topology: Topology<N>) {
-        let words = self.trail_words as usize;
-        for &(light, BitTrail { low, high }) in &topology.trails {
-            let at = light as usize * words;
-            self.trails[at] = low;
-            if words == 2 {
-                self.trails[at + 1] = high;
-            }
-        }
-        self.nodes.extend_from_slice(&topology.nodes);
-    }
-
     /// New bounds everywhere from `lights`, which must be those that the BVH was built over, moved or changed by
     /// [`Lights::update`].
     pub fn refit(&mut self, lights: &Lights) {
@@ -182,6 +51,11 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
         for i in 0..bottom_end {
             self.nodes[i] = refit::leaves(&self.nodes, lights.triangles(), i as u32);
         }
+        self.refit_inner();
+    }
+
+    /// The passes of refit after the first.
+    pub(super) fn refit_inner(&mut self) {
         for k in 0..self.bottom.nodes.len() {
             let i = self.bottom.nodes[k];
             self.nodes[i as usize] = refit::level(&self.nodes, i);
@@ -189,7 +63,7 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
         self.refit_top();
     }
 
-    fn refit_top(&mut self) {
+    pub(super) fn refit_top(&mut self) {
         if self.is_two_level() {
             for i in self.root as usize..self.nodes.len() {
                 self.nodes[i] = refit::mesh_leaves(&self.nodes, &self.meshes, i as u32);
@@ -294,23 +168,4 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
     pub fn refit_bytes(&self) -> usize {
         size_of_val(&*self.bottom.nodes) + size_of_val(&*self.top.nodes)
     }
-}
-
-fn triangle_primitives(lights: &Lights, range: Range<usize>) -> Vec<Primitive> {
-    range
-        .map(|i| Primitive::new(i as u32, &LightBounds::of_triangle(&lights.triangles()[i])))
-        .collect()
-}
-
-/// (level, index) of the nodes that have inner children.
-fn inner_nodes<N: LightNode<W>, const W: usize>(topology: &Topology<N>, base: u32) -> Vec<(u32, u32)> {
-    let has_inner = |node: &N| (0..W).any(|slot| node.kind(slot) == kind::INNER);
-    topology
-        .nodes
-        .iter()
-        .zip(&topology.levels)
-        .enumerate()
-        .filter(|(_, (node, _))| has_inner(node))
-        .map(|(i, (_, &level))| (level, base + i as u32))
-        .collect()
 }

@@ -14,8 +14,9 @@ use crate::vector::{dot, length_squared};
 const WIDEN_SIN: f32 = exact::pow2(-11);
 const WIDEN_COS_DEFECT: f32 = exact::pow2(-23);
 
-/// Below this squared sine two axes count as parallel: 2^-40.
+/// Below this squared sine, 2^-40, two axes count as parallel: what is left of one across the other is rounding noise.
 const PARALLEL: f32 = exact::pow2(-40);
+const LEAST_SINE: f32 = exact::pow2(-20);
 
 /// Components of directions below this count as zero, so that a device that flushes subnormal numbers agrees.
 const TINY: f32 = exact::pow2(-60);
@@ -66,28 +67,32 @@ impl Cone {
         let (sin_a, sin_b) = (sine_of(cos_a), sine_of(cos_b));
         let cos_d = exact::clamp(dot(self.axis, other.axis), -1.0, 1.0);
         // The part of the other axis across this one: its length is sin θ_d, precise where 1 − cos² is not. Where it is
-        // short, the rounding of the first difference still lies along this axis; the second takes that away.
+        // short, the rounding of the first difference still lies along this axis; the second takes that away. (Without it,
+        // validate found an emitter outside the cone around two opposite ones in a street's sign.)
         let first = other.axis - self.axis * cos_d;
         let across = first - self.axis * exact::flush(dot(self.axis, first), TINY);
         let sin_d_squared = exact::min(length_squared(across), 1.0);
         let parallel = sin_d_squared < PARALLEL;
-        let sin_d = exact::sqrt(exact::max(sin_d_squared, PARALLEL));
+        let sin_d = exact::sqrt(sin_d_squared);
 
-        // One contains the other when θ_d + θ_other ≤ θ_own. A sum above π shows in its negative sine.
+        // One contains the other when θ_d + θ_other ≤ θ_own. A sum above π shows in its negative sine; near 2π it may not,
+        // for rounding, but both angles are obtuse then.
         let (cos_db, sin_db) = (cos_d * cos_b - sin_d * sin_b, sin_d * cos_b + cos_d * sin_b);
         let (cos_da, sin_da) = (cos_d * cos_a - sin_d * sin_a, sin_d * cos_a + cos_d * sin_a);
+        let beyond_db = sin_db < 0.0 || (cos_d < 0.0 && cos_b < 0.0);
+        let beyond_da = sin_da < 0.0 || (cos_d < 0.0 && cos_a < 0.0);
         // Cosines do not tell angles near 0 and π apart, so the sine of the difference must agree: it is precise there, and
         // ambiguous only where the angles are π apart.
         let b_within_a = cos_db >= cos_a && sin_db * cos_a <= cos_db * sin_a;
         let a_within_b = cos_da >= cos_b && sin_da * cos_b <= cos_da * sin_b;
-        let contains_other = cos_a <= -1.0 || (sin_db >= 0.0 && b_within_a);
-        let contained = cos_b <= -1.0 || (sin_da >= 0.0 && a_within_b);
+        let contains_other = cos_a <= -1.0 || (!beyond_db && b_within_a);
+        let contained = cos_b <= -1.0 || (!beyond_da && a_within_b);
 
         // Half of x = θ_a + θ_d + θ_b, by the half-angle formula for the larger of cosine and sine, and from sin x for the
         // other, which the formula would lose near its zero; x beyond 2π means everything.
         let (cos_x, sin_x) = (cos_db * cos_a - sin_db * sin_a, sin_db * cos_a + cos_db * sin_a);
-        let beyond_pi = sin_db < 0.0 || sin_x < 0.0;
-        let everything = sin_db < 0.0 && sin_x >= 0.0;
+        let beyond_pi = beyond_db || sin_x < 0.0;
+        let everything = beyond_db && sin_x >= 0.0;
         let larger = exact::sqrt(0.5 + 0.5 * exact::abs(cos_x));
         let smaller = exact::div(0.5 * exact::abs(sin_x), larger);
         let obtuse = cos_x < 0.0;
@@ -96,7 +101,7 @@ impl Cone {
         let cos_o = if beyond_pi { -half } else { half };
         // The new axis is this axis turned towards the other by θ_o − θ_a.
         let (cos_r, sin_r) = (cos_o * cos_a + sin_o * sin_a, sin_o * cos_a - cos_o * sin_a);
-        let turn = sin_r * exact::recip(sin_d);
+        let turn = sin_r * exact::recip(exact::max(sin_d, LEAST_SINE));
         let axis = Vec3::new(
             self.axis.x * cos_r + across.x * turn,
             self.axis.y * cos_r + across.y * turn,
@@ -107,8 +112,12 @@ impl Cone {
             cos_theta_o: cos_o,
         };
 
-        // Parallel axes: the wider of the two; opposite axes: everything.
-        let wider = if cos_a <= cos_b { self } else { other };
+        // Parallel axes: the wider of the two, widened by θ_d; opposite axes: everything.
+        let wide = if cos_a <= cos_b { self } else { other };
+        let wider = Self {
+            axis: wide.axis,
+            cos_theta_o: widened(wide.cos_theta_o, sin_d, 1.0 - cos_d),
+        };
         let chosen = if contains_other {
             self
         } else if contained {

@@ -87,6 +87,8 @@ pub mod build;
 #[cfg(feature = "alloc")]
 pub mod bvh;
 #[cfg(feature = "alloc")]
+pub mod levels;
+#[cfg(feature = "alloc")]
 pub mod lights;
 #[cfg(feature = "alloc")]
 pub mod validate;

@@ -96,7 +96,7 @@ fn query(scene: &SceneArrays, bounds: &([f32; 3], [f32; 3]), random: u32) -> Que
     let draw = |k: u32| unit_f32(hash(random.wrapping_add(k)));
     let pick = |k: u32, n: usize| ((draw(k) * n as f32) as usize).min(n - 1);
     let kind = draw(0);
-    let (mut p, mut n) = if kind < 0.75 || kind >= 0.98 {
+    let (mut p, mut n) = if !(0.75..0.98).contains(&kind) {
         let lights = scene.lights.triangles();
         let corners = if kind < 0.75 {
             scene.rays.triangles[pick(1, scene.rays.triangles.len())].p

@@ -10,6 +10,8 @@
 //!   nothing, because a dispatch is a whole number of workgroups;
 //! - the workgroup is [`WORKGROUP`] × 1 × 1 invocations, and [`invocation`] numbers them.
 #![cfg_attr(target_arch = "spirv", no_std)]
+// A kernel has as many parameters as bindings.
+#![allow(clippy::too_many_arguments)]
 
 pub mod bvh;
 pub mod query;

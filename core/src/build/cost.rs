@@ -3,7 +3,7 @@
 use core::f32::consts::{FRAC_PI_2, PI};
 
 use super::primitive::Group;
-use crate::exact::{max, min, rsqrt};
+use crate::exact::{max, min, rsqrt_rough};
 
 /// What a split is judged by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -88,7 +88,7 @@ fn cos_theta_o(group: &Group) -> f32 {
     if m_squared < 1e-6 {
         return -1.0;
     }
-    let cos = 0.5 * (1.0 + m_squared - rho_squared) * rsqrt(m_squared);
+    let cos = 0.5 * (1.0 + m_squared - rho_squared) * rsqrt_rough(m_squared);
     max(min(cos, 1.0), -1.0)
 }
 
@@ -98,7 +98,7 @@ fn cos_theta_o(group: &Group) -> f32 {
 #[inline]
 fn orientation_measure(cos: f32) -> f32 {
     let sin_squared = max(1.0 - cos * cos, 1e-12);
-    let sin = sin_squared * rsqrt(sin_squared);
+    let sin = sin_squared * rsqrt_rough(sin_squared);
     if cos >= 0.0 {
         PI * (2.0 - cos) + (PI * FRAC_PI_2) * sin
     } else {
@@ -111,7 +111,7 @@ fn orientation_measure(cos: f32) -> f32 {
 fn arc_cosine(x: f32) -> f32 {
     let y = max(1.0 - x, 1e-12);
     let series = 1.570_728_8 + x * (-0.212_114_4 + x * (0.074_261 + x * -0.018_729_3));
-    y * rsqrt(y) * series
+    y * rsqrt_rough(y) * series
 }
 
 #[cfg(test)]

@@ -4,6 +4,8 @@
 //! are the same to the bit. Builders run on the CPU alone, but keep to the same exact arithmetic: every platform builds
 //! the same tree.
 
+mod binary;
+mod collapse;
 mod cost;
 mod primitive;
 mod split;

@@ -62,6 +62,24 @@ impl Group {
         count: 0,
     };
 
+    /// The union of `range`.
+    pub fn of(range: &[Primitive]) -> Self {
+        let mut all = Self::EMPTY;
+        for p in range {
+            all.add(p);
+        }
+        all
+    }
+
+    /// The union of `range`, if anything will be asked of it: splits of up to two primitives need no costs.
+    pub fn of_inner(range: &[Primitive]) -> Self {
+        if range.len() > 2 {
+            Self::of(range)
+        } else {
+            Self::EMPTY
+        }
+    }
+
     #[inline]
     pub fn add(&mut self, primitive: &Primitive) {
         grow(&mut self.low, &mut self.high, &primitive.low, &primitive.high);

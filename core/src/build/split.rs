@@ -4,6 +4,9 @@ use super::cost::{Heuristic, Scales};
 use super::primitive::{Group, Primitive};
 use super::{BuildParams, MAX_BUCKETS};
 
+/// The buckets of one axis; kept from split to split, since most splits are small and need but a few of them.
+pub(super) type Buckets = [Group; MAX_BUCKETS as usize];
+
 /// A split plane between two buckets along an axis.
 struct Plane {
     axis: usize,
@@ -38,16 +41,25 @@ impl Bucketing {
 }
 
 /// Splits `range` in two at the cheapest of all planes between buckets, moving the primitives; where all centroids
-/// coincide, into equal halves. Returns where the right part begins, in `1..range.len()`.
-pub(super) fn split(range: &mut [Primitive], node: &Group, params: &BuildParams) -> usize {
+/// coincide, into equal halves. Returns where the right part begins, in `1..range.len()`, and the unions of both parts
+/// where they are known.
+pub(super) fn split(
+    range: &mut [Primitive],
+    node: &Group,
+    params: &BuildParams,
+    buckets: &mut Buckets,
+) -> (usize, Option<[Group; 2]>) {
     if range.len() == 2 {
-        return 1;
+        return (1, None);
     }
-    match cheapest(range, node, params) {
-        Some(plane) => partition(range, |p| {
-            plane.bucketing.bucket(p.centroid(plane.axis)) < plane.bucket
-        }),
-        None => range.len() / 2,
+    match cheapest(range, node, params, buckets) {
+        Some((plane, groups)) => {
+            let middle = partition(range, |p| {
+                plane.bucketing.bucket(p.centroid(plane.axis)) < plane.bucket
+            });
+            (middle, Some(groups))
+        }
+        None => (range.len() / 2, None),
     }
 }
 
@@ -69,13 +81,18 @@ pub(super) fn halve(range: &mut [Primitive]) -> usize {
     middle
 }
 
-fn cheapest(range: &[Primitive], node: &Group, params: &BuildParams) -> Option<Plane> {
+fn cheapest(
+    range: &[Primitive],
+    node: &Group,
+    params: &BuildParams,
+    all_buckets: &mut Buckets,
+) -> Option<(Plane, [Group; 2])> {
     let (low, high) = centroid_box(range);
     let scales = Scales::of(node);
     let wanted = params.buckets.clamp(2, MAX_BUCKETS) as usize;
     let buckets = if range.len() < wanted { range.len() } else { wanted };
 
-    let mut best: Option<Plane> = None;
+    let mut best = None;
     let mut best_cost = f32::MAX;
     for axis in 0..3 {
         if high[axis] <= low[axis] {
@@ -86,27 +103,38 @@ fn cheapest(range: &[Primitive], node: &Group, params: &BuildParams) -> Option<P
         if !bucketing.per_width.is_finite() {
             continue;
         }
-        let mut groups = [Group::EMPTY; MAX_BUCKETS as usize];
+        let groups = &mut all_buckets[..buckets];
+        groups.fill(Group::EMPTY);
         for p in range {
             groups[bucketing.bucket(p.centroid(axis))].add(p);
         }
-        if let Some((bucket, cost)) = sweep(&groups[..buckets], &scales, params.heuristic) {
-            let cost = cost * scales.regularization(params.heuristic, node, axis);
-            if cost < best_cost {
-                best_cost = cost;
-                best = Some(Plane {
-                    axis,
-                    bucket,
-                    bucketing,
-                });
+        let factor = scales.regularization(params.heuristic, node, axis);
+        if let Some((bucket, cost)) = sweep(groups, &scales, params.heuristic, factor, best_cost) {
+            best_cost = cost;
+            let plane = Plane {
+                axis,
+                bucket,
+                bucketing,
+            };
+            let [mut left, mut right] = [Group::EMPTY; 2];
+            for (b, group) in groups.iter().enumerate() {
+                if b < bucket { &mut left } else { &mut right }.merge(group);
             }
+            best = Some((plane, [left, right]));
         }
     }
     best
 }
 
-/// The cheapest plane between the buckets, as the first bucket of its right side, and its cost.
-fn sweep(groups: &[Group], scales: &Scales, heuristic: Heuristic) -> Option<(usize, f32)> {
+/// The cheapest plane between the buckets, as the first bucket of its right side, and its cost times `factor`, if that
+/// is below `bound`.
+fn sweep(
+    groups: &[Group],
+    scales: &Scales,
+    heuristic: Heuristic,
+    factor: f32,
+    bound: f32,
+) -> Option<(usize, f32)> {
     let mut right_cost = [0.0; MAX_BUCKETS as usize];
     let mut right = Group::EMPTY;
     for b in (1..groups.len()).rev() {
@@ -118,14 +146,17 @@ fn sweep(groups: &[Group], scales: &Scales, heuristic: Heuristic) -> Option<(usi
         }
     }
     let mut best = None;
+    let mut least = bound;
     let mut left = Group::EMPTY;
     let total = right.count + groups[0].count;
     for b in 1..groups.len() {
         if groups[b - 1].count > 0 {
             left.merge(&groups[b - 1]);
-            if left.count < total {
-                let cost = scales.cost(heuristic, &left) + right_cost[b];
-                if best.is_none_or(|(_, least)| cost < least) {
+            // Where the right side alone costs too much, the left side's cost is not needed.
+            if left.count < total && right_cost[b] * factor < least {
+                let cost = (scales.cost(heuristic, &left) + right_cost[b]) * factor;
+                if cost < least {
+                    least = cost;
                     best = Some((b, cost));
                 }
             }

@@ -10,6 +10,7 @@
 //! |---|---|---|
 //! | [`div`], [`sqrt`] | correctly rounded | native on the CPU, integer remainder on the device; the tests compare both over all significands |
 //! | [`recip`], [`rsqrt`] | same bits, within 7e-6 relative | Newton steps, the same code on both sides |
+//! | [`recip_rough`], [`rsqrt_rough`] | same bits, within 3e-3 and 7e-4 relative | one Newton step |
 //! | [`min`], [`max`], [`clamp`], [`abs`] | exact | compare and select, bit masks |
 //! | [`flush`], [`floor_u32`] | exact | compare and select, truncation |
 //! | [`exponent`], [`significand`], [`pow2`] | exact | the bits themselves |
@@ -24,10 +25,10 @@ mod order;
 mod root;
 mod scale;
 
-pub use div::{div, div_emulated, recip};
+pub use div::{div, div_emulated, recip, recip_rough};
 pub use hash::{hash, unit_f32};
 pub use order::{abs, clamp, floor_u32, flush, max, min, order_key};
-pub use root::{rsqrt, sqrt, sqrt_emulated};
+pub use root::{rsqrt, rsqrt_rough, sqrt, sqrt_emulated};
 pub use scale::{exponent, pow2, significand};
 
 /// The sign bit of an `f32`.

@@ -91,6 +91,18 @@ pub fn rsqrt(x: f32) -> f32 {
     newton_step(x, newton_step(x, seed(x)))
 }
 
+/// About `1 / sqrt(x)`, within 6.6e-4 relative, the same bits on every processor: one Newton step whose constants
+/// share out the error of the guess instead of removing one side of it (J. Kadlec, "Řrřlog: Improving the fast inverse
+/// square root", 2010).
+///
+/// Domain: as [`rsqrt`].
+#[inline]
+#[must_use]
+pub fn rsqrt_rough(x: f32) -> f32 {
+    let y = f32::from_bits(0x5f1f_fff9_u32.wrapping_sub(x.to_bits() >> 1));
+    y * (0.703_952_25 * (2.389_244_6 - x * (y * y)))
+}
+
 /// The well-known first guess: halves and negates the exponent (C. Lomont, "Fast inverse square root", 2003).
 #[inline]
 fn seed(x: f32) -> f32 {
@@ -101,4 +113,23 @@ fn seed(x: f32) -> f32 {
 #[inline]
 fn newton_step(x: f32, y: f32) -> f32 {
     y * (1.5 - 0.5 * x * y * y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The error repeats with every factor of four, so two octaves stand for all.
+    #[test]
+    fn rough_root_is_within_its_bound() {
+        let mut worst = 0.0_f64;
+        for bits in (0x3f80_0000..0x4080_0000_u32).step_by(7) {
+            let x = f32::from_bits(bits);
+            let y = f64::from(rsqrt_rough(x));
+            // (1 + e)^2 - 1 = 2e within e^2.
+            let error = (y * y * f64::from(x) - 1.0) / 2.0;
+            worst = if error.abs() > worst { error.abs() } else { worst };
+        }
+        assert!(worst < 6.6e-4, "{worst}");
+    }
 }

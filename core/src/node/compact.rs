@@ -8,12 +8,13 @@ use crate::bounds::LightBounds;
 use crate::cone::{normalized, widened};
 use crate::exact::{self, exponent, pow2};
 use crate::importance::Cluster;
+use crate::vector::length_squared;
 
 // Words of a child; each is an array over the slots.
 const CENTER_X: usize = 0;
 const CENTER_Y: usize = 1;
 const CENTER_Z: usize = 2;
-/// Half extents of the box: 8 bits of exponent, then 3 × 8 bits in units of that power of two.
+/// Half extents of the box: 8 bits of exponent as in an f32, then 3 × 8 bits in units of that power of two.
 const EXTENT: usize = 3;
 /// Axis as 3 × 10 bits, then 2 bits of kind.
 const AXIS_KIND: usize = 4;
@@ -21,13 +22,19 @@ const AXIS_KIND: usize = 4;
 const PHI_CONE: usize = 5;
 const LINK: usize = 6;
 
-/// Units of the half extents are 2^(stored − 128).
-const UNIT_BIAS: i32 = 128;
+/// Units of the half extents are 2^(stored − 127), so that the stored exponent is that of an f32.
+const UNIT_BIAS: i32 = 127;
+/// Least unit that importance reckons with: its square is a normal number.
+const LEAST_UNIT: f32 = pow2(-60);
 /// Least exponent of the greatest half extent: boxes below 2^-100 m are rounded up to it.
 const MIN_EXTENT_EXPONENT: i32 = -100;
 /// An axis component is stored in units of 1/511.
 const AXIS_UNIT: f32 = 1.0 / 511.0;
-/// sin(θ_o/2) is stored in units of 1/254; 255 is the whole sphere.
+/// Length of the axis before it is quantised: what remains after the greatest error of quantisation is never above 1.
+/// An axis too long would make a point behind an emitter seem farther behind than it is, and a root of 1 − cos² there
+/// turns an error of 2^-9 into one of 2^-4; too short is the safe side.
+const AXIS_LENGTH: f32 = 0.9983;
+/// sin(θ_o/2) is stored in units of 1/254; 255 is the whole sphere, and counts as 1.
 const CONE_UNIT: f32 = 1.0 / 254.0;
 const CONE_SPHERE: u32 = 255;
 /// Widening that covers the axis's quantisation: each component is off by at most half a unit, so the axis by at most
@@ -58,7 +65,7 @@ impl<const W: usize> CompactNode<W> {
         )
     }
 
-    /// The stored axis, of length 1 within 0.0017.
+    /// The stored axis, of length 0.9966 to 1.
     #[inline(always)]
     fn axis(&self, slot: usize) -> Vec3 {
         let word = self.0[AXIS_KIND][slot];
@@ -75,12 +82,20 @@ impl<const W: usize> CompactNode<W> {
     #[inline(always)]
     fn cone(&self, slot: usize) -> (f32, f32) {
         let code = self.0[PHI_CONE][slot] & 0xff;
-        let half_sine = code as i32 as f32 * CONE_UNIT;
-        if code == CONE_SPHERE {
-            (-1.0, 1.0)
-        } else {
-            (1.0 - 2.0 * (half_sine * half_sine), half_sine)
-        }
+        let half_sine = exact::min(code as i32 as f32 * CONE_UNIT, 1.0);
+        (1.0 - 2.0 * (half_sine * half_sine), half_sine)
+    }
+
+    /// Half extents of the box in units, and the unit.
+    #[inline(always)]
+    fn half_extents(&self, slot: usize) -> (Vec3, f32) {
+        let word = self.0[EXTENT][slot];
+        let half = Vec3::new(
+            ((word >> 16) & 255) as i32 as f32,
+            ((word >> 8) & 255) as i32 as f32,
+            (word & 255) as i32 as f32,
+        );
+        (half, f32::from_bits((word >> 1) & 0x7f80_0000))
     }
 }
 
@@ -100,45 +115,29 @@ impl<const W: usize> LightNode<W> for CompactNode<W> {
 
     #[inline(always)]
     fn cluster(&self, slot: usize) -> Cluster {
-        let extent = self.0[EXTENT][slot];
-        let (x, y, z) = ((extent >> 16) & 255, (extent >> 8) & 255, extent & 255);
-        // The sum of squares is an integer below 2^18, so exact; the unit's square is kept a normal number.
-        let squares = (x * x + y * y + z * z) as i32 as f32;
-        let unit_squared_exponent = 2 * ((extent >> 24) as i32 - UNIT_BIAS);
-        let bounded = if unit_squared_exponent < -120 {
-            -120
-        } else {
-            unit_squared_exponent
-        };
-
+        let (half, stored_unit) = self.half_extents(slot);
+        let unit = exact::max(stored_unit, LEAST_UNIT);
         let (cos_theta_o, half_sine) = self.cone(slot);
-        // sin θ = 2 sin(θ/2) cos(θ/2).
+        // sin θ = 2 sin(θ/2) cos(θ/2). The bound below keeps the root's argument normal; it leaves a sphere's sine at
+        // 2e-6, which no sign hangs on.
         let half_cosine_squared = exact::max(1.0 - half_sine * half_sine, 1e-12);
-        let half_cosine = half_cosine_squared * exact::rsqrt(half_cosine_squared);
-        let sin_theta_o = if cos_theta_o <= -1.0 {
-            0.0
-        } else {
-            2.0 * (half_sine * half_cosine)
-        };
+        let half_cosine = half_cosine_squared * exact::rsqrt_rough(half_cosine_squared);
         Cluster {
             center: self.center(slot),
-            radius_squared: squares * pow2(bounded),
+            extent: half * unit,
+            // The sum of squares is an integer below 2^18, so exact.
+            radius_squared: length_squared(half) * (unit * unit),
             axis: self.axis(slot),
             cos_theta_o,
-            sin_theta_o,
+            sin_theta_o: 2.0 * (half_sine * half_cosine),
             cos_theta_e: 0.0,
             phi: self.phi(slot),
         }
     }
 
     fn bounds(&self, slot: usize) -> LightBounds {
-        let extent = self.0[EXTENT][slot];
-        let unit = pow2((extent >> 24) as i32 - UNIT_BIAS);
-        let half = Vec3::new(
-            ((extent >> 16) & 255) as i32 as f32 * unit,
-            ((extent >> 8) & 255) as i32 as f32 * unit,
-            (extent & 255) as i32 as f32 * unit,
-        );
+        let (half_units, unit) = self.half_extents(slot);
+        let half = half_units * unit;
         let center = self.center(slot);
         LightBounds {
             min: center - half,
@@ -202,9 +201,9 @@ fn pack_box(min: Vec3, max: Vec3) -> (Vec3, u32) {
     (center, if greatest > 0.0 { word } else { 0 })
 }
 
-/// Each component to the nearest 1/511.
+/// Each component, a little shortened, to the nearest 1/511.
 fn pack_axis(axis: Vec3) -> u32 {
-    let component = |a: f32| exact::floor_u32(exact::clamp(a, -1.0, 1.0) * 511.0 + 511.5);
+    let component = |a: f32| exact::floor_u32(exact::clamp(a, -1.0, 1.0) * (511.0 * AXIS_LENGTH) + 511.5);
     (component(axis.x) << 22) | (component(axis.y) << 12) | (component(axis.z) << 2)
 }
 

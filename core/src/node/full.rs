@@ -90,6 +90,7 @@ impl<const W: usize> LightNode<W> for FullNode<W> {
         };
         Cluster {
             center,
+            extent,
             radius_squared: length_squared(extent),
             axis: self.vector(AXIS, slot),
             cos_theta_o,

@@ -31,7 +31,7 @@ pub mod kind {
 }
 
 /// A node of width `W`: plain words, read and written slot by slot.
-pub trait LightNode<const W: usize>: Pod {
+pub trait LightNode<const W: usize>: Pod + Send + Sync {
     /// A node without children.
     const EMPTY: Self;
     /// Name for tables.

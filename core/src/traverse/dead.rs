@@ -8,58 +8,13 @@
 //! the usual cost.
 
 use super::descend::{Descent, enter};
+use super::neighbor::Neighbor;
 use crate::exact;
 use crate::importance::ImportanceModel;
 use crate::node::{LightNode, kind};
 use crate::point::ShadingPoint;
 use crate::trail::{Path, max_levels};
 use crate::tree::{INVALID, LightTree};
-
-/// A child beside a way down.
-#[derive(Clone, Copy)]
-pub(super) struct Neighbor {
-    /// [`kind`] of the child; `EMPTY` for no neighbour.
-    pub kind: u32,
-    /// Its link.
-    pub link: u32,
-    /// Mesh light that its node lies in, or [`INVALID`].
-    pub mesh: u32,
-    /// Position of the node that it is a child of.
-    pub position: u32,
-    /// Its slot there.
-    pub slot: u32,
-    /// Probability of reaching that node.
-    pub before: f32,
-    /// Its weight among the node's children.
-    pub weight: f32,
-    /// The sum of their weights.
-    pub sum: f32,
-}
-
-impl Neighbor {
-    /// No neighbour.
-    pub const NONE: Self = Self {
-        kind: kind::EMPTY,
-        link: 0,
-        mesh: INVALID,
-        position: 0,
-        slot: 0,
-        before: 0.0,
-        weight: 0.0,
-        sum: 1.0,
-    };
-
-    /// Probability of entering it; divided only here, since few neighbours turn out dead.
-    #[inline(always)]
-    pub fn mass(&self) -> f32 {
-        self.before * exact::div(self.weight, self.sum)
-    }
-
-    #[inline(always)]
-    pub fn is_none(&self) -> bool {
-        self.kind == kind::EMPTY
-    }
-}
 
 /// A light found, or [`INVALID`], and its mesh light.
 #[derive(Clone, Copy)]
@@ -68,7 +23,16 @@ pub(super) struct Found {
     pub mesh: u32,
 }
 
-/// The first (`ascending`) or last reachable light below `start`, which has importance.
+/// What [`find_live`] looks for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Order {
+    /// The first reachable light, else the last.
+    ascending: bool,
+    /// Any light will do, only whether there is one matters.
+    any: bool,
+}
+
+/// The first or last reachable light below `start`, which has importance.
 ///
 /// A depth-first search without a stack: after a dead end it starts over along the trail, changed at the deepest
 /// alternative (the restart trail of Laine 2010). In any well-formed tree it ends within the bound; hostile words end
@@ -76,8 +40,8 @@ pub(super) struct Found {
 fn find_live<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     tree: &LightTree<'_, N>,
     point: &ShadingPoint,
-    start: &Neighbor,
-    ascending: bool,
+    start: &Neighbor<W>,
+    order: Order,
 ) -> Found {
     let (first_index, first_position, first_mesh) =
         enter::<N, W>(tree, start.kind, start.link, start.position, start.mesh);
@@ -108,33 +72,31 @@ fn find_live<N: LightNode<W>, I: ImportanceModel, const W: usize>(
         };
         let mut chosen = INVALID;
         let mut after = INVALID;
+        let mut lights = false;
         for i in 0..W {
-            let slot = if ascending { i } else { W - 1 - i };
-            let open = valid && weights[slot] > 0.0;
-            let reached = from == INVALID || chosen != INVALID || slot as u32 == from;
-            if open && reached {
-                if chosen == INVALID {
-                    chosen = slot as u32;
-                } else if after == INVALID {
-                    after = slot as u32;
-                }
-            }
+            let slot = if order.ascending { i } else { W - 1 - i };
+            let open = valid & (weights[slot] > 0.0);
+            let reached = (from == INVALID) | (chosen != INVALID) | (slot as u32 == from);
+            let takes = open & reached;
+            let first = takes & (chosen == INVALID);
+            let second = takes & !first & (after == INVALID);
+            chosen = if first { slot as u32 } else { chosen };
+            after = if second { slot as u32 } else { after };
+            // A light among the children settles whether there is one at once.
+            lights |= open & (node.kind(slot) == kind::LIGHT);
         }
         if after != INVALID {
             other_position = position;
             other_slot = after;
         }
 
-        if chosen != INVALID {
+        if order.any & lights {
+            found = Found { light: 0, mesh };
+            done = true;
+        } else if chosen != INVALID {
             path = path.with::<W>(position, chosen);
-            let mut to = kind::EMPTY;
-            let mut link = 0;
-            for slot in 0..W {
-                if slot as u32 == chosen {
-                    to = node.kind(slot);
-                    link = node.link(slot);
-                }
-            }
+            let slot = if chosen < W as u32 { chosen as usize } else { 0 };
+            let (to, link) = (node.kind(slot), node.link(slot));
             if to == kind::LIGHT {
                 found = Found { light: link, mesh };
                 done = true;
@@ -174,25 +136,30 @@ fn search_bound(nodes: u32, levels: u32) -> u32 {
 fn next_neighbor<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     tree: &LightTree<'_, N>,
     point: &ShadingPoint,
-    d: &Descent,
-    neighbor: &Neighbor,
+    d: &Descent<W>,
+    neighbor: &Neighbor<W>,
     right: bool,
-) -> Neighbor {
+) -> Neighbor<W> {
     let mut next = Neighbor::NONE;
     let mut position = neighbor.position;
     let mut slot = neighbor.slot;
     let mut before = neighbor.before;
     let mut mesh = neighbor.mesh;
-    // The first node looked at is the neighbour's own; its probability is known.
+    // The first node looked at is the neighbour's own; its probability and weights are known.
     let mut undo = false;
     let mut steps = 2 * max_levels(W);
     let mut done = neighbor.is_none();
     while !done && steps > 0 {
         steps -= 1;
-        let index = node_at::<N, W>(tree, d.path, position);
+        let index = if undo {
+            node_at::<N, W>(tree, d.path, position)
+        } else {
+            neighbor.index
+        };
         let node = &tree.nodes[index as usize];
-        let (weights, sum) = node.weights::<I>(point);
+        let (mut weights, mut sum) = (neighbor.weights, neighbor.sum);
         if undo {
+            (weights, sum) = node.weights::<I>(point);
             let mut taken = 0.0;
             for s in 0..W {
                 taken = if s as u32 == slot { weights[s] } else { taken };
@@ -204,13 +171,14 @@ fn next_neighbor<N: LightNode<W>, I: ImportanceModel, const W: usize>(
             let beyond = if right { s as u32 > slot } else { (s as u32) < slot };
             if beyond && weights[s] > 0.0 && !done {
                 next = Neighbor {
+                    index,
                     kind: node.kind(s),
                     link: node.link(s),
                     mesh,
                     position,
                     slot: s as u32,
                     before,
-                    weight: weights[s],
+                    weights,
                     sum,
                 };
                 done = true;
@@ -240,13 +208,8 @@ fn node_at<N: LightNode<W>, const W: usize>(tree: &LightTree<'_, N>, path: Path,
         steps -= 1;
         let slot = path.slot::<W>(at);
         let node = &tree.nodes[index as usize];
-        let (mut to, mut link) = (kind::EMPTY, 0);
-        for s in 0..W {
-            if s as u32 == slot {
-                to = node.kind(s);
-                link = node.link(s);
-            }
-        }
+        let slot = if slot < W as u32 { slot as usize } else { 0 };
+        let (to, link) = (node.kind(slot), node.link(slot));
         let (next, next_position, _) = enter::<N, W>(tree, to, link, at, INVALID);
         index = next;
         at = next_position;
@@ -255,12 +218,42 @@ fn node_at<N: LightNode<W>, const W: usize>(tree: &LightTree<'_, N>, path: Path,
     if index < tree.nodes.len() as u32 { index } else { 0 }
 }
 
-/// The probability that the light at the end of `d` takes over from dead neighbours.
+/// Slots of one node that are known to be dead or of no importance.
+#[derive(Clone, Copy)]
+pub(super) struct Dead {
+    /// Position of the node.
+    pub position: u32,
+    /// The first of them.
+    pub first: u32,
+    /// The one after the last.
+    pub end: u32,
+}
+
+impl Dead {
+    /// Nothing is known.
+    pub const UNKNOWN: Self = Self {
+        position: 0,
+        first: 0,
+        end: 0,
+    };
+
+    #[inline(always)]
+    fn holds<const W: usize>(&self, neighbor: &Neighbor<W>) -> bool {
+        (neighbor.position == self.position) & (neighbor.slot >= self.first) & (neighbor.slot < self.end)
+    }
+}
+
+/// The probability that the light at the end of `d` takes over from dead neighbours; `dead` saves searches.
 pub(super) fn adopted<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     tree: &LightTree<'_, N>,
     point: &ShadingPoint,
-    d: &Descent,
+    d: &Descent<W>,
+    dead: &Dead,
 ) -> f32 {
+    const ANY: Order = Order {
+        ascending: true,
+        any: true,
+    };
     let mut total = 0.0;
     // Left side first, then right, in one loop so that the kernel holds the search once.
     let mut right = false;
@@ -273,7 +266,9 @@ pub(super) fn adopted<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     while !done && steps > 0 {
         steps -= 1;
         let none = neighbor.is_none();
-        let live = !none && find_live::<N, I, W>(tree, point, &neighbor, true).light != INVALID;
+        let live = !none
+            && !dead.holds(&neighbor)
+            && find_live::<N, I, W>(tree, point, &neighbor, ANY).light != INVALID;
         if none || live {
             if right {
                 total += if live && neighbor.position == pending_position {
@@ -303,16 +298,17 @@ pub(super) fn adopted<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     total
 }
 
-/// The light that takes over from the dead end of `d`.
+/// The light that takes over from the dead end of `d`, and the slots that the search found dead beside it.
 pub(super) fn heir<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     tree: &LightTree<'_, N>,
     point: &ShadingPoint,
-    d: &Descent,
-) -> Found {
+    d: &Descent<W>,
+) -> (Found, Dead) {
     let mut found = Found {
         light: INVALID,
         mesh: INVALID,
     };
+    let mut dead = Dead::UNKNOWN;
     let (mut left, mut right) = (d.left, d.right);
     let mut done = false;
     let mut steps = 4 * W as u32 * max_levels(W);
@@ -321,8 +317,27 @@ pub(super) fn heir<N: LightNode<W>, I: ImportanceModel, const W: usize>(
         // The deeper neighbour is the nearer; of one node's slots, the right ones come first.
         let to_right = !right.is_none() && (left.is_none() || right.position >= left.position);
         let neighbor = if to_right { right } else { left };
-        found = find_live::<N, I, W>(tree, point, &neighbor, to_right);
+        found = find_live::<N, I, W>(
+            tree,
+            point,
+            &neighbor,
+            Order {
+                ascending: to_right,
+                any: false,
+            },
+        );
         done = neighbor.is_none() || found.light != INVALID;
+        // What was tried before in this node: from the way's own slot up to this one; or, coming back from the right,
+        // all beyond this one.
+        dead = Dead {
+            position: neighbor.position,
+            first: if to_right {
+                d.path.slot::<W>(neighbor.position)
+            } else {
+                neighbor.slot.wrapping_add(1)
+            },
+            end: if to_right { neighbor.slot } else { W as u32 },
+        };
         if !done {
             let next = next_neighbor::<N, I, W>(tree, point, d, &neighbor, to_right);
             if to_right {
@@ -332,5 +347,5 @@ pub(super) fn heir<N: LightNode<W>, I: ImportanceModel, const W: usize>(
             }
         }
     }
-    found
+    (found, dead)
 }

@@ -1,6 +1,6 @@
 //! One way down, chosen at random or followed.
 
-use super::dead::Neighbor;
+use super::neighbor::Neighbor;
 use crate::exact::{self, hash};
 use crate::importance::ImportanceModel;
 use crate::node::{LightNode, kind};
@@ -21,7 +21,7 @@ pub(super) struct Guide {
 
 /// Where a descent ended, and what it saw on its way.
 #[derive(Clone, Copy)]
-pub(super) struct Descent {
+pub(super) struct Descent<const W: usize> {
     /// The triangle reached, or [`INVALID`].
     pub light: u32,
     /// The mesh light passed, or [`INVALID`].
@@ -33,9 +33,9 @@ pub(super) struct Descent {
     /// The way taken.
     pub path: Path,
     /// Deepest child left of the way that has importance.
-    pub left: Neighbor,
+    pub left: Neighbor<W>,
     /// Deepest child right of the way that has importance.
-    pub right: Neighbor,
+    pub right: Neighbor<W>,
 }
 
 /// A pmf never falls below 2^-120: a light less probable than that is never drawn, and must not seem impossible.
@@ -45,7 +45,7 @@ pub(super) fn descend<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     tree: &LightTree<'_, N>,
     point: &ShadingPoint,
     guide: &Guide,
-) -> Descent {
+) -> Descent<W> {
     let mut out = Descent {
         light: INVALID,
         mesh: INVALID,
@@ -55,6 +55,8 @@ pub(super) fn descend<N: LightNode<W>, I: ImportanceModel, const W: usize>(
         left: Neighbor::NONE,
         right: Neighbor::NONE,
     };
+    let mut left = Beside::<W>::NONE;
+    let mut right = Beside::<W>::NONE;
     let mut index = tree.root;
     let mut position = 0;
     let mut done = false;
@@ -66,59 +68,45 @@ pub(super) fn descend<N: LightNode<W>, I: ImportanceModel, const W: usize>(
         let valid = index < tree.nodes.len() as u32;
         let node = &tree.nodes[if valid { index as usize } else { 0 }];
         let (weights, sum) = node.weights::<I>(point);
-        let alive = valid && sum > 0.0;
-        let chosen = if guide.follow {
+        let alive = valid & (sum > 0.0);
+        let wanted = if guide.follow {
             guide.path.slot::<W>(position)
         } else {
             choose(&weights, guide.random, position)
         };
+        // A followed way may be hostile too.
+        let chosen = if wanted < W as u32 { wanted } else { 0 };
+        let (to, link) = (node.kind(chosen as usize), node.link(chosen as usize));
 
+        // Which side of the chosen slot has importance is as random as the choice: selects, no branches.
         let mut weight = 0.0;
-        let mut to = kind::EMPTY;
-        let mut link = 0;
+        let mut some = 0;
         for slot in 0..W {
             let w = weights[slot];
-            if slot as u32 == chosen {
-                weight = w;
-                to = node.kind(slot);
-                link = node.link(slot);
-            } else if alive && w > 0.0 {
-                // Slots come in order: the last before the chosen is nearest on the left, the first after it on
-                // the right.
-                let before = (slot as u32) < chosen;
-                let nearer = before || out.right.position != position || out.right.is_none();
-                if nearer {
-                    let neighbor = Neighbor {
-                        kind: node.kind(slot),
-                        link: node.link(slot),
-                        mesh: out.mesh,
-                        position,
-                        slot: slot as u32,
-                        before: out.pmf,
-                        weight: w,
-                        sum,
-                    };
-                    if before {
-                        out.left = neighbor;
-                    } else {
-                        out.right = neighbor;
-                    }
-                }
-            }
+            weight = if slot as u32 == chosen { w } else { weight };
+            some |= u32::from(w > 0.0) << slot;
         }
+        let some = if alive { some } else { 0 };
+        let here = Beside {
+            index,
+            position,
+            before: out.pmf,
+            weights,
+            sum,
+        };
+        left.replace(some & ((1 << chosen) - 1) != 0, &here);
+        right.replace((some >> chosen) > 1, &here);
 
-        let passes = alive && weight > 0.0;
-        if passes {
-            out.pmf = exact::max(out.pmf * exact::div(weight, sum), MIN_PMF);
-            out.path = out.path.with::<W>(position, chosen);
-        } else {
-            out.pmf = 0.0;
-        }
-        done = !passes;
-        if passes && to == kind::LIGHT {
-            out.light = link;
-            done = true;
-        }
+        let passes = alive & (weight > 0.0);
+        let product = exact::max(
+            out.pmf * exact::div(weight, if alive { sum } else { 1.0 }),
+            MIN_PMF,
+        );
+        out.pmf = if passes { product } else { 0.0 };
+        out.path = out.path.with::<W>(position, chosen);
+        let at_light = passes & (to == kind::LIGHT);
+        out.light = if at_light { link } else { INVALID };
+        done = at_light | !passes;
         let (next, next_position, mesh) = enter::<N, W>(tree, to, link, position, out.mesh);
         out.mesh_position = if mesh != out.mesh {
             position
@@ -129,7 +117,81 @@ pub(super) fn descend<N: LightNode<W>, I: ImportanceModel, const W: usize>(
         index = next;
         position = next_position;
     }
+    out.left = left.nearest(tree, &out, false);
+    out.right = right.nearest(tree, &out, true);
     out
+}
+
+/// A node passed by a way, with importance on one side of the slot taken.
+#[derive(Clone, Copy)]
+struct Beside<const W: usize> {
+    index: u32,
+    position: u32,
+    before: f32,
+    weights: [f32; W],
+    sum: f32,
+}
+
+impl<const W: usize> Beside<W> {
+    const NONE: Self = Self {
+        index: INVALID,
+        position: 0,
+        before: 0.0,
+        weights: [0.0; W],
+        sum: 1.0,
+    };
+
+    /// Becomes `other` if `yes`, field by field so that every one is a select.
+    #[inline(always)]
+    fn replace(&mut self, yes: bool, other: &Self) {
+        self.index = if yes { other.index } else { self.index };
+        self.position = if yes { other.position } else { self.position };
+        self.before = if yes { other.before } else { self.before };
+        self.sum = if yes { other.sum } else { self.sum };
+        for slot in 0..W {
+            self.weights[slot] = if yes {
+                other.weights[slot]
+            } else {
+                self.weights[slot]
+            };
+        }
+    }
+
+    /// The child with importance nearest to the slot that the way of `d` took there.
+    #[inline(always)]
+    fn nearest<N: LightNode<W>>(&self, tree: &LightTree<'_, N>, d: &Descent<W>, right: bool) -> Neighbor<W> {
+        let taken = d.path.slot::<W>(self.position);
+        let mut nearest = INVALID;
+        for i in 0..W {
+            // From the far end of the side, so that the nearest comes last.
+            let slot = if right { W - 1 - i } else { i };
+            let beyond = if right {
+                slot as u32 > taken
+            } else {
+                (slot as u32) < taken
+            };
+            let better = beyond & (self.weights[slot] > 0.0);
+            nearest = if better { slot as u32 } else { nearest };
+        }
+        let exists = self.index < tree.nodes.len() as u32 && nearest < W as u32;
+        let node = &tree.nodes[if exists { self.index as usize } else { 0 }];
+        let slot = if exists { nearest as usize } else { 0 };
+        Neighbor {
+            index: if exists { self.index } else { 0 },
+            kind: if exists { node.kind(slot) } else { kind::EMPTY },
+            link: node.link(slot),
+            mesh: if self.position < max_levels(W) {
+                INVALID
+            } else {
+                d.mesh
+            },
+            position: self.position,
+            slot: nearest,
+            before: self.before,
+            weights: self.weights,
+            sum: self.sum,
+        }
+    }
 }
 
 /// The node behind a child, its position, and the mesh light passed on the way.
@@ -153,58 +215,43 @@ pub(super) fn enter<N: LightNode<W>, const W: usize>(
     }
 }
 
-/// A slot with probability weight / sum, by one two-way choice per slot: each weight against all before it.
+/// A slot with probability weight / sum: pairs of neighbours choose between their two, pairs of pairs between those, and
+/// so on, with fresh bits on every storey, so that they do not run dry in deep trees. The pairs of one storey may share
+/// theirs since only one of them counts in the end.
 ///
-/// The smaller side of a choice is taken when `u · both < smaller`, with a `u` that resolves 2^-64: so a side of tiny
-/// probability is neither starved nor favoured. Every choice takes fresh bits, so they do not run dry in deep trees.
+/// The smaller side of a choice is taken when `u · both < smaller`, with a `u` that resolves far below 2^-24: so a side
+/// of tiny probability is neither starved nor favoured.
 #[inline(always)]
 fn choose<const W: usize>(weights: &[f32; W], random: u32, position: u32) -> u32 {
-    let mut chosen = 0;
-    let mut before = weights[0];
-    for slot in 1..W {
-        let w = weights[slot];
-        let both = before + w;
-        let u =
-            dense_unit(random.wrapping_add((position * W as u32 + slot as u32).wrapping_mul(0x9e37_79b9)));
-        let later = if w <= before {
-            u * both < w
-        } else {
-            u * both >= before
-        };
-        chosen = if later { slot as u32 } else { chosen };
-        before = both;
+    let mut slots = [0; W];
+    for slot in 0..W {
+        slots[slot] = slot as u32;
     }
-    chosen
+    let mut sums = *weights;
+    let mut stride = 1;
+    for storey in 0..4 {
+        let u = dense_unit(random.wrapping_add((position * 4 + storey).wrapping_mul(0x9e37_79b9)));
+        for slot in 0..W {
+            if slot & (2 * stride - 1) == 0 && slot + stride < W {
+                let (a, b) = (sums[slot], sums[slot + stride]);
+                let both = a + b;
+                let smaller = exact::min(a, b);
+                let second = (u * both < smaller) == (b <= a);
+                slots[slot] = if second { slots[slot + stride] } else { slots[slot] };
+                sums[slot] = both;
+            }
+        }
+        stride *= 2;
+    }
+    slots[0]
 }
 
-/// A uniform number in `[0, 1)` with 24 significant bits at any magnitude down to 2^-64; truncated, so below 1.
+/// A uniform number in `[0, 1]` that resolves 2^-48; 1 only by rounding, with a probability of 2^-24.
 #[inline(always)]
 fn dense_unit(seed: u32) -> f32 {
     let high = hash(seed);
-    // The first 24 bits suffice unless they start with zeros; then bits of a second hash follow them.
-    let low = if high < 0x0100_0000 {
-        hash(seed ^ 0x5bd1_e995)
-    } else {
-        0
-    };
-    let zeros = if high == 0 {
-        32 + low.leading_zeros()
-    } else {
-        high.leading_zeros()
-    };
-    // The 24 bits from the first one on.
-    let shift = zeros & 31;
-    let (first, second) = if zeros < 32 { (high, low) } else { (low, 0) };
-    let window = if shift == 0 {
-        first
-    } else {
-        (first << shift) | (second >> (32 - shift))
-    };
-    let value = (window >> 8) as i32 as f32;
-    // window/2^32 in [1/2, 1) times 2^-zeros.
-    if zeros >= 64 {
-        0.0
-    } else {
-        value * exact::pow2(-24 - zeros as i32)
-    }
+    // The first 24 bits suffice unless they are zeros; then bits scrambled from the other eight follow them: as many
+    // different values as there are seeds for them.
+    let low = high.wrapping_mul(0x9e37_79b9) ^ 0x5bd1_e995;
+    (high >> 8) as i32 as f32 * exact::pow2(-24) + (low >> 8) as i32 as f32 * exact::pow2(-48)
 }

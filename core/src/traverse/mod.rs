@@ -9,6 +9,7 @@
 
 mod dead;
 mod descend;
+mod neighbor;
 mod sample;
 
 pub use sample::{SampledLight, pmf, sample};

@@ -1,6 +1,6 @@
 //! The two questions that a renderer asks of a light BVH.
 
-use super::dead::{adopted, heir};
+use super::dead::{Dead, adopted, heir};
 use super::descend::{Guide, descend};
 use crate::importance::ImportanceModel;
 use crate::node::LightNode;
@@ -41,8 +41,10 @@ pub fn sample<N: LightNode<W>, I: ImportanceModel, const W: usize>(
         random,
     };
     let mut d = descend::<N, I, W>(tree, point, &guide);
+    let mut dead = Dead::UNKNOWN;
     if d.light == INVALID {
-        let found = heir::<N, I, W>(tree, point, &d);
+        let (found, known) = heir::<N, I, W>(tree, point, &d);
+        dead = known;
         if found.light != INVALID {
             let path = tree.path_of(found.light, found.mesh);
             d = descend::<N, I, W>(
@@ -61,7 +63,7 @@ pub fn sample<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     } else {
         SampledLight {
             light: d.light,
-            pmf: d.pmf + adopted::<N, I, W>(tree, point, &d),
+            pmf: d.pmf + adopted::<N, I, W>(tree, point, &d, &dead),
         }
     }
 }
@@ -86,7 +88,7 @@ pub fn pmf<N: LightNode<W>, I: ImportanceModel, const W: usize>(
         },
     );
     if d.light == light && light != INVALID {
-        d.pmf + adopted::<N, I, W>(tree, point, &d)
+        d.pmf + adopted::<N, I, W>(tree, point, &d, &Dead::UNKNOWN)
     } else {
         0.0
     }

@@ -4,7 +4,8 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::{Violation, What, equal};
-use crate::bvh::{Levels, LightBvh};
+use crate::bvh::LightBvh;
+use crate::levels::Levels;
 use crate::lights::Lights;
 use crate::node::{LightNode, kind};
 use crate::trail::{BitTrail, max_levels, slot_bits};

@@ -8,6 +8,7 @@ mod export;
 mod info;
 mod render;
 mod table;
+mod validate;
 mod verify;
 
 use std::process::ExitCode;
@@ -45,6 +46,8 @@ enum Command {
     Bench(bench::Args),
     /// List the Vulkan devices and whether their arithmetic is exact.
     Info,
+    /// Check every invariant of the light BVHs of a scene.
+    Validate(validate::Args),
     /// Write a scene as a .glb file.
     Export(export::Args),
 }
@@ -88,6 +91,7 @@ pub fn main() -> ExitCode {
         Command::Verify(args) => verify::run(&context, args),
         Command::Bench(args) => bench::run(&context, args),
         Command::Info => info::run(&context),
+        Command::Validate(args) => validate::run(&context, args),
         Command::Export(args) => export::run(&context, args),
     };
     match result {

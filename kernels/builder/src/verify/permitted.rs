@@ -121,6 +121,7 @@ fn is_structure(op: Op) -> bool {
             | Op::Unreachable
             | Op::Load
             | Op::Store
+            | Op::CopyMemory
             | Op::AccessChain
             | Op::InBoundsAccessChain
             | Op::ArrayLength

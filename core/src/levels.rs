@@ -1,0 +1,40 @@
+//! The order of a refit.
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+/// The nodes with inner children, level by level, deepest first: what `refit::level` is to run over.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Levels {
+    pub(crate) nodes: Vec<u32>,
+    ends: Vec<u32>,
+}
+
+impl Levels {
+    /// The node indices of all levels, deepest level first.
+    #[must_use]
+    pub fn nodes(&self) -> &[u32] {
+        &self.nodes
+    }
+
+    /// The levels as ranges of [`nodes`](Self::nodes), in the order in which they must be refitted.
+    pub fn ranges(&self) -> impl Iterator<Item = Range<usize>> + '_ {
+        (0..self.ends.len()).map(|i| {
+            let start = if i == 0 { 0 } else { self.ends[i - 1] };
+            start as usize..self.ends[i] as usize
+        })
+    }
+
+    /// Gathers (level, node) pairs.
+    pub(crate) fn gather(mut pairs: Vec<(u32, u32)>) -> Self {
+        pairs.sort_unstable_by_key(|&(level, node)| (core::cmp::Reverse(level), node));
+        let mut levels = Self::default();
+        for (i, &(level, node)) in pairs.iter().enumerate() {
+            levels.nodes.push(node);
+            if pairs.get(i + 1).is_none_or(|&(next, _)| next != level) {
+                levels.ends.push(i as u32 + 1);
+            }
+        }
+        levels
+    }
+}

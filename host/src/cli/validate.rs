@@ -1,0 +1,77 @@
+//! `lightbvh validate`: every invariant of the light BVHs of a scene, as built and as refitted.
+
+use serde_json::json;
+
+use super::render::HeuristicName;
+use super::{Context, Outcome, table};
+use crate::backend::Sampler;
+use crate::error::HostError;
+use crate::scene::Scene;
+use crate::workload::{build, lights_at};
+
+/// Frames that the trees are refitted to and checked at.
+const FRAMES: [u32; 4] = [0, 50, 100, 150];
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// A built-in scene (street, square, carousel) or a .gltf or .glb file.
+    scene: String,
+    /// Cost of splits when the light BVHs are built.
+    #[arg(long, value_enum, default_value_t = HeuristicName::Saoh)]
+    heuristic: HeuristicName,
+}
+
+pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
+    let scene = Scene::open(&args.scene)?;
+    let mut rows = Vec::new();
+    let mut outcome = Outcome::Good;
+    for sampler in [Sampler::SingleLevel, Sampler::TwoLevel] {
+        let mut bvh = build(&lights_at(&scene, 0)?, sampler, &args.heuristic.params());
+        for frame in FRAMES {
+            let lights = lights_at(&scene, frame)?;
+            bvh.refit(&lights);
+            let (valid, said) = match bvh.validate(&lights) {
+                Ok(_) => (true, "valid".to_owned()),
+                Err(violation) => (false, violation.to_string()),
+            };
+            if !valid {
+                outcome = Outcome::Bad;
+            }
+            rows.push(json!({
+                "structure": sampler, "frame": frame, "valid": valid, "said": said,
+                "lights": lights.triangles().len(), "mesh_lights": lights.mesh_count(),
+                "nodes": bvh.nodes().len(), "depth": bvh.depth(),
+                "bytes_per_light": bvh.bytes() as f64 / lights.triangles().len() as f64,
+            }));
+        }
+    }
+    if context.json {
+        table::print_json(
+            &json!({ "scene": scene.name(), "valid": outcome == Outcome::Good, "rows": rows }),
+        )?;
+    } else {
+        let header = [
+            "structure",
+            "frame",
+            "lights",
+            "mesh_lights",
+            "nodes",
+            "depth",
+            "bytes_per_light",
+            "said",
+        ];
+        let cells: Vec<Vec<String>> = rows
+            .iter()
+            .map(|row| {
+                let cell = |key: &&str| match &row[*key] {
+                    serde_json::Value::String(text) => text.clone(),
+                    serde_json::Value::Number(n) if n.is_f64() => format!("{:.1}", n.as_f64().unwrap_or(0.0)),
+                    other => other.to_string(),
+                };
+                header.iter().map(cell).collect()
+            })
+            .collect();
+        table::print(&header, &cells)?;
+    }
+    Ok(outcome)
+}

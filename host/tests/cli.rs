@@ -1,0 +1,258 @@
+//! Whole commands: what they print, what they write, and how they refuse.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+/// A folder of its own for each test, removed at its end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("lightbvh-cli-{}-{name}", std::process::id()));
+        std::fs::create_dir_all(&path).expect("a folder in the temporary directory");
+        Self(path)
+    }
+
+    fn file(&self, name: &str) -> String {
+        self.0.join(name).to_str().expect("a path of text").to_owned()
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+fn run(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_lightbvh"))
+        .args(args)
+        .output()
+        .expect("the program starts")
+}
+
+fn json(args: &[&str]) -> Value {
+    let output = run(args);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{args:?}: {errors}");
+    serde_json::from_slice(&output.stdout).expect("one JSON object")
+}
+
+/// Runs what must be refused and returns what it said.
+fn refused(args: &[&str]) -> String {
+    let output = run(args);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{args:?} said {said}");
+    assert!(!said.contains("panicked"), "{said}");
+    said
+}
+
+/// Whether there is a device; where one is required, there must be.
+fn has_device() -> bool {
+    let devices = json(&["info", "--json"]);
+    let found = devices["devices"].as_array().is_some_and(|list| !list.is_empty());
+    if !found {
+        eprintln!("skipped: no Vulkan device");
+    }
+    found
+}
+
+#[test]
+fn verify_compares_words_on_every_device() {
+    if !has_device() {
+        return;
+    }
+    let report = json(&[
+        "verify",
+        "--json",
+        "--queries",
+        "3000",
+        "--scene",
+        "street",
+        "--seed",
+        "7",
+    ]);
+    assert_eq!(report["different"], 0);
+    assert_eq!(report["cpu_different"], 0);
+    for device in report["devices"].as_array().expect("devices") {
+        assert_eq!(device["different"], 0, "{device}");
+        assert_eq!(device["exact"], true, "{device}");
+        assert!(device["samples"].as_u64() >= Some(3000));
+        assert!(device["pmfs"].as_u64() >= Some(3000));
+        assert!(device["nodes"].as_u64() > Some(0));
+        assert!(device["pixels"].as_u64() > Some(0));
+        assert!(device["name"].is_string() && device["driver"].is_string());
+    }
+}
+
+#[test]
+fn render_gives_the_same_file_on_both_processors() {
+    if !has_device() {
+        return;
+    }
+    let folder = Folder::new("render");
+    let exported = folder.file("carousel.glb");
+    assert!(run(&["export", "carousel", "-o", &exported]).status.success());
+    for scene in ["carousel", exported.as_str()] {
+        let mut files = Vec::new();
+        for backend in ["cpu", "vulkan"] {
+            let file = folder.file(&format!("{backend}.exr"));
+            let report = json(&[
+                "render",
+                scene,
+                "--frame",
+                "20",
+                "--width",
+                "64",
+                "--height",
+                "36",
+                "--spp",
+                "2",
+                "--backend",
+                backend,
+                "-o",
+                &file,
+                "--json",
+            ]);
+            assert_eq!(report["width"], 64);
+            files.push(std::fs::read(&file).expect("an image"));
+        }
+        assert!(files[0] == files[1], "{scene}: the images differ");
+        assert!(files[0].len() > 64 * 36 * 3);
+    }
+}
+
+#[test]
+fn every_sampler_and_heuristic_renders() {
+    let folder = Folder::new("samplers");
+    for sampler in ["uniform", "power", "single-level", "two-level"] {
+        for heuristic in ["sah", "saoh"] {
+            let file = folder.file(&format!("{sampler}-{heuristic}.png"));
+            let output = run(&[
+                "render",
+                "street",
+                "--frame",
+                "3",
+                "--width",
+                "48",
+                "--height",
+                "27",
+                "--spp",
+                "1",
+                "--sampler",
+                sampler,
+                "--heuristic",
+                heuristic,
+                "--backend",
+                "cpu",
+                "-o",
+                &file,
+            ]);
+            assert!(
+                output.status.success(),
+                "{}",
+                String::from_utf8_lossy(&output.stderr)
+            );
+            assert!(Path::new(&file).exists());
+        }
+    }
+}
+
+#[test]
+fn bench_reports_every_case() {
+    let report = json(&["bench", "--json", "--lights", "2000", "--no-trade"]);
+    let cases = report["cases"].as_array().expect("cases");
+    for structure in ["single-level", "two-level"] {
+        for what in ["build", "refit", "sample", "pmf"] {
+            let found = cases.iter().find(|case| {
+                case["what"] == what && case["structure"] == structure && case["backend"] == "cpu"
+            });
+            let case = found.unwrap_or_else(|| panic!("no {what} of {structure}"));
+            assert_eq!(case["lights"], 2000);
+            assert!(case["ns_per_item"].as_f64() > Some(0.0));
+            assert!(case["bytes_per_light"].as_f64() > Some(0.0));
+            assert!(case["threads"].is_u64());
+        }
+    }
+}
+
+#[test]
+fn validate_finds_the_scenes_valid() {
+    for scene in ["street", "square", "carousel"] {
+        let report = json(&["validate", scene, "--json"]);
+        assert_eq!(report["valid"], true, "{report}");
+    }
+}
+
+#[test]
+fn demo_ends_with_no_word_different() {
+    let folder = Folder::new("demo");
+    let report = json(&["demo", "--json", "--out", &folder.file("images")]);
+    let rows = report["rows"].as_array().expect("rows");
+    assert_eq!(rows[0]["backend"], "cpu");
+    for row in &rows[1..] {
+        assert_eq!(row["different"], 0, "{row}");
+        assert!(row["compared"].as_u64() > Some(1_000_000), "{row}");
+    }
+    for image in report["images"].as_array().expect("images") {
+        assert!(Path::new(image.as_str().expect("a path")).exists());
+    }
+}
+
+#[test]
+fn bad_input_is_refused_with_what_where_and_what_to_do() {
+    let folder = Folder::new("refused");
+    let image = folder.file("image.png");
+    let said = refused(&["render", "streets", "-o", &image]);
+    assert!(
+        said.contains("streets") && said.contains("street, square, carousel"),
+        "{said}"
+    );
+    let said = refused(&["render", "no/such/file.glb", "-o", &image]);
+    assert!(said.contains("no/such/file.glb"), "{said}");
+    let said = refused(&["render", "street", "--spp", "0", "-o", &image]);
+    assert!(said.contains("--spp 0"), "{said}");
+    let said = refused(&["render", "street", "--width", "100000", "-o", &image]);
+    assert!(said.contains("--width 100000"), "{said}");
+    let said = refused(&["bench", "--lights", "0"]);
+    assert!(said.contains("--lights 0"), "{said}");
+    refused(&["render", "street", "--sampler", "best", "-o", &image]);
+    refused(&["verify", "--queries", "many"]);
+    assert!(!Path::new(&image).exists());
+
+    let small = ["--width", "16", "--height", "9", "--spp", "1"];
+    for output in [folder.file("no/such/folder/image.png"), folder.file("image.gif")] {
+        let said = refused(&[&["render", "street", "-o", &output], &small[..]].concat());
+        assert!(said.contains(&output), "{said}");
+    }
+    if has_device() {
+        let said = refused(&["verify", "--queries", "1", "--device", "no such device"]);
+        assert!(said.contains("no such device"), "{said}");
+    }
+}
+
+#[test]
+fn broken_scene_files_are_refused() {
+    let folder = Folder::new("broken");
+    let whole = folder.file("whole.glb");
+    assert!(run(&["export", "street", "-o", &whole]).status.success());
+    let bytes = std::fs::read(&whole).expect("the exported scene");
+    let broken = folder.file("broken.glb");
+    for length in [0, 3, 11, 12, 19, 20, 500, bytes.len() / 2, bytes.len() - 1] {
+        std::fs::write(&broken, &bytes[..length]).expect("a file");
+        let said = refused(&["render", &broken, "-o", &folder.file("image.png")]);
+        assert!(said.contains("broken.glb"), "{length} bytes: {said}");
+    }
+    // A scene without any light is a scene, but there is nothing to sample.
+    let dark = folder.file("dark.gltf");
+    let document = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+        "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+        "bufferViews":[{"buffer":0,"byteLength":36}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}]}"#;
+    std::fs::write(&dark, document).expect("a file");
+    let said = refused(&["render", &dark, "-o", &folder.file("image.png")]);
+    assert!(said.contains("emissive"), "{said}");
+}
