@@ -3,63 +3,24 @@
 use std::collections::HashMap;
 
 use lightbvh::{
-    BuildParams, CompactNode, EmissiveTriangle, Eq4, FullNode, Heuristic, INVALID, LightBvh, LightNode,
-    Lights, ShadingPoint,
+    BuildParams, CompactNode, Eq4, FullNode, Heuristic, INVALID, LightBvh, LightNode, Lights, ShadingPoint,
 };
 use lightbvh_tests::generate::{self, Random};
+use lightbvh_tests::oracle::{all_pmfs, can_contribute, sum_tolerance};
 use lightbvh_tests::statistics::{chi_squared, chi_squared_quantile};
 use proptest::prelude::*;
 
-/// Probability of every light at `point`.
-fn all_pmfs<N: LightNode<W>, const W: usize>(
-    bvh: &LightBvh<N, W>,
-    lights: &Lights,
-    point: &ShadingPoint,
-) -> Vec<f32> {
-    (0..lights.triangles().len() as u32)
-        .map(|i| bvh.pmf::<Eq4>(lights, point, i))
-        .collect()
-}
-
-/// Whether light can arrive, in f64 and by geometry alone: some of the triangle is above the point's horizon, and the
-/// point is on an emitting side. A relative margin leaves out what rounding of the input decides.
-fn can_contribute(triangle: &EmissiveTriangle, point: &ShadingPoint) -> bool {
-    let v = |k: usize| triangle.p[k].map(f64::from);
-    let sub = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let cross = |a: [f64; 3], b: [f64; 3]| {
-        [
-            a[1] * b[2] - a[2] * b[1],
-            a[2] * b[0] - a[0] * b[2],
-            a[0] * b[1] - a[1] * b[0],
-        ]
-    };
-    let (p, n) = (point.p.map(f64::from), point.n.map(f64::from));
-    let normal = cross(sub(v(1), v(0)), sub(v(2), v(0)));
-    let area = dot(normal, normal).sqrt();
-    if area == 0.0 || triangle.luminance() == 0.0 {
-        return false;
-    }
-    let distance = |k: usize| dot(sub(v(k), p), sub(v(k), p)).sqrt();
-    let height = dot(normal, sub(p, v(0))) / area;
-    let in_front = if triangle.is_two_sided() {
-        height.abs()
-    } else {
-        height
-    } > 1e-6 * distance(0);
-    let volume = n == [0.0; 3];
-    in_front && (volume || (0..3).any(|k| dot(n, sub(v(k), p)) > 1e-6 * distance(k)))
-}
+/// What rounding of the input may decide, as a part of the distance.
+const MARGIN: f64 = 1e-6;
 
 fn check<N: LightNode<W>, const W: usize>(bvh: &LightBvh<N, W>, lights: &Lights, random: &mut Random) {
     for _ in 0..8 {
         let point = generate::point(random, 10.0);
-        let pmfs = all_pmfs(bvh, lights, &point);
+        let pmfs = all_pmfs::<Eq4, N, W>(bvh, lights, &point);
         let sum: f64 = pmfs.iter().map(|&p| f64::from(p)).sum();
         let reachable = pmfs.iter().any(|&p| p > 0.0);
         assert!(pmfs.iter().all(|p| p.is_finite() && *p >= 0.0));
-        // Every factor of every pmf is rounded by at most 2^-24, and adopted masses add as many roundings again.
-        let tolerance = f64::from(bvh.depth() * 4 + 8) * 2f64.powi(-24);
+        let tolerance = sum_tolerance(bvh.depth());
         if reachable {
             assert!(
                 (sum - 1.0).abs() <= tolerance,
@@ -69,7 +30,7 @@ fn check<N: LightNode<W>, const W: usize>(bvh: &LightBvh<N, W>, lights: &Lights,
         }
         for (triangle, &pmf) in lights.triangles().iter().zip(&pmfs) {
             assert!(
-                pmf > 0.0 || !can_contribute(triangle, &point),
+                pmf > 0.0 || !can_contribute(triangle, &point, MARGIN),
                 "no probability for {triangle:?} at {point:?}"
             );
         }
@@ -148,7 +109,10 @@ fn frequencies_match_at<N: LightNode<W>, const W: usize>(
     samples: u32,
     random: &mut Random,
 ) {
-    let expected: Vec<f64> = all_pmfs(bvh, lights, point).into_iter().map(f64::from).collect();
+    let expected: Vec<f64> = all_pmfs::<Eq4, N, W>(bvh, lights, point)
+        .into_iter()
+        .map(f64::from)
+        .collect();
     if expected.iter().all(|&p| p == 0.0) {
         return;
     }

@@ -1,0 +1,4 @@
+//! See [`lightbvh_fuzz::build_validate`].
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| lightbvh_fuzz::build_validate(data));

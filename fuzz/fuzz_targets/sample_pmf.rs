@@ -1,0 +1,4 @@
+//! See [`lightbvh_fuzz::sample_pmf`].
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| lightbvh_fuzz::sample_pmf(data));

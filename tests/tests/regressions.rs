@@ -1,0 +1,30 @@
+//! Inputs that once broke a fuzz target, and one that goes deep for each: replayed without a fuzzer.
+
+use std::path::Path;
+
+#[test]
+fn fuzz_inputs() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/regressions");
+    for (name, target) in lightbvh_fuzz::TARGETS {
+        let mut count = 0;
+        for entry in std::fs::read_dir(folder.join(name)).expect("a folder for each target") {
+            let path = entry.expect("a readable folder").path();
+            println!("{}", path.display());
+            target(&std::fs::read(&path).expect("a readable file"));
+            count += 1;
+        }
+        assert!(count > 0, "no input for {name}");
+    }
+}
+
+/// What the fuzzer would begin with: random bytes of every length, whatever they make.
+#[test]
+fn random_inputs() {
+    let mut random = lightbvh_tests::generate::Random::new(1);
+    for i in 0..400 {
+        let bytes: Vec<u8> = (0..4 * i).flat_map(|_| random.bits().to_le_bytes()).collect();
+        for (_, target) in lightbvh_fuzz::TARGETS {
+            target(&bytes);
+        }
+    }
+}
