@@ -6,6 +6,7 @@
 //!
 //! Nothing here asks a device for a feature: no execution mode and no capability is added.
 
+use crate::branches::drop_empty_arms;
 use crate::{Unreadable, load};
 use rspirv::binary::Assemble;
 use rspirv::dr::{Instruction, Module, Operand};
@@ -13,7 +14,8 @@ use rspirv::spirv::{Capability, Decoration, ExecutionMode, Op};
 use std::collections::HashSet;
 
 /// Returns the module with `NoContraction` on the result of every float operation, without debug information (it
-/// holds absolute paths and whole source files), and without the capability that braked `spirv-opt`.
+/// holds absolute paths and whole source files), without the capability that braked `spirv-opt`, and without empty arms
+/// of branches.
 ///
 /// # Errors
 /// When the words are not a SPIR-V module.
@@ -21,6 +23,7 @@ pub fn decorate(words: &[u32]) -> Result<Vec<u32>, Unreadable> {
     let mut module = load(words)?;
     strip_debug(&mut module);
     strip_brake(&mut module);
+    drop_empty_arms(&mut module);
     forbid_contraction(&mut module);
     Ok(module.assemble())
 }

@@ -1,7 +1,8 @@
 //! From rust-gpu's output to the modules that lightbvh ships.
 //!
 //! The program `build-kernels` compiles every entry point of `lightbvh-kernels`, then for each module
-//! 1. [`decorate`] forbids contraction and re-association of every float operation and strips what is not needed,
+//! 1. [`decorate`] forbids contraction and re-association of every float operation, strips what is not needed, and
+//!    takes empty arms out of branches,
 //! 2. [`verify`] refuses whatever Vulkan does not define to the bit on every device,
 //! 3. [`reflect`] reads the interface that the host must offer,
 //! 4. [`manifest`] records sources, compiler and hashes beside the committed modules.
@@ -10,6 +11,7 @@
 //! it. The compiler itself is behind the features `prebuilt-backend` and `upstream` (`kernels/README.md`).
 #![forbid(unsafe_code)]
 
+mod branches;
 pub mod decorate;
 pub mod files;
 pub mod manifest;

@@ -6,6 +6,7 @@
 //! products are correctly rounded, comparisons and moves are exact, division has 2.5 ULP, and so on.
 
 mod permitted;
+mod search;
 
 use crate::decorate::{float_operations, float_types, uncontracted};
 use crate::{Unreadable, load};
@@ -224,6 +225,10 @@ fn bodies(module: &Module, findings: &mut Findings) {
         .filter(|inst| inst.class.opcode == Op::Undef)
         .filter_map(|inst| inst.result_id)
         .collect();
+    let holders = holders_of_pointers(module);
+    for function in &module.functions {
+        search::searches(function, findings);
+    }
     for inst in module
         .functions
         .iter()
@@ -237,11 +242,36 @@ fn bodies(module: &Module, findings: &mut Findings) {
         if let Err(refusal) = verdict {
             findings.refuse(inst, refusal.rule, refusal.remedy);
         }
+        if inst.result_type.is_some_and(|ty| holders.contains(&ty)) {
+            let remedy =
+                "pass slices and references to a function; a closure that captures them is such a structure";
+            findings.refuse(
+                inst,
+                "with logical addressing, a pointer is no part of a structure (SPIR-V 2.16.1); SwiftShader crashes",
+                remedy,
+            );
+        }
         if !carries_undefined(op) && uses_any(inst, &undefined) {
             let remedy = "give the variable a value on every path (rust-gpu loses values in complex loops)";
             findings.refuse(inst, "computes with an undefined value", remedy);
         }
     }
+}
+
+/// The structures and arrays with pointers in them. rust-gpu declares some; only values of them are wrong.
+fn holders_of_pointers(module: &Module) -> HashSet<u32> {
+    let mut pointers = HashSet::new();
+    let mut holders = HashSet::new();
+    for inst in &module.types_global_values {
+        match inst.class.opcode {
+            Op::TypePointer => pointers.extend(inst.result_id),
+            Op::TypeStruct | Op::TypeArray if uses_any(inst, &pointers) || uses_any(inst, &holders) => {
+                holders.extend(inst.result_id);
+            }
+            _ => {}
+        }
+    }
+    holders
 }
 
 /// Operations that may hand an undefined value on without looking at it, as the unused half of an `Option` is.

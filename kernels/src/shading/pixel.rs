@@ -156,12 +156,21 @@ fn load_material(materials: &[Material], index: u32) -> Material {
     }
 }
 
+/// A function, not a closure: one that captures `lights` becomes a structure of pointers, which SPIR-V forbids.
+#[inline]
+fn light_vertex(lights: &[EmissiveTriangle], i: usize, k: usize) -> [f32; 3] {
+    [lights[i].p[k][0], lights[i].p[k][1], lights[i].p[k][2]]
+}
+
 #[inline]
 fn load_light(lights: &[EmissiveTriangle], index: u32) -> EmissiveTriangle {
     let i = index as usize;
-    let vertex = |k: usize| [lights[i].p[k][0], lights[i].p[k][1], lights[i].p[k][2]];
     EmissiveTriangle {
-        p: [vertex(0), vertex(1), vertex(2)],
+        p: [
+            light_vertex(lights, i, 0),
+            light_vertex(lights, i, 1),
+            light_vertex(lights, i, 2),
+        ],
         radiance: [
             lights[i].radiance[0],
             lights[i].radiance[1],
