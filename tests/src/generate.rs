@@ -1,6 +1,7 @@
 //! Lights and points to test with: seeded, and with the degenerate cases in.
 
-use lightbvh::{EmissiveTriangle, Lights, ShadingPoint, exact};
+use lightbvh::cone::{Cone, normalized};
+use lightbvh::{EmissiveTriangle, LightBounds, Lights, ShadingPoint, exact};
 use proptest::prelude::*;
 
 /// A small stream of random numbers on the crate's own hash.
@@ -152,6 +153,42 @@ pub fn extreme_triangle(random: &mut Random) -> EmissiveTriangle {
         flags: u32::from(random.below(4) == 0),
     };
     triangle.checked().expect("within the domain")
+}
+
+/// Bounds of any kind: of triangles, or with any cone.
+pub fn any_bounds(random: &mut Random) -> LightBounds {
+    let mut bounds = LightBounds::of_triangle(&extreme_triangle(random));
+    if random.below(4) > 0 {
+        let cone = any_cone(random);
+        (bounds.axis, bounds.cos_theta_o) = (cone.axis, cone.cos_theta_o);
+    }
+    if random.below(4) > 0 {
+        bounds.phi = log_uniform(random, -100, 99);
+    }
+    bounds
+}
+
+/// A cone about any axis, along the coordinate axes too, with half-angles near 0 and π.
+pub fn any_cone(random: &mut Random) -> Cone {
+    let axis = match random.below(3) {
+        0 => {
+            let mut axis = [0.0; 3];
+            axis[random.below(3) as usize] = if random.below(2) == 0 { 1.0 } else { -1.0 };
+            axis
+        }
+        _ => random.direction(),
+    };
+    let cos_theta_o = match random.below(6) {
+        0 => 1.0,
+        1 => -1.0,
+        2 => 1.0 - log_uniform(random, -24, -8),
+        3 => log_uniform(random, -23, -8) - 1.0,
+        _ => (f64::from(random.unit()) * std::f64::consts::PI).cos() as f32,
+    };
+    Cone {
+        axis: normalized(glam::Vec3::from(axis)),
+        cos_theta_o,
+    }
 }
 
 /// How a generated set of triangles is degenerate.

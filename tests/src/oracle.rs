@@ -1,7 +1,8 @@
 //! Oracles in f64, independent of the arithmetic under test: angles, cones, and which light can arrive where.
 
 use glam::DVec3;
-use lightbvh::{EmissiveTriangle, ImportanceModel, LightBvh, LightNode, Lights, ShadingPoint};
+use lightbvh::cone::Cone;
+use lightbvh::{EmissiveTriangle, ImportanceModel, LightBounds, LightBvh, LightNode, Lights, ShadingPoint};
 
 /// A vector of the crate in f64.
 #[must_use]
@@ -99,4 +100,26 @@ pub fn all_pmfs<I: ImportanceModel, N: LightNode<W>, const W: usize>(
 #[must_use]
 pub fn sum_tolerance(depth: u32) -> f64 {
     f64::from(depth * 4 + 8) * 2f64.powi(-24)
+}
+
+/// What f64 itself may be off in an angle, rad: acos and atan2 of numbers that are exact.
+const ANGLE_ERROR: f64 = 1e-12;
+
+/// Asserts that a cone lies within another.
+///
+/// # Panics
+/// If it does not.
+pub fn assert_cone_contains(outer: Cone, inner: Cone, what: &str) {
+    let pair = |cone: Cone| (cone.axis.as_dvec3(), cone.cos_theta_o);
+    let excess = cone_excess(pair(outer), pair(inner));
+    assert!(
+        excess <= ANGLE_ERROR,
+        "{what}: {inner:?} reaches {excess:e} rad out of {outer:?}"
+    );
+}
+
+/// Whether a box lies within another.
+#[must_use]
+pub fn box_contains(outer: &LightBounds, inner: &LightBounds) -> bool {
+    outer.min.cmple(inner.min).all() && inner.max.cmple(outer.max).all()
 }

@@ -154,7 +154,7 @@ proptest! {
 
     #[test]
     fn random_words_in_wide_nodes(seed: u32) {
-        if seed % 8 == 0 {
+        if seed.is_multiple_of(8) {
             check::<CompactNode<16>, 16>(seed ^ 3);
         }
         check::<FullNode<8>, 8>(seed ^ 4);

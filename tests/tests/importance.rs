@@ -24,14 +24,20 @@ fn adversarial_point(random: &mut Random, light: &EmissiveTriangle) -> ShadingPo
     let inside = p0 + (p1 - p0) * (0.5 * random.unit()) + (p2 - p0) * (0.5 * random.unit());
     let sign = if random.below(2) == 0 { 1.0 } else { -1.0 };
     let away = Vec3::from(random.direction());
-    let p = match random.below(7) {
+    let p = match random.below(9) {
         0 => in_plane,
         1 => in_plane + normal * (sign * size * log_uniform(random, -24, 0)),
         2 => inside,
         3 => inside + normal * (sign * size * log_uniform(random, -24, 0)),
         4 => inside + away * (size * log_uniform(random, -4, 10)),
         5 => away * log_uniform(random, 0, 38),
-        _ => Vec3::from(light.p[random.below(3) as usize]),
+        6 => Vec3::from(light.p[random.below(3) as usize]),
+        // From far off at a grazing angle: no box is large there, so that only the cone counts.
+        _ => {
+            let distance = size * log_uniform(random, 3, 24);
+            let along = normal.cross(away).normalize_or_zero();
+            inside + along * distance + normal * (sign * distance * log_uniform(random, -19, -3))
+        }
     };
     let p = p.clamp(Vec3::splat(-exact::pow2(40)), Vec3::splat(exact::pow2(40)));
     // A normal by which the nearest vertex is a little above or below the horizon, or any.

@@ -245,6 +245,22 @@ fn every_bit_counts() {
     }
 }
 
+/// In the lists of levels nodes may change places within a level, which changes nothing, but not between levels.
+#[test]
+fn levels_are_lists_without_order() {
+    let lights = Lights::new(generate::small_triangles(60, 30, 10.0, 1.0, true, 8)).expect("lights");
+    let bvh = LightBvh::<CompactNode<2>, 2>::two_level(&lights, &BuildParams::default());
+    let ranges: Vec<_> = bvh.bottom_levels().ranges().collect();
+    assert!(ranges.len() > 3);
+    for (a, first) in ranges.iter().enumerate() {
+        for (b, second) in ranges.iter().enumerate() {
+            let mut wrong = bvh.clone();
+            wrong.parts_mut().bottom.swap(first.start, second.end - 1);
+            assert_eq!(wrong.validate(&lights).is_ok(), a == b, "{a} {b}");
+        }
+    }
+}
+
 /// Words at random, and nodes swapped and copied: a violation, never a panic.
 #[test]
 fn hostile_arrays_are_refused() {
@@ -305,6 +321,11 @@ fn violations_say_where_and_what() {
             bvh.nodes().len()
         )
     );
+
+    let mut wrong = bvh.clone();
+    wrong.nodes_mut()[root as usize].set_child(0, kind::INNER, root);
+    let v = wrong.validate(&lights).expect_err("a cycle");
+    assert_eq!((v.node, v.what, v.expected, v.found), (root, What::Reached, 1, 2));
 
     let mut wrong = bvh.clone();
     let bounds = wrong.nodes()[0].bounds(0);

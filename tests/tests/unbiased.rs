@@ -36,7 +36,7 @@ fn lights(random: &mut Random) -> Lights {
             random.between(4.0, 8.0),
             random.between(0.0, 10.0),
         ];
-        let size = if i % 5 == 0 { 2.0 } else { 0.3 };
+        let size = if i.is_multiple_of(5) { 2.0 } else { 0.3 };
         let mut vertex = || corner.map(|c| c + random.between(-size, size));
         let p = [vertex(), vertex(), vertex()];
         let radiance = exact::pow2(random.below(17) as i32 - 8);
@@ -44,7 +44,7 @@ fn lights(random: &mut Random) -> Lights {
             p,
             radiance: [radiance; 3],
             mesh: i / 4,
-            flags: u32::from(i % 3 == 0),
+            flags: u32::from(i.is_multiple_of(3)),
         }
     };
     Lights::new((0..40).map(light).collect()).expect("within the domain")
@@ -59,7 +59,7 @@ fn point(random: &mut Random, i: u32) -> ShadingPoint {
     };
     ShadingPoint {
         p: [random.between(0.0, 10.0), height, random.between(0.0, 10.0)],
-        n: if i % 2 == 0 {
+        n: if i.is_multiple_of(2) {
             [0.0, 1.0, 0.0]
         } else {
             random.direction()

@@ -1,0 +1,201 @@
+//! Node layouts against f64: what a slot decodes to contains what was put into it, and its neighbours stay as they are.
+
+use glam::Vec3;
+use lightbvh::bounds::{MAX_PHI, MIN_PHI};
+use lightbvh::cone::Cone;
+use lightbvh::node::kind;
+use lightbvh::{CompactNode, FullNode, LightBounds, LightNode, exact};
+use lightbvh_tests::generate::{Random, any_bounds};
+use lightbvh_tests::oracle::{assert_cone_contains, box_contains, half_angle};
+use proptest::prelude::*;
+
+const ULP: f64 = 1.0 / 16_777_216.0;
+
+/// Sets slot `slot` of an otherwise empty node and reads it again.
+fn encoded<N: LightNode<W>, const W: usize>(bounds: &LightBounds, slot: usize) -> (N, LightBounds) {
+    let mut node = N::EMPTY;
+    node.set_child(slot, kind::LIGHT, 7);
+    node.set_bounds(slot, bounds);
+    let decoded = node.bounds(slot);
+    (node, decoded)
+}
+
+fn encoding_is_outward<N: LightNode<W>, const W: usize>(bounds: &LightBounds, slot: usize) {
+    let (node, decoded) = encoded::<N, W>(bounds, slot);
+    assert!(
+        box_contains(&decoded, bounds),
+        "{}: {bounds:?} {decoded:?}",
+        N::NAME
+    );
+    assert_cone_contains(decoded.cone(), bounds.cone(), N::NAME);
+    assert!(decoded.cos_theta_e <= bounds.cos_theta_e && decoded.phi >= bounds.phi);
+
+    // And not far out: a fiftieth of the greatest extent, a fiftieth of a radian below π/2, 2^-15 of the flux.
+    let (size, decoded_size) = (bounds.max - bounds.min, decoded.max - decoded.min);
+    let coarse = size.max_element() / 50.0
+        + 2f32.powi(-98)
+        + bounds.max.abs().max(bounds.min.abs()).max_element() * 2f32.powi(-22);
+    assert!(
+        (decoded_size - size).max_element() <= coarse,
+        "{}: {bounds:?} {decoded:?}",
+        N::NAME
+    );
+    if bounds.cos_theta_o >= 0.0 {
+        assert!(half_angle(decoded.cos_theta_o) <= half_angle(bounds.cos_theta_o) + 0.02);
+    }
+    assert!(decoded.phi <= bounds.phi * (1.0 + 2f32.powi(-15)));
+
+    // What importance sees: a sphere around the box, a direction along the axis, the same cone.
+    let cluster = node.cluster(slot);
+    let center = cluster.center.as_dvec3();
+    let reach = (bounds.max.as_dvec3() - center)
+        .abs()
+        .max((bounds.min.as_dvec3() - center).abs());
+    assert!(
+        reach.length_squared() <= f64::from(cluster.radius_squared) * (1.0 + 4.0 * ULP),
+        "{}: {reach} {cluster:?} {bounds:?}",
+        N::NAME
+    );
+    assert_cone_contains(
+        Cone {
+            axis: cluster.axis,
+            cos_theta_o: cluster.cos_theta_o,
+        },
+        bounds.cone(),
+        N::NAME,
+    );
+    let sine = f64::from(cluster.cos_theta_o).acos().sin();
+    assert!(
+        (f64::from(cluster.sin_theta_o) - sine).abs() < 2e-3,
+        "{cluster:?}"
+    );
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn encodings(seed: u32) {
+        let random = &mut Random::new(seed);
+        for _ in 0..256 {
+            let bounds = any_bounds(random);
+            encoding_is_outward::<CompactNode<2>, 2>(&bounds, 1);
+            encoding_is_outward::<CompactNode<16>, 16>(&bounds, random.below(16) as usize);
+            encoding_is_outward::<FullNode<4>, 4>(&bounds, random.below(4) as usize);
+        }
+    }
+
+    /// Chains of merges and encodings, as refit makes them: the last still contains the first.
+    #[test]
+    fn chains(seed: u32) {
+        let random = &mut Random::new(seed);
+        let mut bounds = any_bounds(random);
+        for _ in 0..64 {
+            let merged = any_bounds(random).merge(&bounds);
+            let (_, decoded) = encoded::<CompactNode<2>, 2>(&merged, 0);
+            if bounds.phi > 0.0 {
+                assert!(box_contains(&decoded, &bounds));
+                assert_cone_contains(decoded.cone(), bounds.cone(), "chain");
+                assert!(decoded.phi >= bounds.phi);
+            }
+            bounds = decoded;
+        }
+    }
+}
+
+fn node_of_words<const W: usize>(words: &[u32]) -> CompactNode<W> {
+    bytemuck::pod_read_unaligned(bytemuck::cast_slice(words))
+}
+
+/// Codes of cones: in order, from the single direction to the sphere, each decoded to itself or one step further out.
+#[test]
+fn all_cone_codes() {
+    let mut last = 2.0;
+    for code in 0..=255_u32 {
+        let mut words = [0_u32; 14];
+        words[4 * 2] = 0x3ff << 22 | 511 << 12 | 511 << 2;
+        words[5 * 2] = 0x3f80_0000 << 1 | code;
+        let node: CompactNode<2> = node_of_words(&words);
+        let decoded = node.bounds(0);
+        assert_eq!(decoded.phi, 1.0);
+        assert!(decoded.cos_theta_o < last || code == 255, "code {code}");
+        last = decoded.cos_theta_o;
+        let (again, _) = encoded::<CompactNode<2>, 2>(&decoded, 0);
+        let code_again = bytemuck::cast_slice::<u8, u32>(bytemuck::bytes_of(&again))[5 * 2] & 255;
+        assert!(code_again >= code, "code {code} became {code_again}");
+        assert!(
+            code_again <= code + 2 || code_again == 255,
+            "code {code} became {code_again}"
+        );
+        assert!(code_again < 255 || code > 250, "code {code} became the sphere");
+    }
+    assert_eq!(last, -1.0);
+}
+
+fn children_keep_to_their_slots<N: LightNode<W> + PartialEq + std::fmt::Debug, const W: usize>() {
+    let mut random = Random::new(W as u32);
+    let mut node = N::EMPTY;
+    for round in 0..64 {
+        for slot in 0..W {
+            let before = node;
+            let to = [kind::EMPTY, kind::INNER, kind::LIGHT, kind::MESH][(round + slot) % 4];
+            let link = if round.is_multiple_of(3) {
+                u32::MAX
+            } else {
+                random.bits()
+            };
+            node.set_child(slot, to, link);
+            assert_eq!(
+                (node.kind(slot), node.link(slot), node.bounds(slot).phi),
+                (to, link, 0.0)
+            );
+            node.set_bounds(slot, &any_bounds(&mut random));
+            assert_eq!((node.kind(slot), node.link(slot)), (to, link));
+            for other in (0..W).filter(|&other| other != slot) {
+                assert_eq!(
+                    (node.kind(other), node.link(other)),
+                    (before.kind(other), before.link(other))
+                );
+                assert_eq!(node.bounds(other), before.bounds(other));
+            }
+        }
+    }
+}
+
+#[test]
+fn kinds_and_links() {
+    children_keep_to_their_slots::<CompactNode<2>, 2>();
+    children_keep_to_their_slots::<CompactNode<8>, 8>();
+    children_keep_to_their_slots::<FullNode<2>, 2>();
+    children_keep_to_their_slots::<FullNode<16>, 16>();
+}
+
+/// The least and greatest of everything at once.
+#[test]
+fn corners_of_the_domain() {
+    let far = exact::pow2(40);
+    let tiny = exact::pow2(-100);
+    for (min, max) in [
+        ([-far; 3], [far; 3]),
+        ([far; 3], [far; 3]),
+        ([0.0; 3], [tiny; 3]),
+        ([0.0, -far, tiny], [tiny, far, tiny]),
+        ([far, 0.0, -tiny], [far, tiny, tiny]),
+        ([0.0; 3], [0.0; 3]),
+    ] {
+        for phi in [MIN_PHI, MAX_PHI, exact::pow2(126), 0.0] {
+            for cos_theta_o in [1.0, 1.0 - f32::EPSILON, 0.0, f32::EPSILON - 1.0, -1.0] {
+                let bounds = LightBounds {
+                    min: Vec3::from(min),
+                    max: Vec3::from(max),
+                    axis: Vec3::NEG_Y,
+                    cos_theta_o,
+                    cos_theta_e: 0.0,
+                    phi,
+                };
+                encoding_is_outward::<CompactNode<2>, 2>(&bounds, 0);
+                encoding_is_outward::<FullNode<2>, 2>(&bounds, 0);
+            }
+        }
+    }
+}
