@@ -1,107 +1,120 @@
-//! The shape of branches: an `if` without `else` has one arm.
+//! The shape of branches: every `if` with two arms becomes one or two `if`s with one arm.
 //!
-//! rust-gpu writes every selection as two blocks that meet in a third, though most have nothing to do in one of the two.
-//! Where both ways to a meeting point are equally long, `SwiftShader` does not finish: to tell a loop's back edge from its
-//! entry it searches the loop's body breadth first, and marks a block when it is taken from the queue, not when it is put
-//! there (`Spirv::Function::ExistsPath` of its `SpirvShaderControlFlow.cpp`). Each such meeting point is queued
-//! twice for every time that its selection is, so a body with thirty of them in a row is searched along 2^30 ways, in as
-//! much memory. With a direct edge the meeting point is marked before the longer way arrives.
+//! rust-gpu writes each selection as a diamond, two arms that meet, though most have one empty arm. `SwiftShader` walks
+//! every path through a loop's body when it looks for the loop's back edge: its search marks a block as seen when it is
+//! taken from the queue, not when it is put there (`Function::ExistsPath` in its `SpirvShaderControlFlow.cpp`), so a block
+//! that two arms of equal length lead to is queued twice, and so is all that follows. Thirty diamonds in a row are 2^30
+//! visits: pipeline creation never ends, and takes all memory. Where one of the two ways to the meeting point is
+//! a direct edge, the block is seen before the other way arrives, and the search is short.
 //!
-//! Nothing that is computed changes, and other drivers drop empty blocks themselves.
+//! An empty arm goes away. An `if` that has two arms with instructions becomes an `if` with the one and another with the
+//! other, on the same condition; values that meet travel through the block between. Nothing that is computed changes.
 
 use rspirv::dr::{Block, Function, Instruction, Module, Operand};
-use rspirv::spirv::Op;
+use rspirv::spirv::{Op, SelectionControl};
 use std::collections::{HashMap, HashSet};
 
-/// Takes empty arms out of all selections of `module`: the branch goes to where the arms meet. Of two empty arms one
-/// stays.
-pub(crate) fn drop_empty_arms(module: &mut Module) {
+/// Gives every selection in `module` one arm, as far as both of its arms end where they meet.
+pub(crate) fn one_armed(module: &mut Module) {
+    let mut next = Ids {
+        next: module.header.as_ref().map_or(1, |header| header.bound),
+        undefined: HashMap::new(),
+    };
     for function in &mut module.functions {
-        drop_in(function);
+        drop_empty_arms(function);
+        split_arms(function, &mut next);
+    }
+    if let Some(header) = &mut module.header {
+        header.bound = next.next;
+    }
+    let mut undefined: Vec<(u32, u32)> = next.undefined.into_iter().collect();
+    undefined.sort_unstable_by_key(|&(_, id)| id);
+    let made = |(ty, id)| Instruction::new(Op::Undef, Some(ty), Some(id), Vec::new());
+    module.types_global_values.extend(undefined.into_iter().map(made));
+}
+
+/// Fresh ids, and an undefined value per type.
+struct Ids {
+    next: u32,
+    undefined: HashMap<u32, u32>,
+}
+
+impl Ids {
+    fn fresh(&mut self) -> u32 {
+        let id = self.next;
+        self.next += 1;
+        id
+    }
+
+    fn undefined(&mut self, ty: u32) -> u32 {
+        if let Some(&id) = self.undefined.get(&ty) {
+            return id;
+        }
+        let id = self.fresh();
+        self.undefined.insert(ty, id);
+        id
     }
 }
 
-fn drop_in(function: &mut Function) {
-    let empty = empty_blocks(function);
-    let mut gone = HashSet::new();
-    // Arm to be dropped and the header that now leads to where it led, by that block.
-    let mut moved: HashMap<u32, Vec<(u32, u32)>> = HashMap::new();
-    for block in &mut function.blocks {
-        let header = label(block);
-        let [.., merge, branch] = block.instructions.as_mut_slice() else {
-            continue;
+/// A two-way branch at the end of a block, with the block where its arms meet.
+#[derive(Clone, Copy)]
+struct Selection {
+    condition: u32,
+    yes: u32,
+    no: u32,
+    merge: u32,
+}
+
+impl Selection {
+    fn of(block: &Block) -> Option<Self> {
+        let [.., merge, branch] = block.instructions.as_slice() else {
+            return None;
         };
         if merge.class.opcode != Op::SelectionMerge || branch.class.opcode != Op::BranchConditional {
-            continue;
+            return None;
         }
-        let (Some(meeting), Some(yes), Some(no)) = (id_at(merge, 0), id_at(branch, 1), id_at(branch, 2))
+        let [
+            Operand::IdRef(condition),
+            Operand::IdRef(yes),
+            Operand::IdRef(no),
+            ..,
+        ] = branch.operands.as_slice()
         else {
-            continue;
+            return None;
         };
-        if yes == no || yes == meeting || no == meeting {
-            continue;
-        }
-        for (at, arm) in [(2, no), (1, yes)] {
-            if empty.get(&arm) == Some(&meeting) {
-                branch.operands[at] = Operand::IdRef(meeting);
-                gone.insert(arm);
-                moved.entry(meeting).or_default().push((arm, header));
-                break;
-            }
-        }
-    }
-    function.blocks.retain(|block| !gone.contains(&label(block)));
-    for block in &mut function.blocks {
-        for (arm, header) in moved.remove(&label(block)).unwrap_or_default() {
-            come_from(block, arm, header);
-        }
-    }
-}
-
-/// The blocks that only branch on, are branched to from one place and are no block that a merge instruction names; with
-/// the block they branch to.
-fn empty_blocks(function: &Function) -> HashMap<u32, u32> {
-    let mut entries: HashMap<u32, usize> = HashMap::new();
-    let mut named = HashSet::new();
-    for inst in function.blocks.iter().flat_map(|block| &block.instructions) {
-        let merges = matches!(inst.class.opcode, Op::SelectionMerge | Op::LoopMerge);
-        let branches = matches!(inst.class.opcode, Op::Branch | Op::BranchConditional | Op::Switch);
-        for operand in &inst.operands {
-            match operand {
-                Operand::IdRef(id) if merges => {
-                    named.insert(*id);
-                }
-                Operand::IdRef(id) if branches => *entries.entry(*id).or_default() += 1,
-                _ => {}
-            }
-        }
-    }
-    function
-        .blocks
-        .iter()
-        .filter_map(|block| match block.instructions.as_slice() {
-            [only] if only.class.opcode == Op::Branch => Some((label(block), id_at(only, 0)?)),
-            _ => None,
+        Some(Self {
+            condition: *condition,
+            yes: *yes,
+            no: *no,
+            merge: id_at(merge, 0)?,
         })
-        .filter(|(block, _)| entries.get(block) == Some(&1) && !named.contains(block))
-        .collect()
-}
+    }
 
-/// Values that come to `block` from the block `old` come from `new`.
-fn come_from(block: &mut Block, old: u32, new: u32) {
-    let phis = block
-        .instructions
-        .iter_mut()
-        .take_while(|inst| inst.class.opcode == Op::Phi);
-    // Operands are pairs of a value and the block it comes from.
-    for from in phis.flat_map(|phi| phi.operands.iter_mut().skip(1).step_by(2)) {
-        if *from == Operand::IdRef(old) {
-            *from = Operand::IdRef(new);
-        }
+    /// The two instructions.
+    fn instructions(self) -> [Instruction; 2] {
+        let control = Operand::SelectionControl(SelectionControl::NONE);
+        let merge = vec![Operand::IdRef(self.merge), control];
+        let branch = [self.condition, self.yes, self.no].map(Operand::IdRef);
+        [
+            Instruction::new(Op::SelectionMerge, None, None, merge),
+            Instruction::new(Op::BranchConditional, None, None, branch.to_vec()),
+        ]
+    }
+
+    /// Puts the two instructions at the end of a block that has such.
+    fn replace(self, block: &mut Block) {
+        block.instructions.truncate(block.instructions.len() - 2);
+        block.instructions.extend(self.instructions());
     }
 }
 
-/// The block's id; 0, which is no id, where it has none.
+pub(crate) fn id_at(inst: &Instruction, at: usize) -> Option<u32> {
+    match inst.operands.get(at) {
+        Some(Operand::IdRef(id)) => Some(*id),
+        _ => None,
+    }
+}
+
 pub(crate) fn label(block: &Block) -> u32 {
     block
         .label
@@ -110,9 +123,233 @@ pub(crate) fn label(block: &Block) -> u32 {
         .unwrap_or(0)
 }
 
-pub(crate) fn id_at(inst: &Instruction, at: usize) -> Option<u32> {
-    match inst.operands.get(at) {
-        Some(Operand::IdRef(id)) => Some(*id),
-        _ => None,
+fn index(function: &Function) -> HashMap<u32, usize> {
+    function
+        .blocks
+        .iter()
+        .enumerate()
+        .map(|(at, block)| (label(block), at))
+        .collect()
+}
+
+/// The labels that the last instruction may go to. A label may occur twice.
+fn targets(block: &Block) -> impl Iterator<Item = u32> {
+    let last = block.instructions.last();
+    let skip = match last.map(|last| last.class.opcode) {
+        Some(Op::Branch) => 0,
+        Some(Op::BranchConditional | Op::Switch) => 1,
+        _ => usize::MAX,
+    };
+    last.into_iter()
+        .flat_map(|last| &last.operands)
+        .filter_map(|operand| match operand {
+            Operand::IdRef(id) => Some(*id),
+            _ => None,
+        })
+        .skip(skip)
+}
+
+/// The blocks that lead to each block.
+fn predecessors(function: &Function) -> HashMap<u32, HashSet<u32>> {
+    let mut found: HashMap<u32, HashSet<u32>> = HashMap::new();
+    for block in &function.blocks {
+        for target in targets(block) {
+            found.entry(target).or_default().insert(label(block));
+        }
     }
+    found
+}
+
+/// Replaces the label `from` by `to` among the operands of `insts`.
+fn rename<'a>(insts: impl Iterator<Item = &'a mut Instruction>, from: u32, to: u32) {
+    for operand in insts.flat_map(|inst| &mut inst.operands) {
+        if *operand == Operand::IdRef(from) {
+            *operand = Operand::IdRef(to);
+        }
+    }
+}
+
+fn phis(block: &mut Block) -> impl Iterator<Item = &mut Instruction> {
+    let is_phi = |inst: &&mut Instruction| inst.class.opcode == Op::Phi;
+    block.instructions.iter_mut().take_while(is_phi)
+}
+
+/// A branch to an arm without instructions goes to where the arms meet.
+fn drop_empty_arms(function: &mut Function) {
+    let at = index(function);
+    let before = predecessors(function);
+    // A block that a merge instruction names must stay.
+    let named: HashSet<u32> = function
+        .blocks
+        .iter()
+        .flat_map(|block| &block.instructions)
+        .filter(|inst| matches!(inst.class.opcode, Op::SelectionMerge | Op::LoopMerge))
+        .flat_map(|inst| &inst.operands)
+        .filter_map(|operand| match operand {
+            Operand::IdRef(id) => Some(*id),
+            _ => None,
+        })
+        .collect();
+    let mut gone = HashSet::new();
+    for head in 0..function.blocks.len() {
+        let Some(mut selection) = Selection::of(&function.blocks[head]) else {
+            continue;
+        };
+        let merge = selection.merge;
+        if selection.yes == selection.no || selection.yes == merge || selection.no == merge {
+            continue;
+        }
+        let empty = |arm: u32| {
+            let block = &function.blocks[at[&arm]];
+            let [only] = block.instructions.as_slice() else {
+                return false;
+            };
+            only.class.opcode == Op::Branch
+                && id_at(only, 0) == Some(merge)
+                && before.get(&arm).is_some_and(|from| from.len() == 1)
+                && !named.contains(&arm)
+        };
+        let arm = if empty(selection.no) {
+            std::mem::replace(&mut selection.no, merge)
+        } else if empty(selection.yes) {
+            std::mem::replace(&mut selection.yes, merge)
+        } else {
+            continue;
+        };
+        gone.insert(arm);
+        let header = label(&function.blocks[head]);
+        selection.replace(&mut function.blocks[head]);
+        rename(phis(&mut function.blocks[at[&merge]]), arm, header);
+    }
+    function.blocks.retain(|block| !gone.contains(&label(block)));
+}
+
+/// `if c { A } else { B }` becomes `if c { A }` and `if c {} else { B }`.
+fn split_arms(function: &mut Function, ids: &mut Ids) {
+    let mut at = index(function);
+    let mut before = predecessors(function);
+    let headers: Vec<u32> = function.blocks.iter().map(label).collect();
+    let mut between: HashMap<u32, Block> = HashMap::new();
+    for header in headers {
+        let Some(selection) = Selection::of(&function.blocks[at[&header]]) else {
+            continue;
+        };
+        let Selection { yes, no, merge, .. } = selection;
+        let alone = |arm: u32| before[&arm].len() == 1 && arm != merge;
+        if yes == no || !alone(yes) || !alone(no) {
+            continue;
+        }
+        let (mut from_yes, mut from_no) = (HashSet::new(), HashSet::new());
+        let mut regular = true;
+        for &from in &before[&merge] {
+            match arm_of(from, header, selection, &before) {
+                Some(arms) if arms == [yes] => regular &= from_yes.insert(from),
+                Some(arms) if arms == [no] => regular &= from_no.insert(from),
+                Some(arms) => regular &= arms.is_empty(),
+                None => regular = false,
+            }
+        }
+        if !regular || from_yes.is_empty() || from_no.is_empty() {
+            continue;
+        }
+
+        let middle = ids.fresh();
+        let mut block = Block::new();
+        block.label = Some(Instruction::new(Op::Label, None, Some(middle), Vec::new()));
+        for phi in phis(&mut function.blocks[at[&merge]]) {
+            block
+                .instructions
+                .push(first_half(phi, &from_yes, header, middle, ids));
+        }
+        let second = Selection {
+            yes: merge,
+            ..selection
+        };
+        block.instructions.extend(second.instructions());
+        between.insert(header, block);
+
+        let first = Selection {
+            no: middle,
+            merge: middle,
+            ..selection
+        };
+        first.replace(&mut function.blocks[at[&header]]);
+        for from in &from_yes {
+            rename(
+                function.blocks[at[from]].instructions.last_mut().into_iter(),
+                merge,
+                middle,
+            );
+        }
+        rename(phis(&mut function.blocks[at[&no]]), header, middle);
+
+        let into_merge = before.entry(merge).or_default();
+        into_merge.retain(|from| !from_yes.contains(from));
+        into_merge.insert(middle);
+        before.insert(no, HashSet::from([middle]));
+        from_yes.insert(header);
+        before.insert(middle, from_yes);
+    }
+    // The block between stands before all that it dominates.
+    let blocks = std::mem::take(&mut function.blocks);
+    for block in blocks {
+        let middle = between.remove(&label(&block));
+        function.blocks.push(block);
+        function.blocks.extend(middle);
+    }
+    at.clear();
+}
+
+/// The arms that `from`, which leads to the merge block, lies in; none when only the merge block itself leads there, and
+/// `None` when the header does.
+fn arm_of(
+    from: u32,
+    header: u32,
+    selection: Selection,
+    before: &HashMap<u32, HashSet<u32>>,
+) -> Option<Vec<u32>> {
+    let mut seen = HashSet::from([from]);
+    let mut pending = vec![from];
+    let mut arms = Vec::new();
+    while let Some(id) = pending.pop() {
+        if id == header {
+            return None;
+        } else if id == selection.yes || id == selection.no {
+            arms.push(id);
+        } else if id != selection.merge {
+            pending.extend(
+                before
+                    .get(&id)
+                    .into_iter()
+                    .flatten()
+                    .filter(|&&id| seen.insert(id)),
+            );
+        }
+    }
+    Some(arms)
+}
+
+/// Takes what comes from the blocks `from` out of `phi` and returns a phi of its own for it; `phi` gets its result, from
+/// the block `middle`.
+fn first_half(
+    phi: &mut Instruction,
+    from: &HashSet<u32>,
+    header: u32,
+    middle: u32,
+    ids: &mut Ids,
+) -> Instruction {
+    let ty = phi.result_type.unwrap_or(0);
+    let (first, second): (Vec<_>, Vec<_>) = phi
+        .operands
+        .chunks_exact(2)
+        .map(<[Operand]>::to_vec)
+        .partition(|pair| matches!(pair.as_slice(), [_, Operand::IdRef(block)] if from.contains(block)));
+    // Never read: on the way from the header, the merge block is reached through the other arm.
+    let other = ids.undefined(ty);
+    let id = ids.fresh();
+    let mut operands = first.concat();
+    operands.extend([Operand::IdRef(other), Operand::IdRef(header)]);
+    phi.operands = second.concat();
+    phi.operands.extend([Operand::IdRef(id), Operand::IdRef(middle)]);
+    Instruction::new(Op::Phi, Some(ty), Some(id), operands)
 }

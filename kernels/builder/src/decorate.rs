@@ -6,7 +6,7 @@
 //!
 //! Nothing here asks a device for a feature: no execution mode and no capability is added.
 
-use crate::branches::drop_empty_arms;
+use crate::branches::one_armed;
 use crate::{Unreadable, load};
 use rspirv::binary::Assemble;
 use rspirv::dr::{Instruction, Module, Operand};
@@ -23,7 +23,7 @@ pub fn decorate(words: &[u32]) -> Result<Vec<u32>, Unreadable> {
     let mut module = load(words)?;
     strip_debug(&mut module);
     strip_brake(&mut module);
-    drop_empty_arms(&mut module);
+    one_armed(&mut module);
     forbid_contraction(&mut module);
     Ok(module.assemble())
 }
