@@ -374,13 +374,13 @@ fn an_arm_without_instructions_goes_away() {
 
 #[test]
 fn a_loop_with_too_many_ways_through_it_is_refused() {
-    let refused = |count| complaint(&decorate(&loop_of_selections(count, true)).unwrap());
-    assert_eq!(refused(8), "");
-    let text = refused(40);
-    assert!(
-        text.starts_with("kernel.spv: 1 violation(s)") && text.contains("OpLoopMerge"),
-        "{text}"
-    );
+    // As rust-gpu writes it; the post-pass makes such a loop acceptable.
+    let text = complaint(&loop_of_selections(40, true));
+    assert!(text.contains("OpLoopMerge"), "{text}");
+    assert!(!complaint(&loop_of_selections(8, true)).contains("OpLoopMerge"));
+    for arms in [false, true] {
+        assert_eq!(complaint(&decorate(&loop_of_selections(40, arms)).unwrap()), "");
+    }
 }
 
 #[test]
