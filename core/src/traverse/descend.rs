@@ -11,11 +11,9 @@ use crate::tree::{INVALID, LightTree};
 /// How a descent chooses.
 #[derive(Clone, Copy)]
 pub(super) struct Guide {
-    /// Follow `path` (else choose at random).
-    pub follow: bool,
-    /// The way to follow.
+    /// The way to follow, with `FOLLOW`.
     pub path: Path,
-    /// Random bits for choosing.
+    /// Random bits for choosing, without.
     pub random: u32,
 }
 
@@ -41,7 +39,7 @@ pub(super) struct Descent<const W: usize> {
 /// A pmf never falls below 2^-120: a light less probable than that is never drawn, and must not seem impossible.
 const MIN_PMF: f32 = exact::pow2(-120);
 
-pub(super) fn descend<N: LightNode<W>, I: ImportanceModel, const W: usize>(
+pub(super) fn descend<N: LightNode<W>, I: ImportanceModel, const FOLLOW: bool, const W: usize>(
     tree: &LightTree<'_, N>,
     point: &ShadingPoint,
     guide: &Guide,
@@ -69,7 +67,7 @@ pub(super) fn descend<N: LightNode<W>, I: ImportanceModel, const W: usize>(
         let node = &tree.nodes[if valid { index as usize } else { 0 }];
         let (weights, sum) = node.weights::<I>(point);
         let alive = valid & (sum > 0.0);
-        let wanted = if guide.follow {
+        let wanted = if FOLLOW {
             guide.path.slot::<W>(position)
         } else {
             choose(&weights, guide.random, position)

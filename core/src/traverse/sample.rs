@@ -36,26 +36,17 @@ pub fn sample<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     random: u32,
 ) -> SampledLight {
     let guide = Guide {
-        follow: false,
         path: Path::default(),
         random,
     };
-    let mut d = descend::<N, I, W>(tree, point, &guide);
+    let mut d = descend::<N, I, false, W>(tree, point, &guide);
     let mut dead = Dead::UNKNOWN;
     if d.light == INVALID {
         let (found, known) = heir::<N, I, W>(tree, point, &d);
         dead = known;
         if found.light != INVALID {
             let path = tree.path_of(found.light, found.mesh);
-            d = descend::<N, I, W>(
-                tree,
-                point,
-                &Guide {
-                    follow: true,
-                    path,
-                    random,
-                },
-            );
+            d = descend::<N, I, true, W>(tree, point, &Guide { path, random });
         }
     }
     if d.light == INVALID {
@@ -78,15 +69,7 @@ pub fn pmf<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     mesh: u32,
 ) -> f32 {
     let path = tree.path_of(light, mesh);
-    let d = descend::<N, I, W>(
-        tree,
-        point,
-        &Guide {
-            follow: true,
-            path,
-            random: 0,
-        },
-    );
+    let d = descend::<N, I, true, W>(tree, point, &Guide { path, random: 0 });
     if d.light == light && light != INVALID {
         d.pmf + adopted::<N, I, W>(tree, point, &d, &Dead::UNKNOWN)
     } else {
