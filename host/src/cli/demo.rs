@@ -21,8 +21,8 @@ use crate::workload::{Shot, arrays_at, build, lights_at, queries};
 const SCENE: &str = "street";
 /// Frames shown: those of the paper's Table 1.
 const FRAMES: [u32; 4] = [0, 50, 100, 150];
-const WIDTH: u32 = 480;
-const HEIGHT: u32 = 270;
+const WIDTH: u32 = 384;
+const HEIGHT: u32 = 216;
 /// Light samples per pixel of the frames, and of the reference that the last one is measured against.
 const SAMPLES: u32 = 4;
 const REFERENCE_SAMPLES: u32 = 64;
