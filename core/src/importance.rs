@@ -71,12 +71,12 @@ const TINY_LENGTH: f32 = pow2(-110);
 /// the emitters and incident angle.
 ///
 /// θ_u, the uncertainty angle, is that of the sphere around the box. Three departures from the letter of Eq. 4:
-/// - ‖X − C‖² is softened by r²/12, since the centre stands for lights all over the box. Falcor and pbrt clamp instead;
-///   the ablation that favours the soft form is reproduced by `lightbvh bench`'s variance table.
+/// - ‖X − C‖² is softened by r²/12, since the centre stands for lights all over the box. Falcor and pbrt clamp
+///   instead; the two forms have not been measured against each other in this code.
 /// - cos θ'_i is not taken as absolute: an opaque surface receives nothing from behind. A zero normal drops the factor.
 /// - cos θ'_i is bounded by the box's highest corner above the surface, not by the sphere: it is zero just when the whole
-///   box lies below the horizon. The sphere leaves many branches alive below which nothing is; with it, 100,000
-///   scattered lights took a sixth more node visits per sample and a third more variance.
+///   box lies below the horizon. The sphere leaves many branches alive below which nothing is; with it,
+///   100,000 scattered lights took a sixth more node visits per sample.
 #[derive(Clone, Copy, Debug)]
 pub struct Eq4;
 

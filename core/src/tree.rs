@@ -27,7 +27,7 @@ const _: () = assert!(size_of::<MeshLight>() == 16);
 /// single-level tree they are triangles and `meshes` is empty.
 #[derive(Clone, Copy)]
 pub struct LightTree<'a, N> {
-    /// All nodes of all trees.
+    /// All nodes of all trees; at least one.
     pub nodes: &'a [N],
     /// Index of the node that a walk starts at.
     pub root: u32,

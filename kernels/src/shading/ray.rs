@@ -15,7 +15,7 @@ pub const FAR: f32 = pow2(40);
 /// Determinants up to this, m³, are misses: the triangle is seen edge-on, or its area is below 2^-55 m².
 const MIN_DETERMINANT: f32 = pow2(-54);
 
-/// Box distances are off by three roundings at most, 2^-24 each; widening by twice that keeps the test conservative
+/// Box distances are off by three roundings at most, 2^-24 each; widening by more than that keeps the test conservative
 /// (T. Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013).
 const WIDEN: f32 = 1.0 + 8.0 * pow2(-24);
 
