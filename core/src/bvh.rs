@@ -11,16 +11,19 @@ use crate::lights::Lights;
 use crate::node::LightNode;
 use crate::point::ShadingPoint;
 use crate::refit;
+use crate::refit::BlasRoot;
 use crate::traverse::{self, SampledLight};
-use crate::tree::{INVALID, LightTree, MeshLight};
+use crate::tree::{INVALID, LightTree, MeshLeaf, MeshLight};
 
-/// A light BVH over [`Lights`], of one or two levels, with nodes of layout `N` and width `W`.
+/// A light BVH over [`Lights`], of one or two levels, with nodes of layout `N` and width `W`; `L` is what leaves of the top
+/// level are.
 #[derive(Clone, Debug)]
-pub struct LightBvh<N, const W: usize> {
+pub struct LightBvh<N, const W: usize, L = MeshLight> {
     nodes: Vec<N>,
     /// Index of the node that walks start at; the nodes of the top level stand from here to the end.
     root: u32,
-    meshes: Vec<MeshLight>,
+    meshes: Vec<L>,
+    roots: Vec<BlasRoot>,
     trails: Vec<u32>,
     trail_words: u32,
     bottom: Levels,
@@ -31,15 +34,16 @@ pub struct LightBvh<N, const W: usize> {
 /// The arrays of a [`LightBvh`], open to any change.
 #[doc(hidden)]
 #[derive(Debug)]
-pub struct Parts<'a, N> {
+pub struct Parts<'a, N, L = MeshLight> {
     pub nodes: &'a mut [N],
-    pub meshes: &'a mut [MeshLight],
+    pub meshes: &'a mut [L],
+    pub roots: &'a mut [BlasRoot],
     pub trails: &'a mut [u32],
     pub bottom: &'a mut [u32],
     pub top: &'a mut [u32],
 }
 
-impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
+impl<N: LightNode<W>, const W: usize, L: MeshLeaf> LightBvh<N, W, L> {
     /// New bounds everywhere from `lights`, which must be those that the BVH was built over, moved or changed by
     /// [`Lights::update`].
     pub fn refit(&mut self, lights: &Lights) {
@@ -65,8 +69,11 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
 
     pub(super) fn refit_top(&mut self) {
         if self.is_two_level() {
+            for blas in &mut self.roots {
+                *blas = refit::root(&self.nodes, blas.node);
+            }
             for i in self.root as usize..self.nodes.len() {
-                self.nodes[i] = refit::mesh_leaves(&self.nodes, &self.meshes, i as u32);
+                self.nodes[i] = refit::mesh_leaves(&self.nodes, &self.meshes, &self.roots, i as u32);
             }
             for k in 0..self.top.nodes.len() {
                 let i = self.top.nodes[k];
@@ -78,7 +85,7 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
     /// Chooses a light for `point`; see [`traverse::sample`].
     #[must_use]
     pub fn sample<I: ImportanceModel>(&self, point: &ShadingPoint, random: u32) -> SampledLight {
-        traverse::sample::<N, I, W>(&self.tree(), point, random)
+        traverse::sample::<N, I, L, W>(&self.tree(), point, random)
     }
 
     /// Probability of triangle `light` of `lights` at `point`; see [`traverse::pmf`].
@@ -89,12 +96,12 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
             Some(_) => INVALID,
             None => return 0.0,
         };
-        traverse::pmf::<N, I, W>(&self.tree(), point, light, mesh)
+        traverse::pmf::<N, I, L, W>(&self.tree(), point, light, mesh)
     }
 
     /// The arrays as traversal takes them.
     #[must_use]
-    pub fn tree(&self) -> LightTree<'_, N> {
+    pub fn tree(&self) -> LightTree<'_, N, L> {
         LightTree {
             nodes: &self.nodes,
             root: self.root,
@@ -123,14 +130,26 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
 
     /// Every array that [`validate`](Self::validate) checks, for tests that put wrong words into them.
     #[doc(hidden)]
-    pub fn parts_mut(&mut self) -> Parts<'_, N> {
+    pub fn parts_mut(&mut self) -> Parts<'_, N, L> {
         Parts {
             nodes: &mut self.nodes,
             meshes: &mut self.meshes,
+            roots: &mut self.roots,
             trails: &mut self.trails,
             bottom: &mut self.bottom.nodes,
             top: &mut self.top.nodes,
         }
+    }
+
+    /// The roots of the bottom levels and their bounds; empty in a single-level BVH.
+    #[must_use]
+    pub fn roots(&self) -> &[BlasRoot] {
+        &self.roots
+    }
+
+    /// The roots, to be refitted elsewhere.
+    pub fn roots_mut(&mut self) -> &mut [BlasRoot] {
+        &mut self.roots
     }
 
     /// The levels of the bottom trees (of the only tree in a single-level BVH).
@@ -163,9 +182,9 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
         size_of_val(&*self.nodes) + size_of_val(&*self.meshes) + size_of_val(&*self.trails)
     }
 
-    /// Bytes of the level lists, which only refit reads.
+    /// Bytes of the level lists and the roots' bounds, which only refit reads.
     #[must_use]
     pub fn refit_bytes(&self) -> usize {
-        size_of_val(&*self.bottom.nodes) + size_of_val(&*self.top.nodes)
+        size_of_val(&*self.bottom.nodes) + size_of_val(&*self.top.nodes) + size_of_val(&*self.roots)
     }
 }

@@ -6,7 +6,7 @@
 use glam::Vec3;
 
 use crate::exact::{self, exponent, pow2, recip_rough, rsqrt_rough, significand};
-use crate::point::ShadingPoint;
+use crate::point::Receiver;
 use crate::vector::{dot, length_squared};
 
 /// What importance needs to know of the lights below a child; a node layout decodes it.
@@ -44,7 +44,7 @@ pub struct Importance {
 /// A measure of what a cluster may contribute at a point. Types choose it, so that kernels contain one only.
 pub trait ImportanceModel {
     /// Importance of `cluster` at `point`: zero only if no light in it can contribute there.
-    fn importance(cluster: &Cluster, point: &ShadingPoint) -> Importance;
+    fn importance<R: Receiver>(cluster: &Cluster, point: &R) -> Importance;
 }
 
 /// Outward slack of the cosine towards the emitters, 2^-8. At its zero, where it decides, cos θ' is off by less than
@@ -82,7 +82,7 @@ pub struct Eq4;
 
 impl ImportanceModel for Eq4 {
     #[inline(always)]
-    fn importance(cluster: &Cluster, point: &ShadingPoint) -> Importance {
+    fn importance<R: Receiver>(cluster: &Cluster, point: &R) -> Importance {
         let v = cluster.center - point.position();
         let n = point.normal();
         let d_squared = exact::max(length_squared(v), MIN_DISTANCE_SQUARED);
@@ -98,13 +98,22 @@ impl ImportanceModel for Eq4 {
         let inverse = rsqrt_rough(d_squared);
         let inverse_squared = inverse * inverse;
 
-        // Inside the sphere the lights may be anywhere.
-        let inside = r_squared >= d_squared;
+        // Inside the sphere the lights may be anywhere, and so they may for a point known too roughly at this distance.
+        let inside = if R::ROUNDED {
+            exact::max(r_squared, point.near_squared()) >= d_squared
+        } else {
+            r_squared >= d_squared
+        };
 
         // The incident cosine that the highest corner of the box has, as seen at the centre's distance; 1 in a volume.
         let in_volume = (n.x == 0.0) & (n.y == 0.0) & (n.z == 0.0);
         let reach_up = (exact::abs(n.x) * cluster.extent.x + exact::abs(n.y) * cluster.extent.y)
             + exact::abs(n.z) * cluster.extent.z;
+        let reach_up = if R::ROUNDED {
+            reach_up + point.slack()
+        } else {
+            reach_up
+        };
         let cos_incident = (dot(n, v) + reach_up) * inverse;
         let bounded = exact::min(exact::max(cos_incident, SLACK), 1.0);
         let above = if cos_incident < -HORIZON_SLACK {
@@ -119,7 +128,8 @@ impl ImportanceModel for Eq4 {
         let sin_alpha = cluster.sin_theta_o * tangent + cluster.cos_theta_o * radius;
         let facing = (along_axis * cos_alpha + across_axis * sin_alpha) * inverse_squared;
         let surrounded = inside | (sin_alpha < 0.0) | (along_axis >= cos_alpha);
-        let reach = if surrounded { 1.0 } else { facing } + SLACK;
+        let outward = if R::ROUNDED { SLACK + point.tilt() } else { SLACK };
+        let reach = if surrounded { 1.0 } else { facing } + outward;
         let orientation = if reach > cluster.cos_theta_e { reach } else { 0.0 };
 
         over_distance(cluster, d_squared, incident * orientation)
@@ -132,7 +142,7 @@ pub struct FluxOverDistance;
 
 impl ImportanceModel for FluxOverDistance {
     #[inline(always)]
-    fn importance(cluster: &Cluster, point: &ShadingPoint) -> Importance {
+    fn importance<R: Receiver>(cluster: &Cluster, point: &R) -> Importance {
         let distance_squared = length_squared(cluster.center - point.position());
         over_distance(cluster, distance_squared, 1.0)
     }

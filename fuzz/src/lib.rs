@@ -7,7 +7,7 @@ mod input;
 
 use arbitrary::{Result, Unstructured};
 use lightbvh::{
-    BuildParams, CompactNode, Eq4, FullNode, INVALID, LightBvh, LightNode, LightTree, Lights, MeshLight,
+    BuildParams, CompactNode, Eq4, FullNode, INVALID, Instance, LightBvh, LightNode, LightTree, Lights,
     ShadingPoint, refit, traverse,
 };
 
@@ -138,11 +138,11 @@ pub fn node_words(data: &[u8]) {
         let point = input::any_point(u)?;
         let triangles = input::any_triangles(u)?;
         let (random, light, mesh): (u32, u32, u32) = u.arbitrary()?;
-        let meshes: Vec<MeshLight> = (0..u.int_in_range(0..=3)?)
-            .map(|_| {
-                let (root, trail, first) = u.arbitrary()?;
-                Ok(MeshLight { root, trail, first })
-            })
+        let meshes: Vec<Instance> = (0..u.int_in_range(0..=3)?)
+            .map(|_| Ok(bytemuck::cast(u.arbitrary::<[u32; 24]>()?)))
+            .collect::<Result<_>>()?;
+        let roots: Vec<refit::BlasRoot> = (0..u.int_in_range(0..=3)?)
+            .map(|_| Ok(bytemuck::cast(u.arbitrary::<[u32; 13]>()?)))
             .collect::<Result<_>>()?;
         let trails: Vec<u32> = (0..u.int_in_range(0..=8)?)
             .map(|_| u.arbitrary())
@@ -160,19 +160,20 @@ pub fn node_words(data: &[u8]) {
             trails: &trails,
             trail_words,
         };
-        let sampled = traverse::sample::<_, Eq4, 2>(&tree, &point, random);
+        let sampled = traverse::sample::<_, Eq4, _, 2>(&tree, &point, random);
         for (light, mesh) in [
             (sampled.light, mesh),
             (light, mesh),
             (light & 7, mesh & 3),
             (sampled.light, INVALID),
         ] {
-            let _ = traverse::pmf::<_, Eq4, 2>(&tree, &point, light, mesh);
+            let _ = traverse::pmf::<_, Eq4, _, 2>(&tree, &point, light, mesh);
         }
         for i in 0..nodes.len() as u32 {
             let _ = refit::leaves(&nodes, &triangles, i);
             let _ = refit::level(&nodes, i);
-            let _ = refit::mesh_leaves(&nodes, &meshes, i);
+            let _ = refit::mesh_leaves(&nodes, &meshes, &roots, i);
+            let _ = refit::root(&nodes, i);
         }
         Ok(())
     }

@@ -77,8 +77,8 @@ pub fn arrays_at(scene: &Scene, frame: u32, width: u32, height: u32) -> Result<S
 #[must_use]
 pub fn build(lights: &Lights, sampler: Sampler, params: &BuildParams) -> Bvh {
     match sampler {
-        Sampler::SingleLevel => LightBvh::single_level(lights, params),
-        _ => LightBvh::two_level(lights, params),
+        Sampler::SingleLevel => LightBvh::single_level(lights, params).with_leaves(),
+        _ => LightBvh::two_level(lights, params).with_leaves(),
     }
 }
 

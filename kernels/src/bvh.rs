@@ -1,7 +1,7 @@
 //! The light BVH that the kernels are compiled for, and its picker for the renderer.
 
 use bytemuck::{Pod, Zeroable};
-use lightbvh::{CompactNode, Eq4, LightTree, MeshLight, ShadingPoint, traverse};
+use lightbvh::{CompactNode, Eq4, Instance, LightTree, ShadingPoint, traverse};
 
 use crate::shading::pick::{PickLight, Picked};
 
@@ -11,6 +11,8 @@ pub const WIDTH: usize = 4;
 pub type Node = CompactNode<WIDTH>;
 /// Importance.
 pub type Importance = Eq4;
+/// The tree that kernels walk: leaves of a top level are instances.
+pub type Tree<'a> = LightTree<'a, Node, Instance>;
 
 /// What a [`LightTree`] holds besides its arrays; part of the push constants.
 #[repr(C)]
@@ -28,12 +30,7 @@ impl TreePush {
     /// The tree over the given arrays.
     #[inline]
     #[must_use]
-    pub fn tree<'a>(
-        &self,
-        nodes: &'a [Node],
-        meshes: &'a [MeshLight],
-        trails: &'a [u32],
-    ) -> LightTree<'a, Node> {
+    pub fn tree<'a>(&self, nodes: &'a [Node], meshes: &'a [Instance], trails: &'a [u32]) -> Tree<'a> {
         LightTree {
             nodes,
             root: self.root,
@@ -48,13 +45,13 @@ impl TreePush {
 #[derive(Clone, Copy)]
 pub struct BvhPicker<'a> {
     /// The light BVH.
-    pub tree: LightTree<'a, Node>,
+    pub tree: Tree<'a>,
 }
 
 impl PickLight for BvhPicker<'_> {
     #[inline]
     fn pick(&self, point: &ShadingPoint, random: u32) -> Picked {
-        let sampled = traverse::sample::<Node, Importance, WIDTH>(&self.tree, point, random);
+        let sampled = traverse::sample::<Node, Importance, Instance, WIDTH>(&self.tree, point, random);
         Picked {
             light: sampled.light,
             pmf: sampled.pmf,

@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::UVec3;
-use lightbvh::{EmissiveTriangle, INVALID, MeshLight, ShadingPoint, traverse};
+use lightbvh::{EmissiveTriangle, INVALID, Instance, ShadingPoint, traverse};
 use spirv_std::spirv;
 
 use crate::bvh::{Importance, Node, TreePush, WIDTH};
@@ -44,7 +44,7 @@ pub fn sample(
     #[spirv(global_invocation_id)] id: UVec3,
     #[spirv(push_constant)] push: &QueryPush,
     #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[Node],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] meshes: &[MeshLight],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] meshes: &[Instance],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] trails: &[u32],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] queries: &[Query],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] results: &mut [Sampled],
@@ -53,7 +53,8 @@ pub fn sample(
     if i < push.count && i < queries.len() as u32 {
         let tree = push.tree.tree(nodes, meshes, trails);
         let query = queries[i as usize];
-        let sampled = traverse::sample::<Node, Importance, WIDTH>(&tree, &query.point, query.random_or_light);
+        let sampled =
+            traverse::sample::<Node, Importance, Instance, WIDTH>(&tree, &query.point, query.random_or_light);
         results[i as usize] = Sampled {
             light: sampled.light,
             pmf: sampled.pmf,
@@ -67,7 +68,7 @@ pub fn pmf(
     #[spirv(global_invocation_id)] id: UVec3,
     #[spirv(push_constant)] push: &QueryPush,
     #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[Node],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] meshes: &[MeshLight],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] meshes: &[Instance],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] trails: &[u32],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] queries: &[Query],
@@ -85,7 +86,7 @@ pub fn pmf(
             } else {
                 INVALID
             };
-            result = traverse::pmf::<Node, Importance, WIDTH>(&tree, &query.point, light, mesh);
+            result = traverse::pmf::<Node, Importance, Instance, WIDTH>(&tree, &query.point, light, mesh);
         }
         results[i as usize] = result;
     }

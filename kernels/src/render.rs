@@ -4,7 +4,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{UVec3, Vec3};
 use lightbvh::exact::hash;
-use lightbvh::{EmissiveTriangle, MeshLight};
+use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
 use crate::bvh::{BvhPicker, Node, TreePush};
@@ -83,7 +83,7 @@ pub fn render_bvh(
     #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] camera: &[Camera],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] nodes: &[Node],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] meshes: &[MeshLight],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] meshes: &[Instance],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] trails: &[u32],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] results: &mut [[f32; 3]],
 ) {

@@ -7,7 +7,7 @@ use lightbvh::node::kind;
 use lightbvh::trail::max_levels;
 use lightbvh::{
     CompactNode, Eq4, FullNode, INVALID, ImportanceModel, LightBounds, LightNode, LightTree, MeshLight,
-    ShadingPoint, refit, traverse,
+    Receiver, refit, traverse,
 };
 use lightbvh_tests::generate::{self, Random, extreme_triangle};
 use proptest::prelude::*;
@@ -20,7 +20,7 @@ thread_local! {
 struct Counting;
 
 impl ImportanceModel for Counting {
-    fn importance(cluster: &Cluster, point: &ShadingPoint) -> Importance {
+    fn importance<R: Receiver>(cluster: &Cluster, point: &R) -> Importance {
         CALLS.set(CALLS.get() + 1);
         Eq4::importance(cluster, point)
     }
@@ -49,11 +49,11 @@ fn walk<N: LightNode<W>, const W: usize>(tree: &LightTree<'_, N>, random: &mut R
     CALLS.set(0);
     for _ in 0..calls {
         let point = generate::point(random, 4.0);
-        let sampled = traverse::sample::<N, Counting, W>(tree, &point, random.bits());
+        let sampled = traverse::sample::<N, Counting, _, W>(tree, &point, random.bits());
         counted(sampled.pmf);
         for light in [sampled.light, random.below(16), random.bits()] {
             for mesh in [INVALID, random.below(4), random.bits()] {
-                counted(traverse::pmf::<N, Counting, W>(tree, &point, light, mesh));
+                counted(traverse::pmf::<N, Counting, _, W>(tree, &point, light, mesh));
             }
         }
     }
@@ -63,11 +63,14 @@ fn walk<N: LightNode<W>, const W: usize>(tree: &LightTree<'_, N>, random: &mut R
 /// All refit passes over all nodes.
 fn refit_all<N: LightNode<W>, const W: usize>(nodes: &[N], meshes: &[MeshLight], random: &mut Random) {
     let triangles: Vec<_> = (0..4).map(|_| extreme_triangle(random)).collect();
+    let roots: Vec<refit::BlasRoot> = (0..random.below(4))
+        .map(|_| bytemuck::cast::<[u32; 13], _>(std::array::from_fn(|_| random.bits())))
+        .collect();
     for i in 0..nodes.len() as u32 {
         let results = [
             refit::leaves(nodes, &triangles, i),
             refit::level(nodes, i),
-            refit::mesh_leaves(nodes, meshes, i),
+            refit::mesh_leaves(nodes, meshes, &roots, i),
         ];
         for node in results {
             for slot in 0..W {
@@ -126,7 +129,7 @@ fn check<N: LightNode<W>, const W: usize>(seed: u32) {
         .map(|_| MeshLight {
             root: link(random, count),
             trail: [random.bits(), random.bits()],
-            first: random.bits(),
+            blas: random.bits(),
         })
         .collect();
     let trails: Vec<u32> = (0..random.below(16)).map(|_| random.bits()).collect();
@@ -185,7 +188,7 @@ fn cycles_end() {
     let to_root = MeshLight {
         root: 0,
         trail: [0; 2],
-        first: 0,
+        blas: 0,
     };
     let (all_left, meshes, trails) = ([to_root; 3], [to_root; 1], [0x5555_5555; 8]);
     let cycles: [(&str, Vec<CompactNode<2>>); 8] = [

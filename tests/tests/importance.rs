@@ -84,7 +84,7 @@ fn importance_of<N: LightNode<W>, I: ImportanceModel, const W: usize>(
             "{importance:?} {lights:?} {point:?}"
         );
         assert!(importance.exponent.abs() <= 1024);
-        let (weights, sum) = node.weights::<I>(point);
+        let (weights, sum) = node.weights::<I, _>(point);
         assert!(
             sum.is_finite() && weights.iter().all(|w| *w >= 0.0 && *w <= sum),
             "{weights:?}"

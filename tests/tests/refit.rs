@@ -95,8 +95,13 @@ fn refitted_in_another_order<N: LightNode<W>, const W: usize>(
             refit::level(n, i)
         });
     }
+    let roots: Vec<_> = bvh
+        .roots()
+        .iter()
+        .map(|root| refit::root(&nodes, root.node))
+        .collect();
     pass(&mut nodes, &all(split..tree.nodes.len() as u32), &|n, i| {
-        refit::mesh_leaves(n, tree.meshes, i)
+        refit::mesh_leaves(n, tree.meshes, &roots, i)
     });
     for range in bvh.top_levels().ranges() {
         pass(&mut nodes, &bvh.top_levels().nodes()[range], &|n, i| {

@@ -102,8 +102,8 @@ fn each_picker(lights: &Lights, mut test: impl FnMut(&str, &dyn Fn(&ShadingPoint
         heuristic: Heuristic::Sah,
         ..BuildParams::default()
     };
-    let one = LightBvh::<Node, WIDTH>::single_level(lights, &BuildParams::default());
-    let two = LightBvh::<Node, WIDTH>::two_level(lights, &sah);
+    let one = LightBvh::<Node, WIDTH>::single_level(lights, &BuildParams::default()).with_leaves();
+    let two = LightBvh::<Node, WIDTH>::two_level(lights, &sah).with_leaves();
     let (one, two) = (BvhPicker { tree: one.tree() }, BvhPicker { tree: two.tree() });
     let call = |p: &dyn Fn(&ShadingPoint, u32) -> lightbvh_kernels::shading::pick::Picked,
                 point: &ShadingPoint,

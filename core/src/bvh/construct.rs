@@ -12,8 +12,9 @@ use crate::build::{BuildParams, Primitive, Topology, build};
 use crate::levels::Levels;
 use crate::lights::Lights;
 use crate::node::{LightNode, kind};
+use crate::refit::BlasRoot;
 use crate::trail::{BitTrail, slot_bits};
-use crate::tree::MeshLight;
+use crate::tree::{MeshLeaf, MeshLight};
 
 impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
     /// One tree over all triangles: the paper's baseline.
@@ -52,12 +53,8 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
         let mut pairs = Vec::new();
         for (mesh, topology) in bottoms.into_iter().enumerate() {
             let root = bvh.nodes.len() as u32;
-            let first = lights.mesh(mesh).start as u32;
-            bvh.meshes.push(MeshLight {
-                root,
-                trail: [0; 2],
-                first,
-            });
+            bvh.meshes.push(MeshLight::world(root, mesh as u32));
+            bvh.roots.push(BlasRoot::new(root, &LightBounds::EMPTY));
             pairs.extend(inner_nodes::<N, W>(&topology, root));
             bvh.append(&topology);
         }
@@ -70,6 +67,28 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
         bvh
     }
 
+    /// The same with other leaves of the top level: [`Instance`](crate::Instance)s of bottom levels in world space walk to
+    /// the same lights with the same probabilities, and are what the kernels read.
+    #[must_use]
+    pub fn with_leaves<L: MeshLeaf>(self) -> LightBvh<N, W, L> {
+        let leaf = |mesh: &MeshLight| {
+            let mut leaf = L::world(mesh.root(), mesh.blas());
+            leaf.set_trail(mesh.trail());
+            leaf
+        };
+        LightBvh {
+            nodes: self.nodes,
+            root: self.root,
+            meshes: self.meshes.iter().map(leaf).collect(),
+            roots: self.roots,
+            trails: self.trails,
+            trail_words: self.trail_words,
+            bottom: self.bottom,
+            top: self.top,
+            depth: self.depth,
+        }
+    }
+
     /// Builds the top level over the bottom levels as they are.
     fn build_top(&mut self, params: &BuildParams) {
         self.nodes.truncate(self.root as usize);
@@ -77,13 +96,13 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
             .meshes
             .iter()
             .enumerate()
-            .map(|(i, mesh)| Primitive::new(i as u32, &self.nodes[mesh.root as usize].merged()))
+            .map(|(i, mesh)| Primitive::new(i as u32, &self.nodes[mesh.root() as usize].merged()))
             .collect();
         let topology = build::<N, W>(&mut primitives, kind::MESH, params);
         self.top = Levels::gather(inner_nodes::<N, W>(&topology, self.root));
         self.depth += topology.depth;
         for &(mesh, trail) in &topology.trails {
-            self.meshes[mesh as usize].trail = [trail.low, trail.high];
+            self.meshes[mesh as usize].set_trail(trail);
         }
         self.extend(&topology.nodes);
         self.refit_top();
@@ -95,6 +114,7 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
             nodes: Vec::new(),
             root: 0,
             meshes: Vec::new(),
+            roots: Vec::new(),
             trails: alloc::vec![0; lights.triangles().len() * trail_words as usize],
             trail_words,
             bottom: Levels::default(),

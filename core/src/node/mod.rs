@@ -13,7 +13,7 @@ use bytemuck::Pod;
 
 use crate::bounds::LightBounds;
 use crate::importance::{Cluster, ImportanceModel, to_weights};
-use crate::point::ShadingPoint;
+use crate::point::Receiver;
 
 /// Version of the node layouts' words; raised whenever a layout changes.
 pub const NODE_FORMAT: u32 = 1;
@@ -64,7 +64,7 @@ pub trait LightNode<const W: usize>: Pod + Send + Sync {
 
     /// The children's importances at `point` on one scale, and their sum in slot order.
     #[inline(always)]
-    fn weights<I: ImportanceModel>(&self, point: &ShadingPoint) -> ([f32; W], f32) {
+    fn weights<I: ImportanceModel, R: Receiver>(&self, point: &R) -> ([f32; W], f32) {
         let mut importances = [crate::importance::Importance {
             significand: 0.0,
             exponent: 0,

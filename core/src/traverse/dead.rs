@@ -14,7 +14,7 @@ use crate::importance::ImportanceModel;
 use crate::node::{LightNode, kind};
 use crate::point::ShadingPoint;
 use crate::trail::{Path, max_levels};
-use crate::tree::{INVALID, LightTree};
+use crate::tree::{INVALID, LightTree, MeshLeaf};
 
 /// A light found, or [`INVALID`], and its mesh light.
 #[derive(Clone, Copy)]
@@ -37,17 +37,21 @@ struct Order {
 /// A depth-first search without a stack: after a dead end it starts over along the trail, changed at the deepest
 /// alternative (the restart trail of Laine 2010). In any well-formed tree it ends within the bound; hostile words end
 /// at it.
-fn find_live<N: LightNode<W>, I: ImportanceModel, const W: usize>(
-    tree: &LightTree<'_, N>,
+fn find_live<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: usize>(
+    tree: &LightTree<'_, N, L>,
     point: &ShadingPoint,
     start: &Neighbor<W>,
     order: Order,
 ) -> Found {
     let (first_index, first_position, first_mesh) =
-        enter::<N, W>(tree, start.kind, start.link, start.position, start.mesh);
+        enter::<N, L, W>(tree, start.kind, start.link, start.position, start.mesh);
     let at_light = start.kind == kind::LIGHT;
     let mut found = Found {
-        light: if at_light { start.link } else { INVALID },
+        light: if at_light {
+            tree.light_of(start.link, start.mesh)
+        } else {
+            INVALID
+        },
         mesh: start.mesh,
     };
     let mut done = at_light || start.is_none();
@@ -57,12 +61,13 @@ fn find_live<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     // Positions below this one are retraced.
     let mut retrace = first_position;
     let (mut other_position, mut other_slot) = (INVALID, 0);
+    let mut receiver = tree.receiver(point, mesh);
     let mut steps = search_bound(tree.nodes.len() as u32, 2 * max_levels(W));
     while !done && steps > 0 {
         steps -= 1;
         let valid = index < tree.nodes.len() as u32;
         let node = &tree.nodes[if valid { index as usize } else { 0 }];
-        let (weights, _) = node.weights::<I>(point);
+        let (weights, _) = node.weights::<I, L::Local>(&receiver);
 
         // The slot to enter, and the one after it in the order of search.
         let from = if position < retrace {
@@ -98,13 +103,19 @@ fn find_live<N: LightNode<W>, I: ImportanceModel, const W: usize>(
             let slot = if chosen < W as u32 { chosen as usize } else { 0 };
             let (to, link) = (node.kind(slot), node.link(slot));
             if to == kind::LIGHT {
-                found = Found { light: link, mesh };
+                found = Found {
+                    light: tree.light_of(link, mesh),
+                    mesh,
+                };
                 done = true;
             } else {
-                let (next, next_position, next_mesh) = enter::<N, W>(tree, to, link, position, mesh);
+                let (next, next_position, next_mesh) = enter::<N, L, W>(tree, to, link, position, mesh);
                 index = next;
                 position = next_position;
-                mesh = next_mesh;
+                if next_mesh != mesh {
+                    mesh = next_mesh;
+                    receiver = tree.receiver(point, mesh);
+                }
             }
         } else if other_position != INVALID {
             // Dead end: start over with the deepest alternative.
@@ -113,7 +124,10 @@ fn find_live<N: LightNode<W>, I: ImportanceModel, const W: usize>(
             other_position = INVALID;
             index = first_index;
             position = first_position;
-            mesh = first_mesh;
+            if mesh != first_mesh {
+                mesh = first_mesh;
+                receiver = tree.receiver(point, mesh);
+            }
         } else {
             done = true;
         }
@@ -133,8 +147,8 @@ fn search_bound(nodes: u32, levels: u32) -> u32 {
 /// Nodes above are found by following links alone, which costs far less than importances. Their probabilities follow
 /// from the neighbour's by undoing one choice per level, so that a walk from the root is not needed; the rounding is
 /// the same whoever asks.
-fn next_neighbor<N: LightNode<W>, I: ImportanceModel, const W: usize>(
-    tree: &LightTree<'_, N>,
+fn next_neighbor<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: usize>(
+    tree: &LightTree<'_, N, L>,
     point: &ShadingPoint,
     d: &Descent<W>,
     neighbor: &Neighbor<W>,
@@ -152,14 +166,14 @@ fn next_neighbor<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     while !done && steps > 0 {
         steps -= 1;
         let index = if undo {
-            node_at::<N, W>(tree, d.path, position)
+            node_at::<N, L, W>(tree, d.path, position)
         } else {
             neighbor.index
         };
         let node = &tree.nodes[index as usize];
         let (mut weights, mut sum) = (neighbor.weights, neighbor.sum);
         if undo {
-            (weights, sum) = node.weights::<I>(point);
+            (weights, sum) = node.weights::<I, L::Local>(&tree.receiver(point, mesh));
             let mut taken = 0.0;
             for s in 0..W {
                 taken = if s as u32 == slot { weights[s] } else { taken };
@@ -201,7 +215,11 @@ fn next_neighbor<N: LightNode<W>, I: ImportanceModel, const W: usize>(
 }
 
 /// Index of the node at `position` of a way that was taken before.
-fn node_at<N: LightNode<W>, const W: usize>(tree: &LightTree<'_, N>, path: Path, position: u32) -> u32 {
+fn node_at<N: LightNode<W>, L: MeshLeaf, const W: usize>(
+    tree: &LightTree<'_, N, L>,
+    path: Path,
+    position: u32,
+) -> u32 {
     let (mut index, mut at) = (tree.root, 0);
     let mut steps = 2 * max_levels(W);
     while at != position && index < tree.nodes.len() as u32 && steps > 0 {
@@ -210,7 +228,7 @@ fn node_at<N: LightNode<W>, const W: usize>(tree: &LightTree<'_, N>, path: Path,
         let node = &tree.nodes[index as usize];
         let slot = if slot < W as u32 { slot as usize } else { 0 };
         let (to, link) = (node.kind(slot), node.link(slot));
-        let (next, next_position, _) = enter::<N, W>(tree, to, link, at, INVALID);
+        let (next, next_position, _) = enter::<N, L, W>(tree, to, link, at, INVALID);
         index = next;
         at = next_position;
     }
@@ -244,8 +262,8 @@ impl Dead {
 }
 
 /// The probability that the light at the end of `d` takes over from dead neighbours; `dead` saves searches.
-pub(super) fn adopted<N: LightNode<W>, I: ImportanceModel, const W: usize>(
-    tree: &LightTree<'_, N>,
+pub(super) fn adopted<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: usize>(
+    tree: &LightTree<'_, N, L>,
     point: &ShadingPoint,
     d: &Descent<W>,
     dead: &Dead,
@@ -268,7 +286,7 @@ pub(super) fn adopted<N: LightNode<W>, I: ImportanceModel, const W: usize>(
         let none = neighbor.is_none();
         let live = !none
             && !dead.holds(&neighbor)
-            && find_live::<N, I, W>(tree, point, &neighbor, ANY).light != INVALID;
+            && find_live::<N, I, L, W>(tree, point, &neighbor, ANY).light != INVALID;
         if none || live {
             if right {
                 total += if live && neighbor.position == pending_position {
@@ -292,15 +310,15 @@ pub(super) fn adopted<N: LightNode<W>, I: ImportanceModel, const W: usize>(
             } else {
                 total += neighbor.mass();
             }
-            neighbor = next_neighbor::<N, I, W>(tree, point, d, &neighbor, right);
+            neighbor = next_neighbor::<N, I, L, W>(tree, point, d, &neighbor, right);
         }
     }
     total
 }
 
 /// The light that takes over from the dead end of `d`, and the slots that the search found dead beside it.
-pub(super) fn heir<N: LightNode<W>, I: ImportanceModel, const W: usize>(
-    tree: &LightTree<'_, N>,
+pub(super) fn heir<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: usize>(
+    tree: &LightTree<'_, N, L>,
     point: &ShadingPoint,
     d: &Descent<W>,
 ) -> (Found, Dead) {
@@ -317,7 +335,7 @@ pub(super) fn heir<N: LightNode<W>, I: ImportanceModel, const W: usize>(
         // The deeper neighbour is the nearer; of one node's slots, the right ones come first.
         let to_right = !right.is_none() && (left.is_none() || right.position >= left.position);
         let neighbor = if to_right { right } else { left };
-        found = find_live::<N, I, W>(
+        found = find_live::<N, I, L, W>(
             tree,
             point,
             &neighbor,
@@ -339,7 +357,7 @@ pub(super) fn heir<N: LightNode<W>, I: ImportanceModel, const W: usize>(
             end: if to_right { neighbor.slot } else { W as u32 },
         };
         if !done {
-            let next = next_neighbor::<N, I, W>(tree, point, d, &neighbor, to_right);
+            let next = next_neighbor::<N, I, L, W>(tree, point, d, &neighbor, to_right);
             if to_right {
                 right = next;
             } else {

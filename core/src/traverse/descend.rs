@@ -6,7 +6,7 @@ use crate::importance::ImportanceModel;
 use crate::node::{LightNode, kind};
 use crate::point::ShadingPoint;
 use crate::trail::{Path, max_levels};
-use crate::tree::{INVALID, LightTree};
+use crate::tree::{INVALID, LightTree, MeshLeaf};
 
 /// How a descent chooses.
 #[derive(Clone, Copy)]
@@ -39,8 +39,14 @@ pub(super) struct Descent<const W: usize> {
 /// A pmf never falls below 2^-120: a light less probable than that is never drawn, and must not seem impossible.
 const MIN_PMF: f32 = exact::pow2(-120);
 
-pub(super) fn descend<N: LightNode<W>, I: ImportanceModel, const FOLLOW: bool, const W: usize>(
-    tree: &LightTree<'_, N>,
+pub(super) fn descend<
+    N: LightNode<W>,
+    I: ImportanceModel,
+    L: MeshLeaf,
+    const FOLLOW: bool,
+    const W: usize,
+>(
+    tree: &LightTree<'_, N, L>,
     point: &ShadingPoint,
     guide: &Guide,
 ) -> Descent<W> {
@@ -57,6 +63,7 @@ pub(super) fn descend<N: LightNode<W>, I: ImportanceModel, const FOLLOW: bool, c
     let mut right = Beside::<W>::NONE;
     let mut index = tree.root;
     let mut position = 0;
+    let mut receiver = L::outside(point);
     let mut done = false;
     // A single exit at the head, no early return: rust-gpu miscompiles some of the others (spirt issue 31).
     let mut steps = 2 * max_levels(W);
@@ -65,7 +72,7 @@ pub(super) fn descend<N: LightNode<W>, I: ImportanceModel, const FOLLOW: bool, c
         // An index out of range (hostile words) reads node 0 and ends the descent.
         let valid = index < tree.nodes.len() as u32;
         let node = &tree.nodes[if valid { index as usize } else { 0 }];
-        let (weights, sum) = node.weights::<I>(point);
+        let (weights, sum) = node.weights::<I, L::Local>(&receiver);
         let alive = valid & (sum > 0.0);
         let wanted = if FOLLOW {
             guide.path.slot::<W>(position)
@@ -105,16 +112,20 @@ pub(super) fn descend<N: LightNode<W>, I: ImportanceModel, const FOLLOW: bool, c
         let at_light = passes & (to == kind::LIGHT);
         out.light = if at_light { link } else { INVALID };
         done = at_light | !passes;
-        let (next, next_position, mesh) = enter::<N, W>(tree, to, link, position, out.mesh);
-        out.mesh_position = if mesh != out.mesh {
-            position
-        } else {
-            out.mesh_position
-        };
+        let (next, next_position, mesh) = enter::<N, L, W>(tree, to, link, position, out.mesh);
+        if mesh != out.mesh {
+            out.mesh_position = position;
+            receiver = tree.receiver(point, mesh);
+        }
         out.mesh = mesh;
         index = next;
         position = next_position;
     }
+    out.light = if out.light == INVALID {
+        INVALID
+    } else {
+        tree.light_of(out.light, out.mesh)
+    };
     out.left = left.nearest(tree, &out, false);
     out.right = right.nearest(tree, &out, true);
     out
@@ -157,7 +168,12 @@ impl<const W: usize> Beside<W> {
 
     /// The child with importance nearest to the slot that the way of `d` took there.
     #[inline(always)]
-    fn nearest<N: LightNode<W>>(&self, tree: &LightTree<'_, N>, d: &Descent<W>, right: bool) -> Neighbor<W> {
+    fn nearest<N: LightNode<W>, L: MeshLeaf>(
+        &self,
+        tree: &LightTree<'_, N, L>,
+        d: &Descent<W>,
+        right: bool,
+    ) -> Neighbor<W> {
         let taken = d.path.slot::<W>(self.position);
         let mut nearest = INVALID;
         for i in 0..W {
@@ -194,8 +210,8 @@ impl<const W: usize> Beside<W> {
 
 /// The node behind a child, its position, and the mesh light passed on the way.
 #[inline(always)]
-pub(super) fn enter<N: LightNode<W>, const W: usize>(
-    tree: &LightTree<'_, N>,
+pub(super) fn enter<N: LightNode<W>, L: MeshLeaf, const W: usize>(
+    tree: &LightTree<'_, N, L>,
     to: u32,
     link: u32,
     position: u32,
@@ -205,7 +221,7 @@ pub(super) fn enter<N: LightNode<W>, const W: usize>(
     // Running off the end of a tree's levels (hostile words only) must not look like the next tree's first level.
     let last_of_tree = position + 1 == levels || position + 1 == 2 * levels;
     if to == kind::MESH && position < levels && link < tree.meshes.len() as u32 {
-        (tree.meshes[link as usize].root, levels, link)
+        (tree.meshes[link as usize].root(), levels, link)
     } else if to == kind::INNER && !last_of_tree {
         (link, position + 1, mesh)
     } else {

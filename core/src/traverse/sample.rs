@@ -6,7 +6,7 @@ use crate::importance::ImportanceModel;
 use crate::node::LightNode;
 use crate::point::ShadingPoint;
 use crate::trail::Path;
-use crate::tree::{INVALID, LightTree};
+use crate::tree::{INVALID, LightTree, MeshLeaf};
 
 /// A light and the probability with which it was chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,8 +30,8 @@ impl SampledLight {
 /// A light is returned whenever one has importance at the point; see the [module](super) for dead branches. The pmf is
 /// to the bit the one that [`pmf`] gives for the light.
 #[must_use]
-pub fn sample<N: LightNode<W>, I: ImportanceModel, const W: usize>(
-    tree: &LightTree<'_, N>,
+pub fn sample<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: usize>(
+    tree: &LightTree<'_, N, L>,
     point: &ShadingPoint,
     random: u32,
 ) -> SampledLight {
@@ -39,14 +39,14 @@ pub fn sample<N: LightNode<W>, I: ImportanceModel, const W: usize>(
         path: Path::default(),
         random,
     };
-    let mut d = descend::<N, I, false, W>(tree, point, &guide);
+    let mut d = descend::<N, I, L, false, W>(tree, point, &guide);
     let mut dead = Dead::UNKNOWN;
     if d.light == INVALID {
-        let (found, known) = heir::<N, I, W>(tree, point, &d);
+        let (found, known) = heir::<N, I, L, W>(tree, point, &d);
         dead = known;
         if found.light != INVALID {
             let path = tree.path_of(found.light, found.mesh);
-            d = descend::<N, I, true, W>(tree, point, &Guide { path, random });
+            d = descend::<N, I, L, true, W>(tree, point, &Guide { path, random });
         }
     }
     if d.light == INVALID {
@@ -54,7 +54,7 @@ pub fn sample<N: LightNode<W>, I: ImportanceModel, const W: usize>(
     } else {
         SampledLight {
             light: d.light,
-            pmf: d.pmf + adopted::<N, I, W>(tree, point, &d, &dead),
+            pmf: d.pmf + adopted::<N, I, L, W>(tree, point, &d, &dead),
         }
     }
 }
@@ -62,16 +62,16 @@ pub fn sample<N: LightNode<W>, I: ImportanceModel, const W: usize>(
 /// The probability with which [`sample`] returns triangle `light` of mesh light `mesh` ([`INVALID`] in a single-level
 /// tree) at `point`: 0 if it has no importance there, or if there is no such light.
 #[must_use]
-pub fn pmf<N: LightNode<W>, I: ImportanceModel, const W: usize>(
-    tree: &LightTree<'_, N>,
+pub fn pmf<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: usize>(
+    tree: &LightTree<'_, N, L>,
     point: &ShadingPoint,
     light: u32,
     mesh: u32,
 ) -> f32 {
     let path = tree.path_of(light, mesh);
-    let d = descend::<N, I, true, W>(tree, point, &Guide { path, random: 0 });
+    let d = descend::<N, I, L, true, W>(tree, point, &Guide { path, random: 0 });
     if d.light == light && light != INVALID {
-        d.pmf + adopted::<N, I, W>(tree, point, &d, &Dead::UNKNOWN)
+        d.pmf + adopted::<N, I, L, W>(tree, point, &d, &Dead::UNKNOWN)
     } else {
         0.0
     }

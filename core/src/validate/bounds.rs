@@ -7,15 +7,15 @@ use crate::cone::{Cone, sine_of};
 use crate::exact::{self, pow2};
 use crate::lights::Lights;
 use crate::node::{LightNode, kind};
-use crate::tree::LightTree;
+use crate::tree::{LightTree, MeshLeaf};
 use crate::vector::{dot, length_squared};
 
 /// Slack of the cone test, in cosine: 2^-20. The cosine of a sum of two angles takes some ten roundings of 2^-24.
 const COSINE_SLACK: f32 = pow2(-20);
 
 /// Checks all bounds of a BVH whose links are sound.
-pub(super) fn validate<N: LightNode<W>, const W: usize>(
-    bvh: &LightBvh<N, W>,
+pub(super) fn validate<N: LightNode<W>, const W: usize, L: MeshLeaf>(
+    bvh: &LightBvh<N, W, L>,
     lights: &Lights,
 ) -> Result<(), Violation> {
     // A copy of links and kinds alone, refitted: none of the bounds under test is in it.
@@ -44,14 +44,14 @@ pub(super) fn validate<N: LightNode<W>, const W: usize>(
 }
 
 /// The node behind a child, if it is not a triangle.
-fn child_node<N: LightNode<W>, const W: usize>(
-    tree: &LightTree<'_, N>,
+fn child_node<N: LightNode<W>, L: MeshLeaf, const W: usize>(
+    tree: &LightTree<'_, N, L>,
     node: &N,
     slot: usize,
 ) -> Option<u32> {
     match node.kind(slot) {
         kind::INNER => Some(node.link(slot)),
-        kind::MESH => Some(tree.meshes[node.link(slot) as usize].root),
+        kind::MESH => Some(tree.meshes[node.link(slot) as usize].root()),
         _ => None,
     }
 }

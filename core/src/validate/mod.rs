@@ -11,7 +11,7 @@ use core::fmt;
 use crate::bvh::LightBvh;
 use crate::lights::Lights;
 use crate::node::LightNode;
-use crate::tree::INVALID;
+use crate::tree::{INVALID, MeshLeaf};
 
 /// What a valid light BVH consists of.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,6 +48,10 @@ pub struct Violation {
 pub enum What {
     /// Number of mesh lights; 0 in a single-level BVH.
     MeshCount,
+    /// Number of bottom levels with bounds of their own.
+    RootCount,
+    /// Bottom level of a mesh light (`slot` is its index).
+    Blas,
     /// Number of words of bit trails.
     TrailCount,
     /// Words per bit trail.
@@ -118,6 +122,8 @@ impl fmt::Display for What {
         let name = |component: u32| COMPONENTS.get(component as usize).copied().unwrap_or("word");
         match *self {
             Self::MeshCount => write!(f, "number of mesh lights"),
+            Self::RootCount => write!(f, "number of bottom levels"),
+            Self::Blas => write!(f, "bottom level of the mesh light"),
             Self::TrailCount => write!(f, "number of trail words"),
             Self::TrailWords => write!(f, "words per trail"),
             Self::Root => write!(f, "index of the root"),
@@ -179,7 +185,7 @@ fn equal(node: u32, slot: u32, what: What, expected: u32, found: u32) -> Result<
     }
 }
 
-impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
+impl<N: LightNode<W>, const W: usize, L: MeshLeaf> LightBvh<N, W, L> {
     /// Checks every invariant of the BVH over `lights`, which must be those of the last refit:
     /// - each link is in range and of a kind that its level may hold; each node of each tree is reached exactly once;
     /// - each triangle and each mesh light is a leaf exactly once, and its trail leads to just that leaf;

@@ -9,7 +9,7 @@ use crate::levels::Levels;
 use crate::lights::Lights;
 use crate::node::{LightNode, kind};
 use crate::trail::{BitTrail, max_levels, slot_bits};
-use crate::tree::INVALID;
+use crate::tree::{INVALID, MeshLeaf};
 
 /// Level of a node that was not reached.
 const UNREACHED: u32 = INVALID;
@@ -33,8 +33,8 @@ struct Walk<'a, N, const W: usize> {
 }
 
 /// Checks everything but the bounds; returns the number of leaves.
-pub(super) fn validate<N: LightNode<W>, const W: usize>(
-    bvh: &LightBvh<N, W>,
+pub(super) fn validate<N: LightNode<W>, const W: usize, L: MeshLeaf>(
+    bvh: &LightBvh<N, W, L>,
     lights: &Lights,
 ) -> Result<u32, Violation> {
     let tree = bvh.tree();
@@ -92,15 +92,33 @@ pub(super) fn validate<N: LightNode<W>, const W: usize>(
             foreign: What::Link,
             counted: What::Mesh,
         };
-        let trail = |mesh: u32| {
-            let [low, high] = tree.meshes[mesh as usize].trail;
-            BitTrail { low, high }
-        };
+        let trail = |mesh: u32| tree.meshes[mesh as usize].trail();
+        equal(
+            INVALID,
+            INVALID,
+            What::RootCount,
+            meshes,
+            bvh.roots().len() as u32,
+        )?;
         top_depth = walk.tree(tree.root, tree.root..count, &mesh_leaves, trail)?;
         for (mesh, light) in tree.meshes.iter().enumerate() {
             let range = lights.mesh(mesh);
-            equal(INVALID, mesh as u32, What::First, range.start as u32, light.first)?;
-            let depth = walk.tree(light.root, 0..tree.root, &triangle_leaves(range), trail_of)?;
+            equal(
+                INVALID,
+                mesh as u32,
+                What::First,
+                range.start as u32,
+                light.light_of(range.start as u32),
+            )?;
+            equal(INVALID, mesh as u32, What::Blas, mesh as u32, light.blas())?;
+            equal(
+                INVALID,
+                mesh as u32,
+                What::Root,
+                light.root(),
+                bvh.roots()[mesh].node,
+            )?;
+            let depth = walk.tree(light.root(), 0..tree.root, &triangle_leaves(range), trail_of)?;
             bottom_depth = bottom_depth.max(depth);
         }
     } else {

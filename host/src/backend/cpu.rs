@@ -126,7 +126,7 @@ impl Backend for CpuBackend {
 }
 
 fn sample_one<I: ImportanceModel>(bvh: &Bvh, point: &ShadingPoint, random: u32) -> Sampled {
-    let sampled = traverse::sample::<Node, I, WIDTH>(&bvh.tree(), point, random);
+    let sampled = traverse::sample::<Node, I, _, WIDTH>(&bvh.tree(), point, random);
     Sampled {
         light: sampled.light,
         pmf: sampled.pmf,
@@ -153,7 +153,13 @@ fn refit_parallel(bvh: &mut Bvh, lights: &Lights) {
     for range in bottom.ranges() {
         run_pass(bvh, &bottom.nodes()[range], refit::level);
     }
-    run_pass(bvh, top_nodes, |nodes, i| refit::mesh_leaves(nodes, &meshes, i));
+    for root in 0..bvh.roots().len() {
+        bvh.roots_mut()[root] = refit::root(bvh.nodes(), bvh.roots()[root].node);
+    }
+    let roots = bvh.roots().to_vec();
+    run_pass(bvh, top_nodes, |nodes, i| {
+        refit::mesh_leaves(nodes, &meshes, &roots, i)
+    });
     for range in top.ranges() {
         run_pass(bvh, &top.nodes()[range], refit::level);
     }

@@ -3,7 +3,8 @@
 use std::time::Duration;
 
 use bytemuck::bytes_of;
-use lightbvh::{EmissiveTriangle, Lights, MeshLight};
+use lightbvh::refit::BlasRoot;
+use lightbvh::{EmissiveTriangle, Instance, Lights};
 use lightbvh_kernels::bvh::{Node, TreePush};
 use lightbvh_kernels::query::{Query, QueryPush, Sampled};
 use lightbvh_kernels::refit::RefitPush;
@@ -21,16 +22,19 @@ const SAMPLES_PER_PASS: usize = 1 << 20;
 pub struct DeviceBackend<'d> {
     device: &'d Device,
     nodes: Buffer<Node>,
-    meshes: Buffer<MeshLight>,
+    meshes: Buffer<Instance>,
+    roots: Buffer<BlasRoot>,
     trails: Buffer<u32>,
     triangles: Buffer<EmissiveTriangle>,
-    levels: Buffer<u32>,
-    /// Dispatches of `refit_level` as (first entry, count), those of the bottom levels and those of the top level.
-    bottom: Vec<RefitPush>,
-    top: Vec<RefitPush>,
-    /// Nodes of the bottom levels and of the top level.
+    /// The lists that refit runs over, one after the other; the dispatches below are parts of it.
+    lists: Buffer<u32>,
+    /// Nodes of the bottom levels, then those with inner children level by level.
     bottom_nodes: RefitPush,
+    bottom: Vec<RefitPush>,
+    bottom_roots: RefitPush,
+    /// Nodes of the top level, then those with inner children level by level.
     top_nodes: RefitPush,
+    top: Vec<RefitPush>,
     tree: TreePush,
 }
 
@@ -44,29 +48,38 @@ impl<'d> DeviceBackend<'d> {
         let two_level = bvh.is_two_level();
         let node_count = tree.nodes.len() as u32;
         let bottom_count = if two_level { tree.root } else { node_count };
-        let list = [bvh.bottom_levels().nodes(), bvh.top_levels().nodes()].concat();
-        let at = bvh.bottom_levels().nodes().len() as u32;
-        let push = |offset: u32, range: std::ops::Range<usize>| RefitPush {
-            first: offset + range.start as u32,
-            count: range.len() as u32,
+        let mut lists = Vec::new();
+        let mut list = |entries: &mut dyn Iterator<Item = u32>| {
+            let first = lists.len() as u32;
+            lists.extend(entries);
+            let count = lists.len() as u32 - first;
+            RefitPush { first, count }
         };
+        let bottom_nodes = list(&mut (0..bottom_count));
+        let (bottom_levels, top_levels) = (bvh.bottom_levels(), bvh.top_levels());
+        let bottom = bottom_levels
+            .ranges()
+            .map(|range| list(&mut bottom_levels.nodes()[range].iter().copied()))
+            .collect();
+        let bottom_roots = list(&mut (0..bvh.roots().len() as u32));
+        let top_nodes = list(&mut (bottom_count..node_count));
+        let top = top_levels
+            .ranges()
+            .map(|range| list(&mut top_levels.nodes()[range].iter().copied()))
+            .collect();
         Ok(Self {
             device,
             nodes: device.upload(tree.nodes)?,
             meshes: device.upload(tree.meshes)?,
             trails: device.upload(tree.trails)?,
             triangles: device.upload(lights.triangles())?,
-            levels: device.upload(&list)?,
-            bottom: bvh.bottom_levels().ranges().map(|range| push(0, range)).collect(),
-            top: bvh.top_levels().ranges().map(|range| push(at, range)).collect(),
-            bottom_nodes: RefitPush {
-                first: 0,
-                count: bottom_count,
-            },
-            top_nodes: RefitPush {
-                first: bottom_count,
-                count: node_count - bottom_count,
-            },
+            roots: device.upload(bvh.roots())?,
+            lists: device.upload(&lists)?,
+            bottom_nodes,
+            bottom,
+            bottom_roots,
+            top_nodes,
+            top,
             tree: TreePush {
                 root: tree.root,
                 trail_words: tree.trail_words,
@@ -122,30 +135,26 @@ impl Backend for DeviceBackend<'_> {
         self.triangles.write(lights.triangles())?;
         let leaves = self.device.kernel("refit_leaves")?;
         let level = self.device.kernel("refit_level")?;
-        let mesh_leaves = self.device.kernel("refit_mesh_leaves")?;
+        let roots = self.device.kernel("refit_roots")?;
+        let instances = self.device.kernel("refit_instances")?;
+        let (lists, nodes) = (self.lists.bind(), self.nodes.bind());
+        let by_triangle = [lists, self.triangles.bind(), nodes];
+        let by_level = [lists, nodes];
+        let by_root = [lists, nodes, self.roots.bind()];
+        let by_instance = [lists, self.meshes.bind(), self.roots.bind(), nodes];
+
         let mut pass = Pass::new();
-        let by_triangle = [self.triangles.bind(), self.nodes.bind()];
-        let by_level = [self.levels.bind(), self.nodes.bind()];
-        let by_mesh = [self.meshes.bind(), self.nodes.bind()];
-        pass.dispatch(
-            &leaves,
-            &by_triangle,
-            bytes_of(&self.bottom_nodes),
-            self.bottom_nodes.count,
-        );
-        for push in &self.bottom {
-            pass.dispatch(&level, &by_level, bytes_of(push), push.count);
-        }
-        if self.top_nodes.count > 0 {
-            pass.dispatch(
-                &mesh_leaves,
-                &by_mesh,
-                bytes_of(&self.top_nodes),
-                self.top_nodes.count,
-            );
-        }
-        for push in &self.top {
-            pass.dispatch(&level, &by_level, bytes_of(push), push.count);
+        let dispatches = std::iter::once((&leaves, &by_triangle[..], &self.bottom_nodes))
+            .chain(self.bottom.iter().map(|push| (&level, &by_level[..], push)))
+            .chain([
+                (&roots, &by_root[..], &self.bottom_roots),
+                (&instances, &by_instance[..], &self.top_nodes),
+            ])
+            .chain(self.top.iter().map(|push| (&level, &by_level[..], push)));
+        for (kernel, bindings, push) in dispatches {
+            if push.count > 0 {
+                pass.dispatch(kernel, bindings, bytes_of(push), push.count);
+            }
         }
         let time = device_time(&self.device.run(&pass)?);
         Ok(Timed {

@@ -11,7 +11,7 @@ pub use scene::{Sampler, SceneArrays};
 
 use std::time::Duration;
 
-use lightbvh::{LightBvh, Lights};
+use lightbvh::{Instance, LightBvh, Lights};
 use lightbvh_kernels::bvh::{Node, WIDTH};
 use lightbvh_kernels::query::{Query, Sampled};
 use lightbvh_kernels::render::RenderParams;
@@ -20,7 +20,7 @@ use crate::compare::{Field, Record};
 use crate::vulkan::VulkanError;
 
 /// The light BVH that the kernels are compiled for.
-pub type Bvh = LightBvh<Node, WIDTH>;
+pub type Bvh = LightBvh<Node, WIDTH, Instance>;
 
 /// A result and how long it took: on a device the kernels' own time, where it can tell.
 #[derive(Clone, Debug)]

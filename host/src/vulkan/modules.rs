@@ -20,7 +20,8 @@ macro_rules! module {
 pub(crate) const MODULES: &[Module] = &[
     module!("refit_leaves"),
     module!("refit_level"),
-    module!("refit_mesh_leaves"),
+    module!("refit_roots"),
+    module!("refit_instances"),
     module!("sample"),
     module!("pmf"),
     module!("render_uniform"),
