@@ -25,6 +25,27 @@ impl Levels {
         })
     }
 
+    /// The levels of several trees together: the roots' levels are one, and so on down.
+    pub(crate) fn join(trees: &[&Self]) -> Self {
+        if let [only] = trees {
+            return (*only).clone();
+        }
+        let deepest = trees.iter().map(|tree| tree.ends.len()).max().unwrap_or(0);
+        let mut all = Self::default();
+        // Every level above a tree's deepest has nodes with inner children, so its ranges count up from the last.
+        for level in (0..deepest).rev() {
+            for tree in trees.iter().filter(|tree| tree.ends.len() > level) {
+                let range = tree.ends.len() - 1 - level;
+                let start = if range == 0 { 0 } else { tree.ends[range - 1] };
+                let end = tree.ends[range];
+                all.nodes
+                    .extend_from_slice(&tree.nodes[start as usize..end as usize]);
+            }
+            all.ends.push(all.nodes.len() as u32);
+        }
+        all
+    }
+
     /// Gathers (level, node) pairs.
     pub(crate) fn gather(mut pairs: Vec<(u32, u32)>) -> Self {
         pairs.sort_unstable_by_key(|&(level, node)| (core::cmp::Reverse(level), node));

@@ -20,7 +20,9 @@
 //! | [`node`], [`tree`], [`trail`] | layout of nodes, links, bit trails |
 //! | [`refit`] | new bounds on an unchanged topology |
 //! | [`traverse`] | sampling, and the probability of any light |
+//! | [`instance`] | leaves of the top level with a space of their own |
 //! | `lights`, `build`, `bvh`, `validate` (feature `alloc`) | checked input, builders, owned trees, invariants |
+//! | `scene`, `transform` (feature `alloc`) | moving lights: edits, instances, refit of what changed, rebuilds |
 //!
 #![cfg_attr(
     feature = "alloc",
@@ -92,6 +94,10 @@ pub mod levels;
 #[cfg(feature = "alloc")]
 pub mod lights;
 #[cfg(feature = "alloc")]
+pub mod scene;
+#[cfg(feature = "alloc")]
+pub mod transform;
+#[cfg(feature = "alloc")]
 pub mod validate;
 
 #[cfg(feature = "alloc")]
@@ -100,6 +106,10 @@ pub use build::{BuildParams, Heuristic};
 pub use bvh::LightBvh;
 #[cfg(feature = "alloc")]
 pub use lights::{Lights, LightsError};
+#[cfg(feature = "alloc")]
+pub use scene::{Edit, InstanceId, MeshId, Scene};
+#[cfg(feature = "alloc")]
+pub use transform::Transform;
 #[cfg(feature = "alloc")]
 pub use validate::{Stats, Violation};
 

@@ -5,5 +5,6 @@ pub mod direct;
 pub mod generate;
 pub mod gltf_files;
 pub mod oracle;
+pub mod placing;
 pub mod soup;
 pub mod statistics;

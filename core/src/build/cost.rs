@@ -3,7 +3,9 @@
 use core::f32::consts::{FRAC_PI_2, PI};
 
 use super::primitive::Group;
+use crate::bounds::LightBounds;
 use crate::exact::{max, min, rsqrt_rough};
+use crate::node::{LightNode, kind};
 
 /// What a split is judged by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -70,6 +72,30 @@ impl Scales {
         let z = (group.high[2] - group.low[2]) * self.per_extent;
         (x * y + y * z + z * x) + DEGENERATE * (x + y + z)
     }
+}
+
+/// Cost of a built tree: the sum of Φ·a·M_Ω over the children of all its nodes, over that of `whole`, the bounds of all
+/// (Eq. 3 without k_r, summed as in the surface area heuristic). It grows as refits stretch the nodes; 0 without flux.
+pub(crate) fn drift<N: LightNode<W>, const W: usize>(nodes: &[N], whole: &LightBounds) -> f64 {
+    let measure = |b: &LightBounds| {
+        let (x, y, z) = (
+            f64::from(b.max.x) - f64::from(b.min.x),
+            f64::from(b.max.y) - f64::from(b.min.y),
+            f64::from(b.max.z) - f64::from(b.min.z),
+        );
+        let area = (x * y + y * z + z * x) + f64::from(DEGENERATE) * (x + y + z);
+        f64::from(b.phi) * area * f64::from(orientation_measure(b.cos_theta_o))
+    };
+    let mut sum = 0.0;
+    for node in nodes {
+        for slot in 0..W {
+            if node.kind(slot) != kind::EMPTY {
+                sum += measure(&node.bounds(slot));
+            }
+        }
+    }
+    let all = measure(whole);
+    if all > 0.0 { sum / all } else { 0.0 }
 }
 
 /// cos θ_o of a cone around the group's normals, from the box that holds them.

@@ -12,6 +12,7 @@ mod split;
 mod topology;
 
 pub use cost::Heuristic;
+pub(crate) use cost::drift;
 pub(crate) use primitive::Primitive;
 pub(crate) use topology::{Topology, build};
 

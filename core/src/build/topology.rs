@@ -10,6 +10,7 @@ use crate::node::{LightNode, kind};
 use crate::trail::BitTrail;
 
 /// A tree without bounds.
+#[derive(Debug)]
 pub(crate) struct Topology<N> {
     /// Nodes in depth-first order, the root first; links count from it.
     pub nodes: Vec<N>,

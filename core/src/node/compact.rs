@@ -157,6 +157,16 @@ impl<const W: usize> LightNode<W> for CompactNode<W> {
         self.0[LINK][slot] = link;
     }
 
+    fn relink(&mut self, slot: usize, link: u32) {
+        self.0[LINK][slot] = link;
+    }
+
+    fn copy_child(&mut self, slot: usize, other: &Self, from: usize) {
+        for field in 0..7 {
+            self.0[field][slot] = other.0[field][from];
+        }
+    }
+
     fn set_bounds(&mut self, slot: usize, bounds: &LightBounds) {
         let (center, extent) = pack_box(bounds.min, bounds.max);
         self.0[CENTER_X][slot] = center.x.to_bits();

@@ -119,6 +119,16 @@ impl<const W: usize> LightNode<W> for FullNode<W> {
         self.0[LINK][slot] = link;
     }
 
+    fn relink(&mut self, slot: usize, link: u32) {
+        self.0[LINK][slot] = link;
+    }
+
+    fn copy_child(&mut self, slot: usize, other: &Self, from: usize) {
+        for field in 0..14 {
+            self.0[field][slot] = other.0[field][from];
+        }
+    }
+
     fn set_bounds(&mut self, slot: usize, bounds: &LightBounds) {
         self.set_vector(MIN, slot, bounds.min);
         self.set_vector(MAX, slot, bounds.max);

@@ -47,6 +47,10 @@ pub trait LightNode<const W: usize>: Pod + Send + Sync {
     fn bounds(&self, slot: usize) -> LightBounds;
     /// Sets what the child is; its bounds become empty.
     fn set_child(&mut self, slot: usize, kind: u32, link: u32);
+    /// Sets the child's link alone; kind and bounds stay.
+    fn relink(&mut self, slot: usize, link: u32);
+    /// Takes over child `from` of `other`, word by word.
+    fn copy_child(&mut self, slot: usize, other: &Self, from: usize);
     /// Sets the child's bounds, rounded outward; kind and link stay.
     fn set_bounds(&mut self, slot: usize, bounds: &LightBounds);
 

@@ -1,5 +1,7 @@
 //! Bounds: what refit makes of the lights, and children within their parents.
 
+use bytemuck::Pod;
+
 use super::{Violation, What, equal};
 use crate::bounds::LightBounds;
 use crate::bvh::LightBvh;
@@ -57,7 +59,11 @@ fn child_node<N: LightNode<W>, L: MeshLeaf, const W: usize>(
 }
 
 /// Checks that two nodes have the same words; the first difference is named by what it means, where it shows.
-fn same<N: LightNode<W>, const W: usize>(index: u32, expected: &N, found: &N) -> Result<(), Violation> {
+pub(crate) fn same<N: LightNode<W>, const W: usize>(
+    index: u32,
+    expected: &N,
+    found: &N,
+) -> Result<(), Violation> {
     if bytemuck::bytes_of(expected) == bytemuck::bytes_of(found) {
         return Ok(());
     }
@@ -87,6 +93,24 @@ fn same<N: LightNode<W>, const W: usize>(index: u32, expected: &N, found: &N) ->
     Ok(())
 }
 
+/// Checks that two records have the same words; the first that differs is named by its place.
+pub(crate) fn same_words<T: Pod>(node: u32, slot: u32, expected: &T, found: &T) -> Result<(), Violation> {
+    let words = |record: &T, i: usize| {
+        let bytes = bytemuck::bytes_of(record);
+        u32::from_ne_bytes([bytes[4 * i], bytes[4 * i + 1], bytes[4 * i + 2], bytes[4 * i + 3]])
+    };
+    for i in 0..size_of::<T>() / 4 {
+        equal(
+            node,
+            slot,
+            What::Word(i as u32),
+            words(expected, i),
+            words(found, i),
+        )?;
+    }
+    Ok(())
+}
+
 /// The components of bounds in the order of [`What::Bounds`].
 fn components(b: &LightBounds) -> [f32; 12] {
     let (lo, hi, a) = (b.min, b.max, b.axis);
@@ -107,7 +131,7 @@ fn components(b: &LightBounds) -> [f32; 12] {
 }
 
 /// Checks that the children of node `index` lie within `outer`, the bounds that its parent holds of it.
-fn within<N: LightNode<W>, const W: usize>(
+pub(crate) fn within<N: LightNode<W>, const W: usize>(
     outer: &LightBounds,
     index: u32,
     node: &N,

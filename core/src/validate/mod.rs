@@ -6,6 +6,8 @@
 mod bounds;
 mod topology;
 
+pub(crate) use bounds::{same, same_words, within as contained};
+
 use core::fmt;
 
 use crate::bvh::LightBvh;
@@ -171,7 +173,7 @@ impl fmt::Display for Violation {
 impl core::error::Error for Violation {}
 
 /// `Ok` if the words are equal.
-fn equal(node: u32, slot: u32, what: What, expected: u32, found: u32) -> Result<(), Violation> {
+pub(crate) fn equal(node: u32, slot: u32, what: What, expected: u32, found: u32) -> Result<(), Violation> {
     if expected == found {
         Ok(())
     } else {

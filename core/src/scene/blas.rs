@@ -1,0 +1,223 @@
+//! Bottom levels: built when a mesh comes in or a new shape needs one, and placed among the nodes.
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use super::Scene;
+use crate::bounds::LightBounds;
+use crate::build::{Primitive, Topology, build, drift};
+use crate::instance::Instance;
+use crate::levels::Levels;
+use crate::light::EmissiveTriangle;
+use crate::node::{LightNode, kind};
+use crate::refit::{self, BlasRoot};
+use crate::trail::slot_bits;
+use crate::transform::Extent;
+use crate::tree::INVALID;
+
+/// A tree over triangles in a space of their own.
+#[derive(Clone, Debug)]
+pub(super) struct Blas {
+    /// Its nodes, the root first; empty where the index is not in use.
+    pub nodes: Range<u32>,
+    pub triangles: Range<u32>,
+    pub owner: Owner,
+    /// Its nodes with inner children.
+    pub levels: Levels,
+    pub depth: u32,
+    pub extent: Extent,
+    /// Its cost when it was built; see [`drift`].
+    pub cost: f64,
+    /// When its topology was made.
+    pub born: u64,
+}
+
+/// Whose a bottom level is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Owner {
+    /// Shared by the similar instances of a mesh.
+    Mesh(u32),
+    /// Of one instance.
+    Instance(u32),
+}
+
+impl<N: LightNode<W>, const W: usize> Scene<N, W> {
+    /// A bottom level over `triangles`, at least one; returns its index.
+    pub(super) fn add_blas(&mut self, owner: Owner, triangles: &[EmissiveTriangle]) -> u32 {
+        let index = self.blas_ranges.take(1).start;
+        let range = self.triangle_ranges.take(triangles.len() as u32);
+        let empty = Blas {
+            nodes: 0..0,
+            triangles: range.clone(),
+            owner,
+            levels: Levels::default(),
+            depth: 0,
+            extent: Extent::of(triangles),
+            cost: 0.0,
+            born: 0,
+        };
+        put(&mut self.blases, index, empty.clone(), &empty);
+        put(
+            &mut self.roots,
+            index,
+            BlasRoot::new(INVALID, &LightBounds::EMPTY),
+            &BlasRoot::new(INVALID, &LightBounds::EMPTY),
+        );
+        self.write_triangles(index, triangles);
+        let topology = build_over(&self.triangles, range, &self.params);
+        self.place_blas(index, &topology);
+        index
+    }
+
+    /// Takes a bottom level out.
+    pub(super) fn remove_blas(&mut self, index: u32) {
+        let blas = &mut self.blases[index as usize];
+        let (nodes, triangles) = (blas.nodes.clone(), blas.triangles.clone());
+        blas.nodes = 0..0;
+        blas.triangles = 0..0;
+        blas.levels = Levels::default();
+        self.pending.forget_blas(index);
+        self.node_ranges.give(nodes);
+        self.triangle_ranges.give(triangles);
+        self.blas_ranges.give(index..index + 1);
+    }
+
+    /// Writes the triangles of a bottom level and marks it for refit.
+    pub(super) fn write_triangles(&mut self, index: u32, triangles: &[EmissiveTriangle]) {
+        let range = self.blases[index as usize].triangles.clone();
+        let end = self.triangle_ranges.end() as usize;
+        if self.triangles.len() < end {
+            let dark = EmissiveTriangle {
+                p: [[0.0; 3]; 3],
+                radiance: [0.0; 3],
+                mesh: INVALID,
+                flags: 0,
+            };
+            self.triangles.resize(end, dark);
+        }
+        let own = &mut self.triangles[range.start as usize..range.end as usize];
+        for (to, from) in own.iter_mut().zip(triangles) {
+            *to = EmissiveTriangle { mesh: index, ..*from };
+        }
+        self.pending.written_triangles.push(range);
+        self.pending.mark_blas(index);
+    }
+
+    /// Puts the nodes of `topology` in place of those that bottom level `index` had.
+    pub(super) fn place_blas(&mut self, index: u32, topology: &Topology<N>) {
+        let old = self.blases[index as usize].nodes.clone();
+        self.node_ranges.give(old);
+        let nodes = self.place_nodes(&topology.nodes);
+        self.reserve_trails(topology.depth);
+        let words = self.trail_words as usize;
+        for &(triangle, trail) in &topology.trails {
+            let at = triangle as usize * words;
+            self.trails[at] = trail.low;
+            if words == 2 {
+                self.trails[at + 1] = trail.high;
+            }
+        }
+        self.pending
+            .written_trails
+            .push(self.blases[index as usize].triangles.clone());
+        let levels = Levels::gather(inner_nodes::<N, W>(topology, nodes.start));
+        self.clock += 1;
+        let born = self.clock;
+        let blas = &mut self.blases[index as usize];
+        blas.nodes = nodes.clone();
+        blas.levels = levels;
+        blas.depth = topology.depth;
+        blas.born = born;
+        self.roots[index as usize].node = nodes.start;
+
+        for node in nodes.clone() {
+            self.nodes[node as usize] = refit::leaves(&self.nodes, &self.triangles, node);
+        }
+        for k in 0..self.blases[index as usize].levels.nodes.len() {
+            let node = self.blases[index as usize].levels.nodes[k];
+            self.nodes[node as usize] = refit::level(&self.nodes, node);
+        }
+        self.roots[index as usize] = refit::root(&self.nodes, nodes.start);
+        let placed = &self.nodes[nodes.start as usize..nodes.end as usize];
+        self.blases[index as usize].cost = drift(placed, &self.roots[index as usize].bounds());
+        self.pending.mark_built(index);
+    }
+
+    /// Room for `nodes`, their links moved to where they stand then; sets the parents.
+    pub(super) fn place_nodes(&mut self, nodes: &[N]) -> Range<u32> {
+        let range = self.node_ranges.take(nodes.len() as u32);
+        let end = self.node_ranges.end() as usize;
+        if self.nodes.len() < end {
+            self.nodes.resize(end, N::EMPTY);
+            self.parents.resize(end, INVALID);
+        }
+        let base = range.start;
+        self.parents[base as usize] = INVALID;
+        for (i, node) in (base..).zip(nodes) {
+            let mut moved = *node;
+            for slot in 0..W {
+                if node.kind(slot) == kind::INNER {
+                    let link = base + node.link(slot);
+                    moved.relink(slot, link);
+                    self.parents[link as usize] = i;
+                }
+            }
+            self.nodes[i as usize] = moved;
+        }
+        self.pending.written_nodes.push(range.clone());
+        range
+    }
+
+    /// Makes trails as wide as trees of `depth` levels need, for all triangles.
+    fn reserve_trails(&mut self, depth: u32) {
+        let end = self.triangle_ranges.end() as usize;
+        if self.trail_words == 1 && depth * slot_bits(W) > 32 {
+            self.trail_words = 2;
+            let narrow = core::mem::take(&mut self.trails);
+            self.trails = narrow.into_iter().flat_map(|low| [low, 0]).collect();
+            self.pending.written_trails.push(0..end as u32);
+        }
+        self.trails.resize(end * self.trail_words as usize, 0);
+    }
+}
+
+/// A topology over the triangles of `range`.
+pub(super) fn build_over<N: LightNode<W>, const W: usize>(
+    triangles: &[EmissiveTriangle],
+    range: Range<u32>,
+    params: &crate::build::BuildParams,
+) -> Topology<N> {
+    let mut primitives: Vec<Primitive> = range
+        .map(|i| Primitive::new(i, &LightBounds::of_triangle(&triangles[i as usize])))
+        .collect();
+    build::<N, W>(&mut primitives, kind::LIGHT, params)
+}
+
+/// (level, index) of the nodes that have inner children.
+pub(super) fn inner_nodes<N: LightNode<W>, const W: usize>(
+    topology: &Topology<N>,
+    base: u32,
+) -> Vec<(u32, u32)> {
+    let has_inner = |node: &N| (0..W).any(|slot| node.kind(slot) == kind::INNER);
+    topology
+        .nodes
+        .iter()
+        .zip(&topology.levels)
+        .enumerate()
+        .filter(|(_, (node, _))| has_inner(node))
+        .map(|(i, (_, &level))| (level, base + i as u32))
+        .collect()
+}
+
+/// Sets `list[index]`, with `filler` up to there.
+pub(super) fn put<T: Clone>(list: &mut Vec<T>, index: u32, value: T, filler: &T) {
+    if list.len() <= index as usize {
+        list.resize(index as usize + 1, filler.clone());
+    }
+    list[index as usize] = value;
+}
+
+/// The instance words of an index that is not in use.
+pub(super) fn no_instance() -> Instance {
+    <Instance as crate::tree::MeshLeaf>::world(INVALID, INVALID)
+}

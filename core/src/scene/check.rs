@@ -1,0 +1,174 @@
+//! The door: a batch of edits is checked as a whole before any of it is done.
+
+use alloc::collections::{BTreeMap, BTreeSet};
+
+use super::edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
+use super::{Scene, live};
+use crate::light::EmissiveTriangle;
+use crate::lights::MAX_LIGHTS;
+use crate::node::LightNode;
+use crate::transform::{Extent, Transform};
+
+/// What the edits before this one in the batch have done.
+#[derive(Default)]
+struct Batch {
+    removed_instances: BTreeSet<InstanceId>,
+    removed_meshes: BTreeSet<MeshId>,
+    /// Change of a mesh's number of instances.
+    uses: BTreeMap<MeshId, i64>,
+    /// Extents of deformed meshes, and transforms of moved instances.
+    extents: BTreeMap<MeshId, Extent>,
+    transforms: BTreeMap<InstanceId, Transform>,
+    lights: usize,
+    triangles: usize,
+}
+
+impl<N: LightNode<W>, const W: usize> Scene<N, W> {
+    /// Brings all triangles of the batch into the domain, or says which edit cannot be done.
+    pub(super) fn check(&self, edits: &mut [Edit]) -> Result<(), EditError> {
+        let mut batch = Batch {
+            lights: self.lights.end() as usize,
+            triangles: self.triangles.len(),
+            ..Batch::default()
+        };
+        for (index, edit) in edits.iter_mut().enumerate() {
+            self.check_one(&mut batch, edit)
+                .map_err(|reason| EditError { edit: index, reason })?;
+        }
+        Ok(())
+    }
+
+    fn check_one(&self, batch: &mut Batch, edit: &mut Edit) -> Result<(), EditReason> {
+        match edit {
+            Edit::AddMesh { triangles } => {
+                checked(triangles)?;
+                batch.triangles += triangles.len();
+            }
+            &mut Edit::AddInstance {
+                mesh,
+                transform,
+                radiance,
+            } => {
+                let count = self.known_mesh(batch, mesh)?;
+                transform
+                    .check(&self.extent(batch, mesh))
+                    .map_err(EditReason::Transform)?;
+                factor(radiance)?;
+                *batch.uses.entry(mesh).or_default() += 1;
+                // It may need triangles of its own.
+                batch.lights += count;
+                batch.triangles += count;
+            }
+            &mut Edit::Move { instance, transform } => {
+                let mesh = self.known_instance(batch, instance)?;
+                transform
+                    .check(&self.extent(batch, mesh))
+                    .map_err(EditReason::Transform)?;
+                batch.transforms.insert(instance, transform);
+                batch.triangles += self.mesh_len(mesh);
+            }
+            &mut Edit::Shine { instance, radiance } => {
+                self.known_instance(batch, instance)?;
+                factor(radiance)?;
+            }
+            Edit::Deform { mesh, triangles } => {
+                let expected = self.known_mesh(batch, *mesh)?;
+                if triangles.len() != expected {
+                    let found = triangles.len();
+                    return Err(EditReason::Count { expected, found });
+                }
+                checked(triangles)?;
+                let extent = Extent::of(triangles);
+                for &index in &self.meshes[mesh.index as usize].users {
+                    let placed = &self.placed[index as usize];
+                    let id = InstanceId {
+                        index,
+                        generation: placed.generation,
+                    };
+                    if !batch.removed_instances.contains(&id) {
+                        let transform = batch.transforms.get(&id).unwrap_or(&placed.transform);
+                        transform.check(&extent).map_err(EditReason::Transform)?;
+                    }
+                }
+                batch.extents.insert(*mesh, extent);
+            }
+            &mut Edit::RemoveInstance(id) => {
+                let mesh = self.known_instance(batch, id)?;
+                batch.removed_instances.insert(id);
+                *batch.uses.entry(mesh).or_default() -= 1;
+            }
+            &mut Edit::RemoveMesh(id) => {
+                self.known_mesh(batch, id)?;
+                let now = self.meshes[id.index as usize].users.len() as i64;
+                let instances = now + batch.uses.get(&id).copied().unwrap_or(0);
+                if instances != 0 {
+                    return Err(EditReason::InUse {
+                        instances: instances as usize,
+                    });
+                }
+                batch.removed_meshes.insert(id);
+            }
+        }
+        if batch.lights > MAX_LIGHTS || batch.triangles > MAX_LIGHTS {
+            return Err(EditReason::TooMany);
+        }
+        Ok(())
+    }
+
+    /// Number of triangles of a mesh that is there.
+    fn known_mesh(&self, batch: &Batch, id: MeshId) -> Result<usize, EditReason> {
+        let known = self
+            .meshes
+            .get(id.index as usize)
+            .is_some_and(|mesh| mesh.live && mesh.generation == id.generation);
+        if known && !batch.removed_meshes.contains(&id) {
+            Ok(self.mesh_len(id))
+        } else {
+            Err(EditReason::UnknownMesh(id))
+        }
+    }
+
+    /// The mesh of an instance that is there.
+    fn known_instance(&self, batch: &Batch, id: InstanceId) -> Result<MeshId, EditReason> {
+        match live(&self.placed, id) {
+            Some(placed) if !batch.removed_instances.contains(&id) => Ok(MeshId {
+                index: placed.mesh,
+                generation: self.meshes[placed.mesh as usize].generation,
+            }),
+            _ => Err(EditReason::UnknownInstance(id)),
+        }
+    }
+
+    fn mesh_len(&self, id: MeshId) -> usize {
+        self.blases[self.meshes[id.index as usize].blas as usize]
+            .triangles
+            .len()
+    }
+
+    fn extent(&self, batch: &Batch, id: MeshId) -> Extent {
+        match batch.extents.get(&id) {
+            Some(extent) => *extent,
+            None => self.blases[self.meshes[id.index as usize].blas as usize].extent,
+        }
+    }
+}
+
+fn checked(triangles: &mut [EmissiveTriangle]) -> Result<(), EditReason> {
+    if triangles.is_empty() {
+        return Err(EditReason::EmptyMesh);
+    }
+    for (index, triangle) in triangles.iter_mut().enumerate() {
+        *triangle = triangle
+            .checked()
+            .map_err(|error| EditReason::Light { index, error })?;
+    }
+    Ok(())
+}
+
+fn factor(radiance: f32) -> Result<(), EditReason> {
+    if radiance == 0.0 || (RADIANCE_FACTORS[0]..=RADIANCE_FACTORS[1]).contains(&radiance) {
+        Ok(())
+    } else {
+        Err(EditReason::Radiance { value: radiance })
+    }
+}

@@ -1,0 +1,165 @@
+//! What may change in a scene, and why a change may be refused.
+
+use alloc::vec::Vec;
+use core::fmt;
+
+use crate::light::{EmissiveTriangle, LightError};
+use crate::transform::{Transform, TransformError};
+
+/// A mesh of emissive triangles; stays the same as long as the mesh is in the scene, and never means another one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct MeshId {
+    pub(super) index: u32,
+    pub(super) generation: u32,
+}
+
+/// A mesh's place in the world; stays the same as long as the instance is in the scene, and never means another one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct InstanceId {
+    pub(super) index: u32,
+    pub(super) generation: u32,
+}
+
+impl InstanceId {
+    /// Index of the instance among [`Scene::instances`](super::Scene::instances), and of the mesh light that its triangles
+    /// belong to.
+    #[must_use]
+    pub fn index(self) -> u32 {
+        self.index
+    }
+}
+
+/// One change of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Edit {
+    /// A new mesh, not in the world yet. Triangles are in the mesh's own space; their `mesh` is ignored.
+    AddMesh {
+        /// At least one.
+        triangles: Vec<EmissiveTriangle>,
+    },
+    /// A mesh put into the world.
+    AddInstance {
+        /// Which mesh.
+        mesh: MeshId,
+        /// Where.
+        transform: Transform,
+        /// Factor on the mesh's radiance: 0, or from 2^-60 to 2^60.
+        radiance: f32,
+    },
+    /// An instance moved.
+    Move {
+        /// Which one.
+        instance: InstanceId,
+        /// Where to.
+        transform: Transform,
+    },
+    /// An instance made brighter, dimmed, or turned off.
+    Shine {
+        /// Which one.
+        instance: InstanceId,
+        /// Factor on the mesh's radiance: 0, or from 2^-60 to 2^60.
+        radiance: f32,
+    },
+    /// New vertices or new emission of a mesh, in all its instances.
+    Deform {
+        /// Which mesh.
+        mesh: MeshId,
+        /// As many triangles as before.
+        triangles: Vec<EmissiveTriangle>,
+    },
+    /// An instance taken out of the world.
+    RemoveInstance(InstanceId),
+    /// A mesh without instances taken out of the scene.
+    RemoveMesh(MeshId),
+}
+
+/// Least and greatest factor on radiance that is not zero: 2^-60 and 2^60.
+pub const RADIANCE_FACTORS: [f32; 2] = [crate::exact::pow2(-60), crate::exact::pow2(60)];
+
+/// Why a batch of edits is refused; none of it has been done then.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EditError {
+    /// Index of the edit in the batch.
+    pub edit: usize,
+    /// What is wrong with it.
+    pub reason: EditReason,
+}
+
+/// What is wrong with an edit.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EditReason {
+    /// No mesh has that id, or none any more.
+    UnknownMesh(MeshId),
+    /// No instance has that id, or none any more.
+    UnknownInstance(InstanceId),
+    /// A mesh has no triangle.
+    EmptyMesh,
+    /// A triangle of a mesh is outside the domain.
+    Light {
+        /// Its index in the edit.
+        index: usize,
+        /// What is wrong with it.
+        error: LightError,
+    },
+    /// A transform is outside the domain.
+    Transform(TransformError),
+    /// A factor on radiance is outside [`RADIANCE_FACTORS`].
+    Radiance {
+        /// What was found.
+        value: f32,
+    },
+    /// A mesh is to be deformed into another number of triangles.
+    Count {
+        /// What the mesh has.
+        expected: usize,
+        /// What the edit has.
+        found: usize,
+    },
+    /// A mesh to be removed still has instances.
+    InUse {
+        /// Their number.
+        instances: usize,
+    },
+    /// More than 2^30 lights or triangles.
+    TooMany,
+}
+
+impl fmt::Display for EditError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "edit {}: {}", self.edit, self.reason)
+    }
+}
+
+impl fmt::Display for EditReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownMesh(id) => write!(
+                f,
+                "no mesh {} of generation {}; it was removed, or belongs to another scene",
+                id.index, id.generation
+            ),
+            Self::UnknownInstance(id) => write!(
+                f,
+                "no instance {} of generation {}; it was removed, or belongs to another scene",
+                id.index, id.generation
+            ),
+            Self::EmptyMesh => write!(f, "a mesh without emissive triangles; leave it out"),
+            Self::Light { index, error } => write!(f, "emissive triangle {index}: {error}"),
+            Self::Transform(error) => write!(f, "{error}"),
+            Self::Radiance { value } => write!(
+                f,
+                "factor on radiance {value}, expected 0 or a number from 2^-60 to 2^60; put the rest into the mesh"
+            ),
+            Self::Count { expected, found } => write!(
+                f,
+                "{found} triangles for a mesh of {expected}; add a mesh of its own instead"
+            ),
+            Self::InUse { instances } => {
+                write!(f, "the mesh still has {instances} instances; remove them first")
+            }
+            Self::TooMany => write!(f, "more than 2^30 triangles or lights; split the scene"),
+        }
+    }
+}
+
+impl core::error::Error for EditError {}

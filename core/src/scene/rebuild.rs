@@ -1,0 +1,224 @@
+//! Rebuilds beside the frame (paper section 3.5): what to build is taken out of the scene, built anywhere, and swapped in.
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use super::Scene;
+use super::blas::{build_over, inner_nodes};
+use crate::build::{BuildParams, Primitive, Topology, build, drift};
+use crate::levels::Levels;
+use crate::light::EmissiveTriangle;
+use crate::node::{LightNode, kind};
+use crate::refit;
+
+/// When trees are built anew.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RebuildParams {
+    /// Whether the top level is.
+    pub top: bool,
+    /// A bottom level is once its cost (paper Eq. 3, summed over its nodes) has grown by this factor since it was built;
+    /// infinite for never.
+    pub drift: f64,
+}
+
+impl Default for RebuildParams {
+    /// The top level always, bottom levels at 1.5 times their cost.
+    fn default() -> Self {
+        Self {
+            top: true,
+            drift: 1.5,
+        }
+    }
+}
+
+/// Work for any thread: a copy of what is to be built anew.
+#[derive(Clone, Debug)]
+pub struct Rebuild<N, const W: usize> {
+    params: BuildParams,
+    taken: Taken,
+    top: Option<TopLeaves<N>>,
+    bottoms: Vec<Bottom>,
+}
+
+/// When a copy was taken: the scene's counts of edits and of refits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Taken {
+    clock: u64,
+    refits: u64,
+}
+
+/// The leaves of the top level, their words as they stand in the nodes.
+#[derive(Clone, Debug)]
+struct TopLeaves<N> {
+    nodes: Vec<N>,
+    /// (instance, index into `nodes`, slot).
+    leaves: Vec<(u32, u32, u32)>,
+}
+
+/// A bottom level whose cost has drifted.
+#[derive(Clone, Debug)]
+struct Bottom {
+    blas: u32,
+    born: u64,
+    range: Range<u32>,
+    triangles: Vec<EmissiveTriangle>,
+}
+
+/// What a [`Rebuild`] gives: trees to be swapped in by [`Scene::adopt`].
+#[derive(Debug)]
+pub struct Rebuilt<N, const W: usize> {
+    taken: Taken,
+    /// Nodes of the top level, refitted.
+    top: Option<Vec<N>>,
+    bottoms: Vec<(Bottom, Topology<N>)>,
+}
+
+impl<N: LightNode<W>, const W: usize> Rebuild<N, W> {
+    /// Whether there is nothing to build.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.top.is_none() && self.bottoms.is_empty()
+    }
+
+    /// Builds. The result depends on nothing but `self`: not on the thread, nor on when it runs.
+    #[must_use]
+    pub fn run(self) -> Rebuilt<N, W> {
+        let top = self.top.map(|leaves| build_top::<N, W>(&leaves, &self.params));
+        let params = self.params;
+        let bottoms = self.bottoms.into_iter().map(|bottom| {
+            let count = bottom.triangles.len() as u32;
+            let mut topology = build_over::<N, W>(&bottom.triangles, 0..count, &params);
+            let first = bottom.range.start;
+            for node in &mut topology.nodes {
+                for slot in 0..W {
+                    if node.kind(slot) == kind::LIGHT {
+                        node.relink(slot, first + node.link(slot));
+                    }
+                }
+            }
+            for (triangle, _) in &mut topology.trails {
+                *triangle += first;
+            }
+            (bottom, topology)
+        });
+        Rebuilt {
+            taken: self.taken,
+            top,
+            bottoms: bottoms.collect(),
+        }
+    }
+}
+
+/// The nodes of a tree over the leaves, refitted.
+fn build_top<N: LightNode<W>, const W: usize>(old: &TopLeaves<N>, params: &BuildParams) -> Vec<N> {
+    let mut primitives: Vec<Primitive> = (0..)
+        .zip(&old.leaves)
+        .map(|(i, &(_, node, slot))| Primitive::new(i, &old.nodes[node as usize].bounds(slot as usize)))
+        .collect();
+    if primitives.is_empty() {
+        return alloc::vec![N::EMPTY];
+    }
+    let mut topology: Topology<N> = build::<N, W>(&mut primitives, kind::MESH, params);
+    for node in &mut topology.nodes {
+        for slot in 0..W {
+            if node.kind(slot) == kind::MESH {
+                let (_, from, child) = old.leaves[node.link(slot) as usize];
+                node.copy_child(slot, &old.nodes[from as usize], child as usize);
+            }
+        }
+    }
+    let levels = Levels::gather(inner_nodes::<N, W>(&topology, 0));
+    for &node in levels.nodes() {
+        topology.nodes[node as usize] = refit::level(&topology.nodes, node);
+    }
+    topology.nodes
+}
+
+impl<N: LightNode<W>, const W: usize> Scene<N, W> {
+    /// Takes a copy of what `params` wants built anew, as it stands after a [`refit`](Self::refit).
+    #[must_use]
+    pub fn rebuild(&self, params: &RebuildParams) -> Rebuild<N, W> {
+        let top = params.top.then(|| {
+            let mut nodes = Vec::with_capacity(self.top.leaves.len());
+            let mut leaves = Vec::with_capacity(self.instances.len());
+            for (i, &index) in (0..).zip(&self.top.leaves) {
+                let node = &self.nodes[index as usize];
+                nodes.push(*node);
+                for slot in 0..W {
+                    if node.kind(slot) == kind::MESH {
+                        leaves.push((node.link(slot), i, slot as u32));
+                    }
+                }
+            }
+            TopLeaves { nodes, leaves }
+        });
+        let drifted = self.work.roots.iter().filter(|&&blas| {
+            let own = &self.blases[blas as usize];
+            // A refit that follows a build has nothing to compare.
+            let nodes = &self.nodes[own.nodes.start as usize..own.nodes.end as usize];
+            params.drift.is_finite()
+                && !nodes.is_empty()
+                && drift(nodes, &self.roots[blas as usize].bounds()) > params.drift * own.cost
+        });
+        let bottoms = drifted.map(|&blas| {
+            let own = &self.blases[blas as usize];
+            let range = own.triangles.clone();
+            Bottom {
+                blas,
+                born: own.born,
+                triangles: self.triangles[range.start as usize..range.end as usize].to_vec(),
+                range,
+            }
+        });
+        Rebuild {
+            params: self.params,
+            taken: self.now(),
+            top,
+            bottoms: bottoms.collect(),
+        }
+    }
+
+    /// Swaps in what was built. Edits since the [`rebuild`](Self::rebuild) are not lost: instances removed meanwhile leave
+    /// empty slots, added ones are grafted on, bottom levels replaced meanwhile stay as they are. Comes before the next
+    /// frame's [`update`](Self::update) or after it, but before its [`refit`](Self::refit).
+    pub fn adopt(&mut self, rebuilt: Rebuilt<N, W>) {
+        // Words copied from the leaves of then are those of now unless something came between.
+        let stale = rebuilt.taken != self.now();
+        for (bottom, topology) in &rebuilt.bottoms {
+            let own = &self.blases[bottom.blas as usize];
+            if own.born == bottom.born && own.triangles == bottom.range {
+                self.place_blas(bottom.blas, topology);
+                self.reroot(bottom.blas);
+            }
+        }
+        if let Some(mut nodes) = rebuilt.top {
+            let since = rebuilt.taken.clock;
+            for node in &mut nodes {
+                for slot in 0..W {
+                    if node.kind(slot) == kind::MESH {
+                        let placed = &self.placed[node.link(slot) as usize];
+                        if !placed.live || placed.born > since {
+                            node.set_child(slot, kind::EMPTY, 0);
+                        }
+                    }
+                }
+            }
+            self.replace_top(&nodes);
+            let added: Vec<u32> = (0..self.placed.len() as u32)
+                .filter(|&i| {
+                    let placed = &self.placed[i as usize];
+                    placed.live && placed.born > since
+                })
+                .collect();
+            self.graft(&added);
+            self.pending.whole_top |= stale;
+        }
+    }
+
+    fn now(&self) -> Taken {
+        Taken {
+            clock: self.clock,
+            refits: self.refits,
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! Refit of what changed, on the CPU, and the lists by which a device does the same.
+
+use alloc::collections::BTreeSet;
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use super::Scene;
+use super::blas::Owner;
+use crate::levels::Levels;
+use crate::node::LightNode;
+use crate::refit;
+use crate::tree::INVALID;
+
+/// Where more than this share of the top level's leaves changed, all of it is refitted by its ready-made lists.
+const MOST: usize = 3;
+
+/// What changed since the last refit.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Pending {
+    /// Bottom levels whose triangles changed.
+    pub blases: BTreeSet<u32>,
+    /// Bottom levels that are new, their bounds known.
+    pub built: BTreeSet<u32>,
+    /// Indices of instances; may repeat.
+    pub instances: Vec<u32>,
+    /// Nodes of the top level that lost a child or were made anew; may repeat.
+    pub top_nodes: Vec<u32>,
+    /// Whether the whole top level is new.
+    pub whole_top: bool,
+    pub written_nodes: Vec<Range<u32>>,
+    pub written_triangles: Vec<Range<u32>>,
+    pub written_trails: Vec<Range<u32>>,
+    /// Indices of instances whose words changed; may repeat.
+    pub written_instances: Vec<u32>,
+}
+
+impl Pending {
+    /// The triangles of a bottom level changed.
+    pub fn mark_blas(&mut self, index: u32) {
+        self.blases.insert(index);
+    }
+
+    /// A bottom level was built, with the bounds of its triangles as they are.
+    pub fn mark_built(&mut self, index: u32) {
+        self.blases.remove(&index);
+        self.built.insert(index);
+    }
+
+    /// A bottom level is gone.
+    pub fn forget_blas(&mut self, index: u32) {
+        self.blases.remove(&index);
+        self.built.remove(&index);
+    }
+
+    pub fn mark_instance(&mut self, index: u32) {
+        self.instances.push(index);
+        self.written_instances.push(index);
+    }
+}
+
+/// What the last refit did: what a mirror of the scene's arrays must copy, and the lists of the passes that then make its
+/// nodes the same. Copy first, then run [`refit::leaves`], [`refit::level`], [`refit::root`], [`refit::mesh_leaves`] and
+/// [`refit::level`] over the lists in this order, each range of levels by itself.
+#[derive(Clone, Debug, Default)]
+pub struct Work {
+    /// Nodes whose links or kinds changed.
+    pub written_nodes: Vec<Range<u32>>,
+    /// Triangles that changed.
+    pub written_triangles: Vec<Range<u32>>,
+    /// Triangles whose trails changed.
+    pub written_trails: Vec<Range<u32>>,
+    /// Instances that changed.
+    pub written_instances: Vec<Range<u32>>,
+    /// Nodes of bottom levels whose triangles changed.
+    pub leaves: Vec<u32>,
+    /// Those of them with inner children.
+    pub levels: Levels,
+    /// Bottom levels whose root changed: another node, or other bounds. A mirror takes the node from [`Scene::roots`].
+    pub roots: Vec<u32>,
+    /// Nodes of the top level with instances that changed.
+    pub instances: Vec<u32>,
+    /// Nodes of the top level above those.
+    pub top: Levels,
+}
+
+impl Work {
+    /// Number of nodes and roots that the passes compute.
+    #[must_use]
+    pub fn computed(&self) -> usize {
+        self.leaves.len()
+            + self.levels.nodes().len()
+            + self.roots.len()
+            + self.instances.len()
+            + self.top.nodes().len()
+    }
+}
+
+impl<N: LightNode<W>, const W: usize> Scene<N, W> {
+    /// Computes the nodes that the last edits touch, and no other.
+    pub fn refit(&mut self) {
+        self.plan();
+        let work = core::mem::take(&mut self.work);
+        self.refits += u64::from(work.computed() > 0);
+        run(&mut self.nodes, &work.leaves, |nodes, i| {
+            refit::leaves(nodes, &self.triangles, i)
+        });
+        for range in work.levels.ranges() {
+            run(&mut self.nodes, &work.levels.nodes()[range], |nodes, i| {
+                refit::level(nodes, i)
+            });
+        }
+        for &blas in &work.roots {
+            let root = self.roots[blas as usize].node;
+            self.roots[blas as usize] = refit::root(&self.nodes, root);
+        }
+        run(&mut self.nodes, &work.instances, |nodes, i| {
+            refit::mesh_leaves(nodes, &self.instances, &self.roots, i)
+        });
+        for range in work.top.ranges() {
+            run(&mut self.nodes, &work.top.nodes()[range], |nodes, i| {
+                refit::level(nodes, i)
+            });
+        }
+        self.work = work;
+    }
+
+    /// What the last [`refit`](Self::refit) did.
+    #[must_use]
+    pub fn work(&self) -> &Work {
+        &self.work
+    }
+
+    /// Turns what is pending into lists.
+    fn plan(&mut self) {
+        let pending = core::mem::take(&mut self.pending);
+        let mut work = Work {
+            written_nodes: pending.written_nodes,
+            written_triangles: pending.written_triangles,
+            written_trails: pending.written_trails,
+            written_instances: joined(pending.written_instances),
+            ..Work::default()
+        };
+        let mut instances = pending.instances;
+        let mut lists = Vec::new();
+        for &blas in &pending.blases {
+            let own = &self.blases[blas as usize];
+            work.leaves.extend(own.nodes.clone());
+            lists.push(&own.levels);
+        }
+        work.levels = Levels::join(&lists);
+        for &blas in pending.blases.union(&pending.built) {
+            work.roots.push(blas);
+            instances.extend(self.users_of(blas));
+        }
+
+        let all = self.top.leaves.len();
+        if pending.whole_top || instances.len() > all * W / MOST {
+            work.instances = self.top.leaves.clone();
+            work.top = self.top.levels.clone();
+        } else {
+            self.dirty_top(&instances, &pending.top_nodes, &mut work);
+        }
+        self.work = work;
+    }
+
+    /// The leaves of the given instances and all nodes above them and above the given ones.
+    fn dirty_top(&mut self, instances: &[u32], nodes: &[u32], work: &mut Work) {
+        let mut leaves: Vec<u32> = instances
+            .iter()
+            .map(|&i| self.placed[i as usize].node)
+            .filter(|&node| node != INVALID)
+            .collect();
+        leaves.sort_unstable();
+        leaves.dedup();
+        let mut pairs = Vec::new();
+        self.top.mark += 1;
+        for &start in leaves.iter().chain(nodes) {
+            let mut node = self.parents[start as usize];
+            while node != INVALID && self.top.marks[node as usize] != self.top.mark {
+                self.top.marks[node as usize] = self.top.mark;
+                pairs.push((self.top.node_levels[node as usize], node));
+                node = self.parents[node as usize];
+            }
+        }
+        work.instances = leaves;
+        work.top = Levels::gather(pairs);
+    }
+
+    /// Indices of the instances of a bottom level.
+    fn users_of(&self, blas: u32) -> Vec<u32> {
+        match self.blases[blas as usize].owner {
+            Owner::Instance(index) => alloc::vec![index],
+            Owner::Mesh(mesh) => {
+                let users = self.meshes[mesh as usize].users.iter();
+                users
+                    .copied()
+                    .filter(|&user| self.placed[user as usize].own.is_none())
+                    .collect()
+            }
+        }
+    }
+}
+
+/// Gives each listed node the value that `node` computes from the nodes below it; nodes of one list do not depend on each
+/// other.
+fn run<N: Copy>(nodes: &mut [N], list: &[u32], node: impl Fn(&[N], u32) -> N) {
+    for &i in list {
+        nodes[i as usize] = node(nodes, i);
+    }
+}
+
+/// Indices as ranges, in order, each once.
+fn joined(mut indices: Vec<u32>) -> Vec<Range<u32>> {
+    indices.sort_unstable();
+    let mut out: Vec<Range<u32>> = Vec::new();
+    for i in indices {
+        match out.last_mut() {
+            Some(last) if i < last.end => {}
+            Some(last) if i == last.end => last.end += 1,
+            _ => out.push(i..i + 1),
+        }
+    }
+    out
+}

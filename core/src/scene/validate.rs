@@ -1,0 +1,310 @@
+//! The invariants of a scene, checked one by one; the first that does not hold is named.
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use super::Scene;
+use crate::node::{LightNode, kind};
+use crate::refit;
+use crate::trail::{BitTrail, max_levels};
+use crate::tree::{INVALID, MeshLeaf};
+use crate::validate::{Violation, What, contained, equal, same_words};
+
+/// What a valid scene consists of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SceneStats {
+    /// Nodes in use.
+    pub nodes: u32,
+    /// Instances in use.
+    pub instances: u32,
+    /// Bottom levels in use: those shared, and those of single instances.
+    pub blases: u32,
+    /// Lights in the world.
+    pub lights: u32,
+    /// Greatest number of nodes on a way from the root to a light.
+    pub depth: u32,
+}
+
+/// A tree that is walked: its nodes in order of the walk, and what was found.
+struct Found {
+    /// Nodes by level.
+    levels: Vec<(u32, u32)>,
+    /// (leaf's link, node, slot, trail).
+    leaves: Vec<(u32, u32, u32, BitTrail)>,
+    depth: u32,
+}
+
+impl<N: LightNode<W>, const W: usize> Scene<N, W> {
+    /// Checks every invariant, after a [`refit`](Self::refit):
+    /// - each node in use is reached once, through links that are in range, and knows its parent;
+    /// - each live instance is a leaf of the top level exactly once, each triangle of a bottom level a leaf of it exactly
+    ///   once, and their trails lead there;
+    /// - ranges of nodes, triangles and lights in use do not overlap;
+    /// - an instance's words are those of its transform, mesh and bottom level;
+    /// - every word of every bounds is what refit makes of triangles and instances from scratch;
+    /// - a child's box, cone and flux lie within its parent's.
+    ///
+    /// # Errors
+    /// The first [`Violation`].
+    pub fn validate(&self) -> Result<SceneStats, Violation> {
+        let mut seen = alloc::vec![false; self.nodes.len()];
+        let mut again: Vec<N> = alloc::vec![N::EMPTY; self.nodes.len()];
+        let mut used_triangles: Vec<Range<u32>> = Vec::new();
+        let mut blases = 0;
+        let mut bottom_depth = 0;
+
+        for (index, blas) in self
+            .blases
+            .iter()
+            .enumerate()
+            .filter(|(_, b)| !b.nodes.is_empty())
+        {
+            blases += 1;
+            let root = self.roots[index].node;
+            equal(root, INVALID, What::Root, blas.nodes.start, root)?;
+            let found = self.walk(root, kind::LIGHT, &mut seen)?;
+            bottom_depth = bottom_depth.max(found.depth);
+            let mut times = alloc::vec![0u32; blas.triangles.len()];
+            for &(link, node, slot, trail) in &found.leaves {
+                if !blas.triangles.contains(&link) {
+                    return Err(bad(node, slot, What::Owner, blas.triangles.start, link));
+                }
+                times[(link - blas.triangles.start) as usize] += 1;
+                let own = self.trail_of(link);
+                equal(node, slot, What::TrailLow, trail.low, own.low)?;
+                equal(node, slot, What::TrailHigh, trail.high, own.high)?;
+                let owner = self.triangles[link as usize].mesh;
+                equal(node, slot, What::Owner, index as u32, owner)?;
+            }
+            for (triangle, &count) in (blas.triangles.start..).zip(&times) {
+                equal(INVALID, triangle, What::Triangle, 1, count)?;
+            }
+            self.refit_again(&found, &mut again, false);
+            let bounds = refit::root(&again, root).bounds();
+            same_words(
+                INVALID,
+                index as u32,
+                &refit::BlasRoot::new(root, &bounds),
+                &self.roots[index],
+            )?;
+            used_triangles.push(blas.triangles.clone());
+        }
+        disjoint(used_triangles)?;
+
+        let found = self.walk(self.top.root, kind::MESH, &mut seen)?;
+        let mut times = alloc::vec![0u32; self.placed.len()];
+        for &(link, node, slot, trail) in &found.leaves {
+            if link as usize >= self.placed.len() || !self.placed[link as usize].live {
+                return Err(bad(node, slot, What::Mesh, INVALID, link));
+            }
+            times[link as usize] += 1;
+            let placed = &self.placed[link as usize];
+            equal(node, slot, What::Link, node, placed.node)?;
+            equal(node, slot, What::Link, slot, placed.slot)?;
+            let own = self.instances[link as usize].trail();
+            equal(node, slot, What::TrailLow, trail.low, own.low)?;
+            equal(node, slot, What::TrailHigh, trail.high, own.high)?;
+        }
+        self.refit_again(&found, &mut again, true);
+
+        let mut used_lights = Vec::new();
+        let mut instances = 0;
+        for (index, placed) in (0u32..).zip(&self.placed) {
+            equal(
+                INVALID,
+                index,
+                What::Mesh,
+                u32::from(placed.live),
+                times[index as usize],
+            )?;
+            if placed.live {
+                instances += 1;
+                used_lights.push(placed.lights.clone());
+                self.check_instance(index)?;
+            }
+        }
+        let lights = used_lights
+            .iter()
+            .map(|range: &Range<u32>| range.end - range.start)
+            .sum();
+        disjoint(used_lights)?;
+
+        let mut nodes = 0;
+        for (index, (expected, found)) in (0u32..).zip(again.iter().zip(&self.nodes)) {
+            if seen[index as usize] {
+                nodes += 1;
+                crate::validate::same(index, expected, found)?;
+                self.check_children(index)?;
+            }
+        }
+        Ok(SceneStats {
+            nodes,
+            instances,
+            blases,
+            lights,
+            depth: found.depth + bottom_depth,
+        })
+    }
+
+    /// Walks the tree below `root`, whose leaves are to be of `leaf` kind.
+    fn walk(&self, root: u32, leaf: u32, seen: &mut [bool]) -> Result<Found, Violation> {
+        let mut found = Found {
+            levels: Vec::new(),
+            leaves: Vec::new(),
+            depth: 0,
+        };
+        let mut stack = alloc::vec![(root, INVALID, 0, BitTrail::default())];
+        while let Some((node, parent, level, trail)) = stack.pop() {
+            if node as usize >= self.nodes.len() {
+                return Err(bad(
+                    parent,
+                    INVALID,
+                    What::Link,
+                    self.nodes.len() as u32 - 1,
+                    node,
+                ));
+            }
+            if level >= max_levels(W) {
+                return Err(bad(node, INVALID, What::Level, max_levels(W) - 1, level));
+            }
+            equal(
+                node,
+                INVALID,
+                What::Reached,
+                1,
+                1 + u32::from(seen[node as usize]),
+            )?;
+            seen[node as usize] = true;
+            equal(node, INVALID, What::Link, parent, self.parents[node as usize])?;
+            found.levels.push((level, node));
+            found.depth = found.depth.max(level + 1);
+            let own = &self.nodes[node as usize];
+            for slot in 0..W {
+                let (to, link) = (own.kind(slot), own.link(slot));
+                let way = trail.with::<W>(level, slot as u32);
+                if to == kind::INNER {
+                    stack.push((link, node, level + 1, way));
+                } else if to == leaf {
+                    found.leaves.push((link, node, slot as u32, way));
+                } else {
+                    equal(node, slot as u32, What::Kind, kind::EMPTY, to)?;
+                }
+            }
+        }
+        Ok(found)
+    }
+
+    /// Bounds from scratch, into `again`, of the nodes found.
+    fn refit_again(&self, found: &Found, again: &mut [N], top: bool) {
+        let mut levels = found.levels.clone();
+        levels.sort_unstable_by_key(|&(level, node)| (core::cmp::Reverse(level), node));
+        for &(_, node) in &levels {
+            let mut bare = N::EMPTY;
+            let own = &self.nodes[node as usize];
+            for slot in 0..W {
+                bare.set_child(slot, own.kind(slot), own.link(slot));
+            }
+            again[node as usize] = bare;
+        }
+        for &(_, node) in &levels {
+            again[node as usize] = if top {
+                refit::mesh_leaves(again, &self.instances, &self.roots, node)
+            } else {
+                refit::leaves(again, &self.triangles, node)
+            };
+            again[node as usize] = refit::level(again, node);
+        }
+    }
+
+    /// An instance's words against its transform, mesh and bottom level.
+    fn check_instance(&self, index: u32) -> Result<(), Violation> {
+        let placed = &self.placed[index as usize];
+        let found = &self.instances[index as usize];
+        let blas = self.blas_index(placed);
+        let own = &self.blases[blas as usize];
+        equal(INVALID, index, What::Blas, blas, found.blas)?;
+        equal(
+            INVALID,
+            index,
+            What::Root,
+            self.roots[blas as usize].node,
+            found.root,
+        )?;
+        equal(INVALID, index, What::First, placed.lights.start, found.first)?;
+        equal(
+            INVALID,
+            index,
+            What::First,
+            own.triangles.start,
+            found.first_triangle,
+        )?;
+        let count = own.triangles.end - own.triangles.start;
+        equal(
+            INVALID,
+            index,
+            What::First,
+            count,
+            placed.lights.end - placed.lights.start,
+        )?;
+        if placed.own.is_none() {
+            let expected = placed.transform.similarity(&own.extent, placed.radiance);
+            let Some(expected) = expected else {
+                return Err(bad(INVALID, index, What::Blas, INVALID, blas));
+            };
+            let expected = crate::instance::Instance {
+                root: found.root,
+                trail: found.trail,
+                blas: found.blas,
+                first: found.first,
+                first_triangle: found.first_triangle,
+                ..expected
+            };
+            same_words(INVALID, index, &expected, found)?;
+        }
+        Ok(())
+    }
+
+    /// The children of what `node` links to lie within what it holds of them.
+    fn check_children(&self, node: u32) -> Result<(), Violation> {
+        let own = &self.nodes[node as usize];
+        for slot in 0..W {
+            if own.kind(slot) == kind::INNER {
+                let child = own.link(slot);
+                contained(&own.bounds(slot), child, &self.nodes[child as usize])?;
+            }
+        }
+        Ok(())
+    }
+
+    fn trail_of(&self, triangle: u32) -> BitTrail {
+        let at = triangle as usize * self.trail_words as usize;
+        BitTrail {
+            low: self.trails[at],
+            high: if self.trail_words == 2 {
+                self.trails[at + 1]
+            } else {
+                0
+            },
+        }
+    }
+}
+
+fn disjoint(mut ranges: Vec<Range<u32>>) -> Result<(), Violation> {
+    ranges.sort_unstable_by_key(|range| (range.start, range.end));
+    for pair in ranges.windows(2) {
+        if pair[0].end > pair[1].start {
+            return Err(bad(INVALID, INVALID, What::First, pair[0].end, pair[1].start));
+        }
+    }
+    Ok(())
+}
+
+fn bad(node: u32, slot: u32, what: What, expected: u32, found: u32) -> Violation {
+    Violation {
+        node,
+        slot,
+        what,
+        expected,
+        found,
+    }
+}

@@ -1,0 +1,304 @@
+//! Affine maps of instances, and which of them a shared bottom level can serve.
+
+use core::fmt;
+
+use crate::exact;
+use crate::instance::Instance;
+use crate::light::{EmissiveTriangle, MAX_COORDINATE, MIN_COORDINATE};
+use crate::tree::MeshLeaf;
+
+/// Most that the columns' products may be off those of s times an orthogonal matrix, as a share of s²: 2^-21, what rounding
+/// a rotation to `f32` leaves and some more.
+const SIMILAR: f64 = 1.0 / 2_097_152.0;
+/// Least and greatest scale that a shared bottom level can serve: 2^-19 and 2^19.
+const SCALES: [f64; 2] = [1.0 / 524_288.0, 524_288.0];
+/// Least extent of a mesh in the world that a shared bottom level can serve, metres: 2^-30.
+const LEAST_EXTENT: f64 = 1.0 / 1_073_741_824.0;
+/// Greatest angle by which rounding may turn a normal before a mesh needs triangles of its own, rad.
+const MOST_TILT: f64 = 0.125;
+/// Entries below this share of the scale count as zero: 2^-26.
+const TINY_ENTRY: f64 = 1.0 / 67_108_864.0;
+/// 2^-22: one rounding of 2^-24 for each of three products and three sums makes less than four of them.
+const ROUNDING: f64 = 1.0 / 4_194_304.0;
+/// What a similarity may turn a normal by itself, rad: 2^-18, for columns off by 2^-21 and the normalisation of axes.
+const BASE_TILT: f64 = 1.0 / 262_144.0;
+
+/// An affine map `x ↦ A x + t` from a mesh's space to the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Transform {
+    /// The columns of A; each entry of magnitude at most 2^40.
+    pub columns: [[f32; 3]; 3],
+    /// t, metres; each entry of magnitude at most 2^40.
+    pub translation: [f32; 3],
+}
+
+/// How large a mesh is, and how fine: what rounding is measured against.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Extent {
+    /// Greatest distance of a vertex from the mesh's origin, metres.
+    pub radius: f64,
+    /// Least height of a triangle whose normal counts, metres; infinite where there is none.
+    pub finest: f64,
+}
+
+impl Transform {
+    /// Leaves everything where it is.
+    pub const IDENTITY: Self = Self {
+        columns: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        translation: [0.0; 3],
+    };
+
+    /// Moves by `translation` metres.
+    #[must_use]
+    pub const fn at(translation: [f32; 3]) -> Self {
+        Self {
+            translation,
+            ..Self::IDENTITY
+        }
+    }
+
+    /// Whether every entry is a number within the domain, and a mesh of that extent stays within it.
+    pub(crate) fn check(&self, extent: &Extent) -> Result<(), TransformError> {
+        for (column, entries) in self.columns.iter().chain([&self.translation]).enumerate() {
+            for (row, &value) in entries.iter().enumerate() {
+                // NaN is in no range.
+                if !(-MAX_COORDINATE..=MAX_COORDINATE).contains(&value) {
+                    return Err(TransformError::Entry { row, column, value });
+                }
+            }
+        }
+        let reach = (0..3).map(|row| {
+            let across: f64 = self.columns.iter().map(|c| magnitude(f64::from(c[row]))).sum();
+            across * extent.radius + magnitude(f64::from(self.translation[row]))
+        });
+        let farthest = reach.fold(0.0, f64::max);
+        if farthest > f64::from(MAX_COORDINATE) {
+            return Err(TransformError::TooFar {
+                metres: farthest as f32,
+            });
+        }
+        Ok(())
+    }
+
+    fn column(&self, k: usize) -> [f64; 3] {
+        self.columns[k].map(f64::from)
+    }
+
+    fn determinant(&self) -> f64 {
+        let [a, b, c] = [self.column(0), self.column(1), self.column(2)];
+        a[0] * (b[1] * c[2] - b[2] * c[1]) - b[0] * (a[1] * c[2] - a[2] * c[1])
+            + c[0] * (a[1] * b[2] - a[2] * b[1])
+    }
+
+    /// A point of the mesh in the world, rounded once.
+    fn point(&self, p: [f32; 3]) -> [f32; 3] {
+        let p = p.map(f64::from);
+        core::array::from_fn(|row| {
+            let across = f64::from(self.columns[0][row]) * p[0]
+                + f64::from(self.columns[1][row]) * p[1]
+                + f64::from(self.columns[2][row]) * p[2];
+            exact::flush((across + f64::from(self.translation[row])) as f32, MIN_COORDINATE)
+        })
+    }
+
+    /// A triangle of the mesh in the world; where the map mirrors, two vertices are swapped, so that the front stays in
+    /// front.
+    pub(crate) fn bake(&self, triangle: &EmissiveTriangle) -> EmissiveTriangle {
+        let [a, b, c] = triangle.p.map(|p| self.point(p));
+        let mirrors = self.determinant() < 0.0;
+        EmissiveTriangle {
+            p: if mirrors { [a, c, b] } else { [a, b, c] },
+            ..*triangle
+        }
+    }
+
+    /// `self ∘ baked⁻¹`: the map of what was baked to where it is to stand now. `None` where the baked map was singular.
+    pub(crate) fn since(&self, baked: &Self) -> Option<Self> {
+        let determinant = baked.determinant();
+        let [a, b, c] = [baked.column(0), baked.column(1), baked.column(2)];
+        let lengths = length(a) * length(b) * length(c);
+        // Flat maps cannot be undone, nearly flat ones not precisely.
+        if magnitude(determinant) <= 1e-9 * lengths {
+            return None;
+        }
+        // Rows of the inverse: cross products of the columns over the determinant.
+        let rows = [cross(b, c), cross(c, a), cross(a, b)].map(|row| row.map(|x| x / determinant));
+        let mut columns = [[0.0f64; 3]; 3];
+        for (k, column) in columns.iter_mut().enumerate() {
+            for (row, entry) in column.iter_mut().enumerate() {
+                *entry = (0..3).map(|j| f64::from(self.columns[j][row]) * rows[j][k]).sum();
+            }
+        }
+        let translation: [f32; 3] = core::array::from_fn(|row| {
+            let moved: f64 = (0..3)
+                .map(|k| columns[k][row] * f64::from(baked.translation[k]))
+                .sum();
+            (f64::from(self.translation[row]) - moved) as f32
+        });
+        Some(Self {
+            columns: columns.map(|column| column.map(|x| x as f32)),
+            translation,
+        })
+    }
+
+    /// The instance of a bottom level of that extent under this map, if it can be shared: the map is a similarity, and
+    /// rounding is small against the mesh. Its flux and radiance are for a factor of `radiance`; its links are not set.
+    pub(crate) fn similarity(&self, extent: &Extent, radiance: f32) -> Option<Instance> {
+        let columns = [self.column(0), self.column(1), self.column(2)];
+        let gram = |i: usize, j: usize| dot(columns[i], columns[j]);
+        let squared = (gram(0, 0) + gram(1, 1) + gram(2, 2)) / 3.0;
+        let scale = square_root(squared);
+        let even = (0..3).all(|i| {
+            (0..3).all(|j| {
+                let wanted = if i == j { squared } else { 0.0 };
+                magnitude(gram(i, j) - wanted) <= SIMILAR * squared
+            })
+        });
+        if !even || !(SCALES[0]..=SCALES[1]).contains(&scale) {
+            return None;
+        }
+        let farthest = self
+            .translation
+            .iter()
+            .fold(0.0f64, |most, &t| most.max(magnitude(f64::from(t))));
+        let reach = scale * extent.radius;
+        let error = ROUNDING * (2.0 * reach + farthest);
+        let tilt = BASE_TILT + 4.0 * error / (scale * extent.finest);
+        if reach < LEAST_EXTENT || tilt > MOST_TILT {
+            return None;
+        }
+        let flux = f64::from(radiance) * squared;
+        Some(Instance {
+            columns: columns.map(|column| {
+                column.map(|x| {
+                    if magnitude(x) < scale * TINY_ENTRY {
+                        0.0
+                    } else {
+                        x as f32
+                    }
+                })
+            }),
+            translation: self.translation.map(|t| exact::flush(t, MIN_COORDINATE)),
+            per_scale: (1.0 / scale) as f32,
+            flux: flux as f32,
+            radiance,
+            error: error as f32,
+            tilt: tilt as f32,
+            mirrored: u32::from(self.determinant() < 0.0),
+            ..Instance::world(0, 0)
+        })
+    }
+}
+
+impl Extent {
+    /// Of a mesh with these triangles.
+    pub fn of(triangles: &[EmissiveTriangle]) -> Self {
+        let mut extent = Self {
+            radius: 0.0,
+            finest: f64::INFINITY,
+        };
+        let mut squared = 0.0f64;
+        for triangle in triangles {
+            let p = triangle.p.map(|p| p.map(f64::from));
+            for vertex in p {
+                squared = squared.max(dot(vertex, vertex));
+            }
+            // Only triangles whose normal bounds what they light.
+            let bounds = crate::bounds::LightBounds::of_triangle(triangle);
+            if bounds.phi > 0.0 && bounds.cos_theta_o > -1.0 {
+                let edge = |i: usize, j: usize| core::array::from_fn(|k| p[j][k] - p[i][k]);
+                let (a, b, c) = (edge(0, 1), edge(0, 2), edge(1, 2));
+                let longest = dot(a, a).max(dot(b, b)).max(dot(c, c));
+                let height = length(cross(a, b)) / square_root(longest);
+                extent.finest = extent.finest.min(height);
+            }
+        }
+        extent.radius = square_root(squared);
+        extent
+    }
+}
+
+/// Why a transform is refused.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TransformError {
+    /// An entry is NaN, infinite or beyond 2^40.
+    Entry {
+        /// Row, 0..3.
+        row: usize,
+        /// Column; 3 is the translation.
+        column: usize,
+        /// What was found.
+        value: f32,
+    },
+    /// The mesh would reach beyond 2^40 m.
+    TooFar {
+        /// How far it may reach.
+        metres: f32,
+    },
+}
+
+impl fmt::Display for TransformError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Entry { row, column, value } => write!(
+                f,
+                "row {row}, column {column} of a transform is {value}, expected a finite number of magnitude at most \
+                 2^40; repair the animation"
+            ),
+            Self::TooFar { metres } => write!(
+                f,
+                "a transform may move a mesh as far as {metres} m, expected at most 2^40 m; scale the scene or move its \
+                 origin"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for TransformError {}
+
+fn magnitude(x: f64) -> f64 {
+    if x < 0.0 { -x } else { x }
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn length(v: [f64; 3]) -> f64 {
+    square_root(dot(v, v))
+}
+
+/// Without the standard library: Newton's steps from the exponent halved, to within some units of the last place.
+fn square_root(x: f64) -> f64 {
+    if x <= 0.0 {
+        return 0.0;
+    }
+    let mut root = f64::from_bits((x.to_bits() >> 1) + (1023 << 51));
+    for _ in 0..5 {
+        root = 0.5 * (root + x / root);
+    }
+    root
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn square_roots_are_those_of_the_hardware() {
+        extern crate std;
+        for i in 0..2000 {
+            let x = (f64::from(i) * 0.37 - 300.0).exp2();
+            let relative = square_root(x) / std::primitive::f64::sqrt(x) - 1.0;
+            assert!(relative.abs() < 1e-15, "{x}: {relative}");
+        }
+    }
+}
