@@ -29,6 +29,8 @@ const TINY: f32 = pow2(-75);
 const POINT_SLACK: f32 = pow2(-20);
 /// Slack that turns a direction by 2^-11 rad at the distance of 2048 slacks.
 const NEAR: f32 = 2048.0;
+/// Least angle by which a cone is widened on its way into the world, 2^-11 rad: cosines near 1 resolve no less.
+const LEAST_TURN: f32 = pow2(-11);
 /// Greatest magnitude of a coordinate in a mesh's space, 2^60: only points farther off than any accepted one are cut there.
 const FAR: f32 = pow2(60);
 /// Largest flux of a set of lights, W.
@@ -302,7 +304,8 @@ impl MeshLeaf for Instance {
         let grown = extent * (1.0 + 4.0 * pow2(-22)) + terms * pow2(-21);
         let outward = Vec3::new(grown.x + self.error, grown.y + self.error, grown.z + self.error);
         let axis = normalized(self.turn(flushed(local.axis)) * self.per_scale);
-        let cos_theta_o = widened(local.cos_theta_o, self.tilt, self.tilt * self.tilt);
+        let turn = exact::max(self.tilt, LEAST_TURN);
+        let cos_theta_o = widened(local.cos_theta_o, turn, turn * turn);
 
         // Φ with its exponents apart, so that no product leaves the range.
         let scale = exponent(local.phi) + exponent(self.flux);
