@@ -104,22 +104,19 @@ impl LightBounds {
     /// of the arguments is part of the result's bits.
     #[must_use]
     pub fn merge(&self, other: &Self) -> Self {
-        let cone = self.cone().union(other.cone());
-        let both = Self {
-            min: min3(self.min, other.min),
-            max: max3(self.max, other.max),
-            axis: cone.axis,
-            cos_theta_o: cone.cos_theta_o,
-            cos_theta_e: exact::min(self.cos_theta_e, other.cos_theta_e),
-            phi: exact::min(self.phi + other.phi, MAX_SUM),
-        };
-        if other.phi == 0.0 {
-            *self
-        } else if self.phi == 0.0 {
-            *other
-        } else {
-            both
+        let mut merged = if other.phi == 0.0 { *self } else { *other };
+        if self.phi != 0.0 && other.phi != 0.0 {
+            let cone = self.cone().union(other.cone());
+            merged = Self {
+                min: min3(self.min, other.min),
+                max: max3(self.max, other.max),
+                axis: cone.axis,
+                cos_theta_o: cone.cos_theta_o,
+                cos_theta_e: exact::min(self.cos_theta_e, other.cos_theta_e),
+                phi: exact::min(self.phi + other.phi, MAX_SUM),
+            };
         }
+        merged
     }
 
     /// The orientation cone.

@@ -63,6 +63,17 @@ impl Cone {
     /// result's bits.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
+        // Bulbs and boxes shine everywhere: most unions high up in a tree are of spheres, and need no arithmetic.
+        let mut union = if self.cos_theta_o <= -1.0 { self } else { other };
+        if self.cos_theta_o > -1.0 && other.cos_theta_o > -1.0 {
+            union = self.smallest_around(other);
+        }
+        union
+    }
+
+    /// [`union`](Self::union) of two cones neither of which is the whole sphere.
+    #[inline]
+    fn smallest_around(self, other: Self) -> Self {
         let (cos_a, cos_b) = (self.cos_theta_o, other.cos_theta_o);
         let (sin_a, sin_b) = (sine_of(cos_a), sine_of(cos_b));
         let cos_d = exact::clamp(dot(self.axis, other.axis), -1.0, 1.0);
@@ -85,8 +96,8 @@ impl Cone {
         // ambiguous only where the angles are π apart.
         let b_within_a = cos_db >= cos_a && sin_db * cos_a <= cos_db * sin_a;
         let a_within_b = cos_da >= cos_b && sin_da * cos_b <= cos_da * sin_b;
-        let contains_other = cos_a <= -1.0 || (!beyond_db && b_within_a);
-        let contained = cos_b <= -1.0 || (!beyond_da && a_within_b);
+        let contains_other = !beyond_db && b_within_a;
+        let contained = !beyond_da && a_within_b;
 
         // Half of x = θ_a + θ_d + θ_b, by the half-angle formula for the larger of cosine and sine, and from sin x for the
         // other, which the formula would lose near its zero; x beyond 2π means everything.

@@ -153,7 +153,8 @@ impl Instance {
     }
 
     /// Triangle `local` of the mesh as it stands in the world, as part of mesh light `index`. Where the map mirrors, two
-    /// vertices are swapped, so that the front stays in front.
+    /// vertices are swapped, so that the front stays in front. A triangle without flux in the mesh, having no area there, has
+    /// no radiance in the world, whatever area rounding may give it: no tree holds it.
     #[inline]
     #[must_use]
     pub fn triangle(&self, local: &EmissiveTriangle, index: u32) -> EmissiveTriangle {
@@ -163,6 +164,7 @@ impl Instance {
             self.vertex(local.p[2]),
         );
         let mirrored = self.mirrored != 0;
+        let shines = self.radiance > 0.0 && LightBounds::of_triangle(local).phi > 0.0;
         let shine = |channel: usize| {
             let l = local.radiance[channel];
             let scaled = exact::clamp(
@@ -170,11 +172,7 @@ impl Instance {
                 crate::light::MIN_RADIANCE,
                 crate::light::MAX_RADIANCE,
             );
-            if l > 0.0 && self.radiance > 0.0 {
-                scaled
-            } else {
-                0.0
-            }
+            if l > 0.0 && shines { scaled } else { 0.0 }
         };
         EmissiveTriangle {
             p: [a, if mirrored { c } else { b }, if mirrored { b } else { c }],

@@ -146,15 +146,20 @@ impl Transform {
     pub(crate) fn similarity(&self, extent: &Extent, radiance: f32) -> Option<Instance> {
         let columns = [self.column(0), self.column(1), self.column(2)];
         let gram = |i: usize, j: usize| dot(columns[i], columns[j]);
-        let squared = (gram(0, 0) + gram(1, 1) + gram(2, 2)) / 3.0;
-        let scale = square_root(squared);
+        let squared = (gram(0, 0) + gram(1, 1) + gram(2, 2)) * (1.0 / 3.0);
+        if !(SCALES[0] * SCALES[0]..=SCALES[1] * SCALES[1]).contains(&squared) {
+            return None;
+        }
+        // One step from a root in f32 leaves nothing that f32 could show.
+        let root = f64::from(exact::sqrt(squared as f32));
+        let scale = 0.5 * (root + squared / root);
         let even = (0..3).all(|i| {
             (0..3).all(|j| {
                 let wanted = if i == j { squared } else { 0.0 };
                 magnitude(gram(i, j) - wanted) <= SIMILAR * squared
             })
         });
-        if !even || !(SCALES[0]..=SCALES[1]).contains(&scale) {
+        if !even {
             return None;
         }
         let farthest = self

@@ -6,8 +6,8 @@ use lightbvh::exact::pow2;
 use lightbvh::importance::ImportanceModel;
 use lightbvh::node::kind;
 use lightbvh::{
-    CompactNode, Edit, EmissiveTriangle, Eq4, FullNode, Instance, LightBounds, LightNode, MeshLeaf, Scene, ShadingPoint,
-    Transform,
+    CompactNode, Edit, EmissiveTriangle, Eq4, FullNode, Instance, LightBounds, LightNode, MeshLeaf, Scene,
+    ShadingPoint, Transform,
 };
 use lightbvh_tests::generate::{self, Random};
 use lightbvh_tests::oracle::{Triangle, angle, can_contribute, half_angle, vector};
@@ -23,7 +23,9 @@ fn local_triangle(random: &mut Random) -> EmissiveTriangle {
     let mut triangle = generate::small_triangles(1, 1, 1.0, size, random.below(4) == 0, random.bits())[0];
     let at = random.direction().map(|x| x * random.unit());
     let corner = triangle.p[0];
-    triangle.p = triangle.p.map(|p| std::array::from_fn(|k| p[k] - corner[k] + at[k]));
+    triangle.p = triangle
+        .p
+        .map(|p| std::array::from_fn(|k| p[k] - corner[k] + at[k]));
     triangle
 }
 
@@ -86,7 +88,11 @@ fn importance<N: LightNode<2>>(instance: &Instance, local: &EmissiveTriangle, po
 /// Tests one triangle in one place; returns how many points could be lit.
 fn check(random: &mut Random, exponent: i32) -> u32 {
     let local = local_triangle(random);
-    let kind = if random.below(2) == 0 { Kind::Rigid } else { Kind::Similar };
+    let kind = if random.below(2) == 0 {
+        Kind::Rigid
+    } else {
+        Kind::Similar
+    };
     let transform = placing::transform(random, kind, pow2(exponent));
     let Some((instance, world)) = placed(&local, transform) else {
         return 0;
@@ -96,7 +102,10 @@ fn check(random: &mut Random, exponent: i32) -> u32 {
     let own = Triangle::new(&world);
     for p in own.p {
         let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
-        assert!(low.cmple(p).all() && p.cmple(high).all(), "{world:?} reaches out of {bounds:?}");
+        assert!(
+            low.cmple(p).all() && p.cmple(high).all(),
+            "{world:?} reaches out of {bounds:?}"
+        );
     }
     if own.normal != DVec3::ZERO && bounds.phi > 0.0 {
         let off = angle(bounds.axis.as_dvec3(), own.normal) - half_angle(bounds.cos_theta_o);
@@ -121,7 +130,10 @@ fn check(random: &mut Random, exponent: i32) -> u32 {
                 importance::<CompactNode<2>>(&instance, &local, &point),
                 importance::<FullNode<2>>(&instance, &local, &point),
             ] {
-                assert!(found > 0.0, "{world:?} has no importance at {point:?}: {instance:?}");
+                assert!(
+                    found > 0.0,
+                    "{world:?} has no importance at {point:?}: {instance:?}"
+                );
             }
         }
     }

@@ -19,6 +19,8 @@ struct Batch {
     /// Extents of deformed meshes, and transforms of moved instances.
     extents: BTreeMap<MeshId, Extent>,
     transforms: BTreeMap<InstanceId, Transform>,
+    /// Whether a later edit may ask for those.
+    deforms: bool,
     lights: usize,
     triangles: usize,
 }
@@ -29,6 +31,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         let mut batch = Batch {
             lights: self.lights.end() as usize,
             triangles: self.triangles.len(),
+            deforms: edits.iter().any(|edit| matches!(edit, Edit::Deform { .. })),
             ..Batch::default()
         };
         for (index, edit) in edits.iter_mut().enumerate() {
@@ -64,7 +67,9 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
                 transform
                     .check(&self.extent(batch, mesh))
                     .map_err(EditReason::Transform)?;
-                batch.transforms.insert(instance, transform);
+                if batch.deforms {
+                    batch.transforms.insert(instance, transform);
+                }
                 batch.triangles += self.mesh_len(mesh);
             }
             &mut Edit::Shine { instance, radiance } => {
