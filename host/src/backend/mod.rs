@@ -22,6 +22,9 @@ use crate::vulkan::VulkanError;
 /// The light BVH that the kernels are compiled for.
 pub type Bvh = LightBvh<Node, WIDTH, Instance>;
 
+/// The moving lights that the kernels are compiled for.
+pub type LightScene = lightbvh::Scene<Node, WIDTH>;
+
 /// A result and how long it took: on a device the kernels' own time, where it can tell.
 #[derive(Clone, Debug)]
 pub struct Timed<T> {

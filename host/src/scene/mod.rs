@@ -24,6 +24,7 @@ mod error;
 mod frame;
 mod glb_out;
 mod gltf_in;
+mod instances;
 mod load;
 mod model;
 mod reach;
@@ -38,6 +39,7 @@ pub mod street;
 pub use check::MAX_TRIANGLES;
 pub use error::SceneError;
 pub use frame::{FRAMES_PER_SECOND, Frame, MeshRange};
+pub use instances::Instances;
 pub use load::BUILT_IN;
 pub use model::{
     Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
