@@ -1,7 +1,7 @@
 //! The light BVH that the kernels are compiled for, and its picker for the renderer.
 
 use bytemuck::{Pod, Zeroable};
-use lightbvh::{CompactNode, Eq4, LightTree, MeshLight, ShadingPoint, traverse};
+use lightbvh::{CompactNode, Eq4, INVALID, LightTree, MeshLight, ShadingPoint, traverse};
 
 use crate::shading::pick::{PickLight, Picked};
 
@@ -42,6 +42,16 @@ impl TreePush {
             trail_words: self.trail_words,
         }
     }
+
+    /// The picker over that tree.
+    #[inline]
+    #[must_use]
+    pub fn picker<'a>(&self, nodes: &'a [Node], meshes: &'a [MeshLight], trails: &'a [u32]) -> BvhPicker<'a> {
+        BvhPicker {
+            tree: self.tree(nodes, meshes, trails),
+            two_level: self.two_level != 0,
+        }
+    }
 }
 
 /// Picks lights by sampling a light BVH.
@@ -49,6 +59,8 @@ impl TreePush {
 pub struct BvhPicker<'a> {
     /// The light BVH.
     pub tree: LightTree<'a, Node>,
+    /// Whether it has mesh lights; as [`TreePush::two_level`].
+    pub two_level: bool,
 }
 
 impl PickLight for BvhPicker<'_> {
@@ -59,5 +71,11 @@ impl PickLight for BvhPicker<'_> {
             light: sampled.light,
             pmf: sampled.pmf,
         }
+    }
+
+    #[inline]
+    fn pmf(&self, point: &ShadingPoint, light: u32, mesh: u32) -> f32 {
+        let mesh = if self.two_level { mesh } else { INVALID };
+        traverse::pmf::<Node, Importance, WIDTH>(&self.tree, point, light, mesh)
     }
 }

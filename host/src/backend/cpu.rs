@@ -115,6 +115,7 @@ impl Backend for CpuBackend {
                 params,
                 &BvhPicker {
                     tree: self.bvh.tree(),
+                    two_level: self.bvh.is_two_level(),
                 },
             ),
         };
