@@ -92,7 +92,7 @@ fn the_power_of_a_narrow_lobe_is_accurate() {
         let v = about(n, sine * x, sine * y, cosine) * (0.5 + random.unit());
         let (n, d) = (n.as_dvec3().normalize(), v.as_dvec3().normalize());
         let expected = n.dot(d).powi(1 << log2);
-        let found = f64::from(cosine_power(Vec3::from(n.as_vec3()), v, log2));
+        let found = f64::from(cosine_power(n.as_vec3(), v, log2));
         // The vectors' own rounding tilts them by about 2^-24, which the power multiplies by k sin.
         let k = f64::from(1_u32 << log2);
         let tilt = 2f64.powi(-23) * k * n.cross(d).length() / n.dot(d);
