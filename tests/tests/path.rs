@@ -240,6 +240,13 @@ fn both_ways_tell_the_same_densities() {
                 let light_error = 4.0 * tilt + 2f64.powi(-16);
                 let ratio = by_light / f64::from(connection.density);
                 assert!((ratio - 1.0).abs() <= light_error, "{ratio} {light_error}");
+                // pmf |d|^2 / (A cos), in f64 from the triangle itself.
+                let [p0, p1, p2] = lamp.p.map(|v| Vec3::from(v).as_dvec3());
+                let d64 = d.as_dvec3();
+                let facing = (p1 - p0).cross(p2 - p0).dot(d64.normalize()).abs() / 2.0;
+                let expected = f64::from(pmf) * d64.length_squared() / facing;
+                let ratio = f64::from(connection.density) / expected;
+                assert!((ratio - 1.0).abs() <= light_error, "{ratio} {light_error}");
                 let k = f64::from(1_u32 << material.exponent_log2);
                 let half = (ray.direction + wo).normalize().dot(Vec3::Y);
                 let gloss_error = 2.0 * k * tilt / f64::from(half) + 4.0 * tilt / f64::from(ray.direction.y);

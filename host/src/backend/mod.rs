@@ -67,7 +67,8 @@ pub trait Backend {
 
     /// Renders light along paths of up to `bounces` reflections, at most
     /// [`MAX_BOUNCES`](lightbvh_kernels::shading::path::MAX_BOUNCES), with lights chosen as by [`render`](Self::render);
-    /// [`RenderParams::samples`] counts paths.
+    /// [`RenderParams::samples`] counts paths. A device renders a workgroup of pixels at a time at least: thousands of paths
+    /// are better asked for in several calls, with different seeds.
     ///
     /// # Errors
     /// [`VulkanError`] from a device.
