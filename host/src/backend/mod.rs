@@ -67,8 +67,8 @@ pub trait Backend {
 
     /// Renders light along paths of up to `bounces` reflections, at most
     /// [`MAX_BOUNCES`](lightbvh_kernels::shading::path::MAX_BOUNCES), with lights chosen as by [`render`](Self::render);
-    /// [`RenderParams::samples`] counts paths. A device renders a workgroup of pixels at a time at least: thousands of paths
-    /// are better asked for in several calls, with different seeds.
+    /// [`RenderParams::samples`] counts paths: few, since one invocation follows them all, and llvmpipe silently leaves the
+    /// loops of an invocation after some 65,000 iterations. More are better asked for in several calls with other seeds.
     ///
     /// # Errors
     /// [`VulkanError`] from a device.
