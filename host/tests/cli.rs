@@ -125,6 +125,39 @@ fn render_gives_the_same_file_on_both_processors() {
 }
 
 #[test]
+fn paths_render_and_add_what_is_reflected_again() {
+    let folder = Folder::new("paths");
+    let small = [
+        "--width", "48", "--height", "27", "--spp", "8", "--frame", "3", "--json",
+    ];
+    let mut images = Vec::new();
+    for bounces in ["1", "4"] {
+        let file = folder.file(&format!("{bounces}.exr"));
+        let own = [
+            "render",
+            "street",
+            "--integrator",
+            "path",
+            "--bounces",
+            bounces,
+            "-o",
+            &file,
+        ];
+        let report = json(&[&own[..], &small[..]].concat());
+        assert_eq!(report["integrator"], "path");
+        assert_eq!(report["bounces"].to_string(), bounces);
+        images.push(std::fs::read(&file).expect("an image"));
+    }
+    assert!(images[0] != images[1], "more reflections, another image");
+    let file = folder.file("direct.exr");
+    let report = json(&[&["render", "street", "-o", &file][..], &small[..]].concat());
+    assert_eq!(
+        (&report["integrator"], &report["bounces"]),
+        (&"direct".into(), &1.into())
+    );
+}
+
+#[test]
 fn every_sampler_and_heuristic_renders() {
     let folder = Folder::new("samplers");
     for sampler in ["uniform", "power", "single-level", "two-level"] {
@@ -216,6 +249,11 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
     assert!(said.contains("--spp 0"), "{said}");
     let said = refused(&["render", "street", "--width", "100000", "-o", &image]);
     assert!(said.contains("--width 100000"), "{said}");
+    let said = refused(&["render", "street", "--bounces", "65", "-o", &image]);
+    assert!(
+        said.contains("--bounces 65") && said.contains("1 to 64"),
+        "{said}"
+    );
     let said = refused(&["bench", "--lights", "0"]);
     assert!(said.contains("--lights 0"), "{said}");
     refused(&["render", "street", "--sampler", "best", "-o", &image]);

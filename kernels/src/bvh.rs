@@ -1,7 +1,7 @@
 //! The light BVH that the kernels are compiled for, and its picker for the renderer.
 
 use bytemuck::{Pod, Zeroable};
-use lightbvh::{CompactNode, Eq4, Instance, LightTree, ShadingPoint, traverse};
+use lightbvh::{CompactNode, Eq4, INVALID, Instance, LightTree, ShadingPoint, traverse};
 
 use crate::shading::pick::{PickLight, Picked};
 
@@ -39,6 +39,16 @@ impl TreePush {
             trail_words: self.trail_words,
         }
     }
+
+    /// The picker over that tree.
+    #[inline]
+    #[must_use]
+    pub fn picker<'a>(&self, nodes: &'a [Node], meshes: &'a [Instance], trails: &'a [u32]) -> BvhPicker<'a> {
+        BvhPicker {
+            tree: self.tree(nodes, meshes, trails),
+            two_level: self.two_level != 0,
+        }
+    }
 }
 
 /// Picks lights by sampling a light BVH.
@@ -46,6 +56,8 @@ impl TreePush {
 pub struct BvhPicker<'a> {
     /// The light BVH.
     pub tree: Tree<'a>,
+    /// Whether it has mesh lights; as [`TreePush::two_level`].
+    pub two_level: bool,
 }
 
 impl PickLight for BvhPicker<'_> {
@@ -56,5 +68,11 @@ impl PickLight for BvhPicker<'_> {
             light: sampled.light,
             pmf: sampled.pmf,
         }
+    }
+
+    #[inline]
+    fn pmf(&self, point: &ShadingPoint, light: u32, mesh: u32) -> f32 {
+        let mesh = if self.two_level { mesh } else { INVALID };
+        traverse::pmf::<Node, Importance, Instance, WIDTH>(&self.tree, point, light, mesh)
     }
 }

@@ -14,6 +14,7 @@
 #![allow(clippy::too_many_arguments)]
 
 pub mod bvh;
+pub mod path;
 pub mod query;
 pub mod refit;
 pub mod render;

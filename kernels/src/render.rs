@@ -7,7 +7,7 @@ use lightbvh::exact::hash;
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
-use crate::bvh::{BvhPicker, Node, TreePush};
+use crate::bvh::{Node, TreePush};
 use crate::invocation;
 use crate::shading::camera::Camera;
 use crate::shading::material::Material;
@@ -97,9 +97,7 @@ pub fn render_bvh(
             materials,
             lights,
         };
-        let picker = BvhPicker {
-            tree: push.tree.tree(nodes, meshes, trails),
-        };
+        let picker = push.tree.picker(nodes, meshes, trails);
         results[i as usize] = render_pixel(
             &scene,
             &camera[0],

@@ -4,6 +4,7 @@
 
 use lightbvh::{EmissiveTriangle, exact};
 use lightbvh_host::render::{RayBvh, View, camera, power_thresholds};
+use lightbvh_kernels::path::path_pixel;
 use lightbvh_kernels::render::{RenderParams, render_pixel};
 use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::material::Material;
@@ -18,7 +19,10 @@ const IEEE: u32 = 0x1f80;
 /// The same, subnormal results flushed to zero (bit 15) and subnormal operands read as zero (bit 6).
 const FLUSHING: u32 = 0x9fc0;
 
-/// All pixels, computed in one thread under the given mode.
+/// Reflections of the paths.
+const BOUNCES: u32 = 4;
+
+/// All pixels by direct lighting and by paths, computed in one thread under the given mode.
 #[inline(never)]
 fn render_under(
     mode: u32,
@@ -31,7 +35,10 @@ fn render_under(
     unsafe { core::arch::asm!("ldmxcsr [{}]", in(reg) &mode) }
     let words = (0..params.width * params.height)
         .flat_map(|pixel| {
-            render_pixel(scene, camera, params, picker, std::hint::black_box(pixel)).map(f32::to_bits)
+            let pixel = std::hint::black_box(pixel);
+            let direct = render_pixel(scene, camera, params, picker, pixel);
+            let paths = path_pixel(scene, camera, params, BOUNCES, picker, pixel);
+            [direct, paths].into_iter().flatten().map(f32::to_bits)
         })
         .collect();
     // SAFETY: as above.
@@ -83,7 +90,7 @@ proptest! {
         let view = View {
             eye: [0.0, 0.0, 2.0 * size], right: [1.0, 0.0, 0.0], up: [0.0, 1.0, 0.0], forward: [0.0, 0.0, -1.0], yfov: 1.0,
         };
-        let params = RenderParams { width: 16, height: 16, samples: 4, seed, jitter: seed, background: [0.0; 3] };
+        let params = RenderParams { width: 16, height: 16, samples: 4, seed, jitter: seed, background: [0.0, exact::pow2(bright), 0.3] };
         let camera = camera(&view, 16, 16);
         let picker = Power { thresholds: &thresholds };
         let plain = render_under(IEEE, &scene, &camera, &params, &picker);

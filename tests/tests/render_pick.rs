@@ -1,10 +1,12 @@
 //! The choice of a light without a tree: every probability is the exact frequency.
 
-use lightbvh::{EmissiveTriangle, ShadingPoint};
+use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, ShadingPoint};
 use lightbvh_host::render::{flux, power_thresholds};
+use lightbvh_kernels::bvh::{BvhPicker, Node, WIDTH};
 use lightbvh_kernels::shading::pick::{MAX_PICKABLE, PickLight, Power, Uniform};
 use lightbvh_kernels::shading::trace::NONE;
-use lightbvh_tests::generate::Random;
+use lightbvh_tests::generate::{Random, point, small_triangles};
+use lightbvh_tests::oracle::sum_tolerance;
 use lightbvh_tests::soup::in_cube;
 
 const ANYWHERE: ShadingPoint = ShadingPoint {
@@ -121,5 +123,70 @@ fn power_tables_at_the_edges() {
         vec![0, u32::MAX],
     ] {
         assert_eq!(pick(&hostile, 0x1234_5678).light, NONE, "{hostile:?}");
+    }
+}
+
+/// What a picker returns and what it says about each light are one distribution: the pmfs sum to one, the pmf picked
+/// with is the pmf evaluated, and what is no light has none. `tolerance` is what rounding may do to the sum.
+fn pmf_is_of_the_pick(what: &str, picker: &impl PickLight, lights: &[EmissiveTriangle], tolerance: f64) {
+    let mut random = Random::new(7);
+    let count = lights.len() as u32;
+    for _ in 0..64 {
+        let point = point(&mut random, 10.0);
+        let pmfs: Vec<f32> = (0..count)
+            .map(|i| picker.pmf(&point, i, lights[i as usize].mesh))
+            .collect();
+        let sum: f64 = pmfs.iter().map(|&p| f64::from(p)).sum();
+        let reachable = pmfs.iter().any(|&p| p > 0.0);
+        assert!(
+            !reachable || (sum - 1.0).abs() <= tolerance,
+            "{what}: {sum} at {point:?}"
+        );
+        for _ in 0..256 {
+            let picked = picker.pick(&point, random.bits());
+            assert_eq!(picked.light == NONE, !reachable, "{what} at {point:?}");
+            if reachable {
+                let evaluated = pmfs[picked.light as usize];
+                assert_eq!(picked.pmf.to_bits(), evaluated.to_bits(), "{what} at {point:?}");
+            }
+        }
+        for beyond in [count, count + 1, MAX_PICKABLE, NONE] {
+            assert_eq!(
+                picker.pmf(&point, beyond, 0),
+                0.0,
+                "{what}: no light has number {beyond}"
+            );
+        }
+    }
+}
+
+#[test]
+fn evaluated_pmfs_are_those_of_the_pick() {
+    let triangles = small_triangles(300, 12, 10.0, 0.5, true, 3);
+    for count in [1, 2, 3, 7, 300] {
+        pmf_is_of_the_pick("uniform", &Uniform { count }, &triangles[..count as usize], 0.0);
+    }
+    let uneven = many_lights(400);
+    let thresholds = power_thresholds(&uneven).unwrap();
+    let power = Power {
+        thresholds: &thresholds,
+    };
+    pmf_is_of_the_pick("power", &power, &uneven, 0.0);
+
+    let lights = Lights::new(triangles).expect("within the domain");
+    for bvh in [
+        LightBvh::<Node, WIDTH>::single_level(&lights, &BuildParams::default()).with_leaves(),
+        LightBvh::<Node, WIDTH>::two_level(&lights, &BuildParams::default()).with_leaves(),
+    ] {
+        let picker = BvhPicker {
+            tree: bvh.tree(),
+            two_level: bvh.is_two_level(),
+        };
+        let what = if bvh.is_two_level() {
+            "two-level"
+        } else {
+            "single-level"
+        };
+        pmf_is_of_the_pick(what, &picker, lights.triangles(), sum_tolerance(bvh.depth()));
     }
 }

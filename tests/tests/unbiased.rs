@@ -104,7 +104,10 @@ fn each_picker(lights: &Lights, mut test: impl FnMut(&str, &dyn Fn(&ShadingPoint
     };
     let one = LightBvh::<Node, WIDTH>::single_level(lights, &BuildParams::default()).with_leaves();
     let two = LightBvh::<Node, WIDTH>::two_level(lights, &sah).with_leaves();
-    let (one, two) = (BvhPicker { tree: one.tree() }, BvhPicker { tree: two.tree() });
+    let [one, two] = [&one, &two].map(|bvh| BvhPicker {
+        tree: bvh.tree(),
+        two_level: bvh.is_two_level(),
+    });
     let call = |p: &dyn Fn(&ShadingPoint, u32) -> lightbvh_kernels::shading::pick::Picked,
                 point: &ShadingPoint,
                 r| {
@@ -124,6 +127,10 @@ impl PickLight for By<'_> {
     fn pick(&self, point: &ShadingPoint, random: u32) -> lightbvh_kernels::shading::pick::Picked {
         let (light, pmf) = (self.0)(point, random);
         lightbvh_kernels::shading::pick::Picked { light, pmf }
+    }
+
+    fn pmf(&self, _point: &ShadingPoint, _light: u32, _mesh: u32) -> f32 {
+        unreachable!("direct lighting asks for no probability")
     }
 }
 

@@ -6,11 +6,11 @@ use lightbvh::{ImportanceModel, Lights, ShadingPoint, refit, traverse};
 use lightbvh_kernels::bvh::{BvhPicker, Importance, Node, WIDTH};
 use lightbvh_kernels::query::{Query, Sampled};
 use lightbvh_kernels::render::RenderParams;
-use lightbvh_kernels::shading::pick::{Power, Uniform};
+use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use rayon::prelude::*;
 
 use super::{Backend, Bvh, Sampler, SceneArrays, Timed};
-use crate::render::render;
+use crate::render::{render, render_path};
 use crate::vulkan::VulkanError;
 
 /// Nodes below which a level is not worth handing to other threads.
@@ -92,36 +92,71 @@ impl Backend for CpuBackend {
         params: &RenderParams,
         sampler: Sampler,
     ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
+        Ok(self.shade(scene, sampler, Direct(params)))
+    }
+
+    fn render_path(
+        &mut self,
+        scene: &SceneArrays,
+        params: &RenderParams,
+        bounces: u32,
+        sampler: Sampler,
+    ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
+        Ok(self.shade(scene, sampler, Paths(params, bounces)))
+    }
+}
+
+/// An integrator, for whichever picker: what a closure cannot be.
+trait Integrate {
+    fn image<P: PickLight + Sync>(&self, scene: &SceneArrays, picker: &P) -> Vec<[f32; 3]>;
+}
+
+struct Direct<'a>(&'a RenderParams);
+
+impl Integrate for Direct<'_> {
+    fn image<P: PickLight + Sync>(&self, scene: &SceneArrays, picker: &P) -> Vec<[f32; 3]> {
+        render(&scene.view(), &scene.camera, self.0, picker)
+    }
+}
+
+struct Paths<'a>(&'a RenderParams, u32);
+
+impl Integrate for Paths<'_> {
+    fn image<P: PickLight + Sync>(&self, scene: &SceneArrays, picker: &P) -> Vec<[f32; 3]> {
+        render_path(&scene.view(), &scene.camera, self.0, self.1, picker)
+    }
+}
+
+impl CpuBackend {
+    /// The image by `integrator` with the picker of `sampler`.
+    fn shade(
+        &self,
+        scene: &SceneArrays,
+        sampler: Sampler,
+        integrator: impl Integrate,
+    ) -> Timed<Vec<[f32; 3]>> {
         let start = Instant::now();
-        let view = scene.view();
         let value = match sampler {
             Sampler::Uniform => {
-                let picker = Uniform {
-                    count: scene.lights.triangles().len() as u32,
-                };
-                render(&view, &scene.camera, params, &picker)
+                let count = scene.lights.triangles().len() as u32;
+                integrator.image(scene, &Uniform { count })
             }
-            Sampler::Power => render(
-                &view,
-                &scene.camera,
-                params,
-                &Power {
-                    thresholds: &scene.thresholds,
-                },
-            ),
-            Sampler::SingleLevel | Sampler::TwoLevel => render(
-                &view,
-                &scene.camera,
-                params,
-                &BvhPicker {
+            Sampler::Power => {
+                let thresholds = &scene.thresholds;
+                integrator.image(scene, &Power { thresholds })
+            }
+            Sampler::SingleLevel | Sampler::TwoLevel => {
+                let picker = BvhPicker {
                     tree: self.bvh.tree(),
-                },
-            ),
+                    two_level: self.bvh.is_two_level(),
+                };
+                integrator.image(scene, &picker)
+            }
         };
-        Ok(Timed {
+        Timed {
             value,
             time: start.elapsed(),
-        })
+        }
     }
 }
 

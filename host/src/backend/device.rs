@@ -5,10 +5,13 @@ use std::time::Duration;
 use bytemuck::bytes_of;
 use lightbvh::refit::BlasRoot;
 use lightbvh::{EmissiveTriangle, Instance, Lights};
+use lightbvh_kernels::WORKGROUP;
 use lightbvh_kernels::bvh::{Node, TreePush};
+use lightbvh_kernels::path::PathPush;
 use lightbvh_kernels::query::{Query, QueryPush, Sampled};
 use lightbvh_kernels::refit::RefitPush;
 use lightbvh_kernels::render::{RenderParams, RenderPush};
+use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
 use super::{Backend, Bvh, Sampler, SceneArrays, Timed};
 use crate::vulkan::{Binding, Buffer, Device, Pass, Timings, VulkanError};
@@ -17,6 +20,8 @@ use crate::vulkan::{Binding, Buffer, Device, Pass, Timings, VulkanError};
 const QUERIES_PER_PASS: usize = 1 << 20;
 /// Light samples per render dispatch: keeps one dispatch well below the seconds after which a driver gives up on it.
 const SAMPLES_PER_PASS: usize = 1 << 20;
+/// Surfaces met by paths per dispatch, for the same reason; each costs two rays, a sampled light and a pmf.
+const SURFACES_PER_PASS: usize = 1 << 18;
 
 /// A light BVH on a device.
 pub struct DeviceBackend<'d> {
@@ -187,6 +192,61 @@ impl Backend for DeviceBackend<'_> {
         params: &RenderParams,
         sampler: Sampler,
     ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
+        let kernel = match sampler {
+            Sampler::Uniform => "render_uniform",
+            Sampler::Power => "render_power",
+            Sampler::SingleLevel | Sampler::TwoLevel => "render_bvh",
+        };
+        let tree = self.tree;
+        let per_pass = SAMPLES_PER_PASS / usize::max(params.samples as usize, 1);
+        self.shade(scene, params, sampler, kernel, per_pass, |first, count| {
+            RenderPush {
+                params: *params,
+                first,
+                count,
+                tree,
+            }
+        })
+    }
+
+    fn render_path(
+        &mut self,
+        scene: &SceneArrays,
+        params: &RenderParams,
+        bounces: u32,
+        sampler: Sampler,
+    ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
+        let kernel = match sampler {
+            Sampler::Uniform => "path_uniform",
+            Sampler::Power => "path_power",
+            Sampler::SingleLevel | Sampler::TwoLevel => "path_bvh",
+        };
+        let tree = self.tree;
+        let surfaces = (params.samples as usize).saturating_mul(bounces.min(MAX_BOUNCES) as usize + 1);
+        let per_pass = SURFACES_PER_PASS / usize::max(surfaces, 1);
+        self.shade(scene, params, sampler, kernel, per_pass, |first, count| {
+            PathPush {
+                params: *params,
+                bounces,
+                first,
+                count,
+                tree,
+            }
+        })
+    }
+}
+
+impl DeviceBackend<'_> {
+    /// Runs a kernel over all pixels of an image, `per_pass` pixels to a dispatch, but at least a workgroup's.
+    fn shade<T: bytemuck::Pod>(
+        &self,
+        scene: &SceneArrays,
+        params: &RenderParams,
+        sampler: Sampler,
+        kernel: &str,
+        per_pass: usize,
+        push: impl Fn(u32, u32) -> T,
+    ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
         let device = self.device;
         let ray_nodes = device.upload(&scene.rays.nodes)?;
         let surfaces = device.upload(&scene.rays.triangles)?;
@@ -201,18 +261,17 @@ impl Backend for DeviceBackend<'_> {
             lights.bind(),
             camera.bind(),
         ];
-        let (kernel, own) = match sampler {
-            Sampler::Uniform => ("render_uniform", vec![]),
-            Sampler::Power => ("render_power", vec![thresholds.bind()]),
-            Sampler::SingleLevel | Sampler::TwoLevel => (
-                "render_bvh",
-                vec![self.nodes.bind(), self.meshes.bind(), self.trails.bind()],
-            ),
+        let own = match sampler {
+            Sampler::Uniform => vec![],
+            Sampler::Power => vec![thresholds.bind()],
+            Sampler::SingleLevel | Sampler::TwoLevel => {
+                vec![self.nodes.bind(), self.meshes.bind(), self.trails.bind()]
+            }
         };
         let kernel = device.kernel(kernel)?;
 
         let pixels = params.width as usize * params.height as usize;
-        let per_pass = (SAMPLES_PER_PASS / usize::max(params.samples as usize, 1)).max(64);
+        let per_pass = per_pass.max(WORKGROUP as usize);
         let mut all = Timed {
             value: Vec::with_capacity(pixels),
             time: Duration::ZERO,
@@ -220,12 +279,7 @@ impl Backend for DeviceBackend<'_> {
         for first in (0..pixels).step_by(per_pass) {
             let count = usize::min(per_pass, pixels - first);
             let output = device.output::<[f32; 3]>(count)?;
-            let push = RenderPush {
-                params: *params,
-                first: first as u32,
-                count: count as u32,
-                tree: self.tree,
-            };
+            let push = push(first as u32, count as u32);
             let bindings: Vec<Binding<'_>> = common
                 .iter()
                 .chain(&own)
@@ -233,7 +287,7 @@ impl Backend for DeviceBackend<'_> {
                 .chain([output.bind()])
                 .collect();
             let mut pass = Pass::new();
-            pass.dispatch(&kernel, &bindings, bytes_of(&push), push.count);
+            pass.dispatch(&kernel, &bindings, bytes_of(&push), count as u32);
             all.time += device_time(&device.run(&pass)?);
             all.value.extend(output.read()?);
         }

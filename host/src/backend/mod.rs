@@ -67,6 +67,21 @@ pub trait Backend {
         params: &RenderParams,
         sampler: Sampler,
     ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError>;
+
+    /// Renders light along paths of up to `bounces` reflections, at most
+    /// [`MAX_BOUNCES`](lightbvh_kernels::shading::path::MAX_BOUNCES), with lights chosen as by [`render`](Self::render);
+    /// [`RenderParams::samples`] counts paths: few, since one invocation follows them all, and llvmpipe silently leaves the
+    /// loops of an invocation after some 65,000 iterations. More are better asked for in several calls with other seeds.
+    ///
+    /// # Errors
+    /// [`VulkanError`] from a device.
+    fn render_path(
+        &mut self,
+        scene: &SceneArrays,
+        params: &RenderParams,
+        bounces: u32,
+        sampler: Sampler,
+    ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError>;
 }
 
 /// Words of a node, for comparison by name.

@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
+use lightbvh::exact::hash;
 use lightbvh::{BuildParams, Heuristic};
+use lightbvh_kernels::shading::path::MAX_BOUNCES;
 use serde_json::json;
 
 use super::{Context, Outcome, devices, table};
@@ -15,6 +17,9 @@ use crate::workload::{Shot, arrays_at, build};
 
 /// Greatest number of camera rays per pixel; the light samples of a pixel are shared out among them.
 const MAX_CAMERA_RAYS: u32 = 8;
+/// Greatest number of paths that begin with the same camera ray, and are followed by one invocation: llvmpipe leaves all
+/// loops of an invocation after some 65,000 iterations, silently, which four paths of eight reflections reach.
+const MAX_PATHS_PER_RAY: u32 = 1;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -29,19 +34,25 @@ pub(super) struct Args {
     /// Rows, 1 to 16384.
     #[arg(long, default_value_t = 360)]
     height: u32,
-    /// Light samples per pixel, 1 to 65536.
+    /// Light samples, or paths, per pixel, 1 to 65536.
     #[arg(long, default_value_t = 16)]
     spp: u32,
     /// How lights are chosen.
     #[arg(long, value_enum, default_value_t = Sampler::TwoLevel)]
     sampler: Sampler,
+    /// Light reflected once, or along whole paths.
+    #[arg(long, value_enum, default_value_t = Integrator::Direct)]
+    integrator: Integrator,
+    /// Most reflections of a path, 1 to 64 (only with --integrator path; 1 is direct lighting).
+    #[arg(long, default_value_t = 8)]
+    bounces: u32,
     /// Cost of splits when the light BVH is built.
     #[arg(long, value_enum, default_value_t = HeuristicName::Saoh)]
     heuristic: HeuristicName,
     /// What renders.
     #[arg(long, value_enum, default_value_t = BackendName::Cpu)]
     backend: BackendName,
-    /// Seed of the light samples.
+    /// Seed of the random numbers.
     #[arg(long, default_value_t = 0)]
     seed: u32,
     /// Exposure as a factor on radiance; by default chosen from the image. EXR files are linear and take none.
@@ -71,24 +82,37 @@ impl HeuristicName {
     }
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+enum Integrator {
+    Direct,
+    Path,
+}
+
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 enum BackendName {
     Cpu,
     Vulkan,
 }
 
+/// Number of camera rays per pixel, each for as many samples as the others: of light samples, as few as make edges
+/// smooth; of paths, as many as do not make a pass too small.
+fn camera_rays(integrator: Integrator, samples: u32) -> u32 {
+    let divisor = |most: u32| (1..=most).rev().find(|&n| samples.is_multiple_of(n)).unwrap_or(1);
+    match integrator {
+        Integrator::Direct => divisor(MAX_CAMERA_RAYS),
+        Integrator::Path => samples / divisor(MAX_PATHS_PER_RAY),
+    }
+}
+
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
-    for (option, value, most) in [
-        ("--width", args.width, 16_384),
-        ("--height", args.height, 16_384),
-        ("--spp", args.spp, 65_536),
+    for (option, value, most, expected) in [
+        ("--width", args.width, 16_384, "1 to 16384"),
+        ("--height", args.height, 16_384, "1 to 16384"),
+        ("--spp", args.spp, 65_536, "1 to 65536"),
+        ("--bounces", args.bounces, MAX_BOUNCES, "1 to 64"),
     ] {
         if value == 0 || value > most {
-            let expected = if most == 65_536 {
-                "1 to 65536"
-            } else {
-                "1 to 16384"
-            };
             return Err(HostError::Range {
                 option,
                 value: value.into(),
@@ -127,18 +151,23 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     };
 
     let film = |backend: &mut dyn Backend| -> Result<(Film, f64), VulkanError> {
-        let rays = (1..=MAX_CAMERA_RAYS)
-            .rev()
-            .find(|n| samples % n == 0)
-            .unwrap_or(1);
+        let rays = camera_rays(args.integrator, samples);
         let mut sum = vec![[0.0f32; 3]; width as usize * height as usize];
         let mut seconds = 0.0;
         for ray in 0..rays {
             let mut params = shot.params(background);
             params.samples = samples / rays;
-            params.seed = seed.wrapping_mul(MAX_CAMERA_RAYS).wrapping_add(ray);
             params.jitter = ray;
-            let part = backend.render(&arrays, &params, args.sampler)?;
+            let part = match args.integrator {
+                Integrator::Direct => {
+                    params.seed = seed.wrapping_mul(MAX_CAMERA_RAYS).wrapping_add(ray);
+                    backend.render(&arrays, &params, args.sampler)?
+                }
+                Integrator::Path => {
+                    params.seed = hash(seed).wrapping_add(ray);
+                    backend.render_path(&arrays, &params, args.bounces, args.sampler)?
+                }
+            };
             seconds += part.time.as_secs_f64();
             for (sum, part) in sum.iter_mut().zip(&part.value) {
                 for k in 0..3 {
@@ -173,12 +202,18 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             (film, seconds, name)
         }
     };
+    // Direct lighting is reflected once.
+    let bounces = if args.integrator == Integrator::Path {
+        args.bounces
+    } else {
+        1
+    };
     let exposure = args.exposure.unwrap_or_else(|| film.auto_exposure());
     film.write(&args.output, exposure)?;
     if context.json {
         table::print_json(&json!({
             "scene": scene.name(), "frame": frame, "width": width, "height": height, "spp": samples,
-            "sampler": args.sampler, "backend": name, "render_ms": seconds * 1e3, "exposure": exposure,
+            "sampler": args.sampler, "integrator": args.integrator, "bounces": bounces, "backend": name, "render_ms": seconds * 1e3, "exposure": exposure,
             "output": args.output,
         }))?;
     } else {

@@ -1,4 +1,4 @@
-//! `lightbvh verify`: refit, sample, pmf and render on every device against the CPU, word for word.
+//! `lightbvh verify`: refit, sample, pmf and images on every device against the CPU, word for word.
 
 use bytemuck::cast_slice;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -23,6 +23,8 @@ const BATCH: u32 = 1 << 19;
 /// Frame at which the trees are built, and the frames that they are refitted to.
 const BUILD_FRAME: u32 = 0;
 const REFIT_FRAMES: [u32; 2] = [40, 110];
+/// Most reflections of the paths that are compared: enough for some to end by chance.
+const BOUNCES: u32 = 5;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -243,7 +245,7 @@ impl Run {
         Ok(())
     }
 
-    /// A small image; those of the samplers without a tree once per scene only.
+    /// Small images, of light reflected once and of paths; those of the samplers without a tree once per scene only.
     fn images(
         &mut self,
         scene: &Scene,
@@ -263,6 +265,13 @@ impl Run {
                 let found = device.render(arrays, &params, sampler)?.value;
                 tally.pixels += found.len() as u64;
                 let what = format!("{} render {}", scene.name(), sampler.name());
+                tally.take(&what, &PIXEL_RECORD, cast_slice(&expected), cast_slice(&found))?;
+            }
+            let expected = cpu.render_path(arrays, &params, BOUNCES, sampler)?.value;
+            for (device, tally) in devices.iter_mut().zip(&mut self.tallies) {
+                let found = device.render_path(arrays, &params, BOUNCES, sampler)?.value;
+                tally.pixels += found.len() as u64;
+                let what = format!("{} path {}", scene.name(), sampler.name());
                 tally.take(&what, &PIXEL_RECORD, cast_slice(&expected), cast_slice(&found))?;
             }
         }

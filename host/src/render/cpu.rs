@@ -1,5 +1,6 @@
-//! The render pass on the CPU: the kernel's function for each pixel, over all cores.
+//! The render passes on the CPU: the kernel's function for each pixel, over all cores.
 
+use lightbvh_kernels::path::path_pixel;
 use lightbvh_kernels::render::{RenderParams, render_pixel};
 use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::pick::PickLight;
@@ -18,5 +19,20 @@ pub fn render<P: PickLight + Sync>(
     (0..params.width * params.height)
         .into_par_iter()
         .map(|pixel| render_pixel(scene, camera, params, picker, pixel))
+        .collect()
+}
+
+/// [`render`], for paths of up to `bounces` reflections.
+#[must_use]
+pub fn render_path<P: PickLight + Sync>(
+    scene: &Scene<'_>,
+    camera: &Camera,
+    params: &RenderParams,
+    bounces: u32,
+    picker: &P,
+) -> Vec<[f32; 3]> {
+    (0..params.width * params.height)
+        .into_par_iter()
+        .map(|pixel| path_pixel(scene, camera, params, bounces, picker, pixel))
         .collect()
 }

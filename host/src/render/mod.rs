@@ -10,7 +10,7 @@ mod ray_bvh;
 mod tone;
 
 pub use camera::{View, camera};
-pub use cpu::render;
+pub use cpu::{render, render_path};
 pub use film::{Film, FilmError};
 pub use power::{PowerError, flux, power_thresholds};
 pub use ray_bvh::{RayBvh, RayBvhError};

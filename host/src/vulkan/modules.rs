@@ -27,6 +27,9 @@ pub(crate) const MODULES: &[Module] = &[
     module!("render_uniform"),
     module!("render_power"),
     module!("render_bvh"),
+    module!("path_uniform"),
+    module!("path_power"),
+    module!("path_bvh"),
     module!("self_test"),
 ];
 

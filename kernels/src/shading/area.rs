@@ -1,11 +1,11 @@
 //! Next-event estimation: what one chosen emissive triangle contributes to a point, by one random point on it.
 
 use glam::Vec3;
-use lightbvh::exact::{abs, div, flush, max, pow2, rsqrt};
+use lightbvh::exact::{abs, div, flush, max, min, pow2, rsqrt};
 use lightbvh::vector::{cross, dot, length_squared};
 use lightbvh::{EmissiveTriangle, ShadingPoint};
 
-use super::grid::{STEP, TINY, TINY_AREA, flush_vector};
+use super::grid::{STEP, TINY, TINY_AREA, bounded_product, bounded_quotient, flush_vector};
 use super::material::Material;
 
 /// How far a point is moved off its triangle, relative to the triangle's largest coordinate.
@@ -17,6 +17,10 @@ const OFFSET: f32 = pow2(-18);
 
 /// Receivers nearer to the light's point than 2^-30 m get nothing: the estimate has a pole there.
 const NEAREST_SQUARED: f32 = pow2(-60);
+
+/// Densities over solid angle are cut to this: only their ratios count, and those of a light seen under so small an angle
+/// are decided.
+const MAX_DENSITY: f32 = pow2(100);
 
 /// Relative luminance of linear RGB (Rec. ITU-R BT.709-6).
 #[inline]
@@ -62,6 +66,46 @@ pub struct Connection {
     pub contribution: Vec3,
     /// The end of the shadow ray: just before the light, metres.
     pub target: Vec3,
+    /// Density over solid angle of finding the direction to this point of the light this way, 1/sr.
+    pub density: f32,
+    /// Density over solid angle of finding it by [`Material::sample`], 1/sr.
+    pub scattering_density: f32,
+}
+
+/// Squared distance of a point from a light along `d`, and what of the light faces the point: twice its area times the
+/// cosine there times the distance, m³. Zero where the light faces away, or is too near, small or edge-on to count.
+#[inline]
+fn facing(d: Vec3, m: Vec3, two_sided: bool) -> (f32, f32) {
+    let squared = length_squared(d);
+    let front = -dot(m, d);
+    let emitting = if two_sided { abs(front) } else { front };
+    let counts = emitting > TINY && squared > NEAREST_SQUARED;
+    (squared, if counts { emitting } else { 0.0 })
+}
+
+/// Density over solid angle of what [`facing`] tells of, for a light chosen with probability `pmf` and a uniformly
+/// distributed point on it: `pmf |d|² / (A cos)`, 0 below 2^-100.
+#[inline]
+fn density(squared: f32, emitting: f32, pmf: f32) -> f32 {
+    let mut density = 0.0;
+    if emitting > 0.0 {
+        let twice_area_cos = max(emitting * rsqrt(squared), TINY_AREA);
+        density = flush(2.0 * pmf * min(div(squared, twice_area_cos), MAX_DENSITY), TINY);
+    }
+    density
+}
+
+/// The density over solid angle with which [`connect`] finds what is seen of `light` at `d` from a point, when the light
+/// is chosen there with probability `pmf`, 1/sr.
+#[inline]
+#[must_use]
+pub fn light_density(d: Vec3, light: &EmissiveTriangle, pmf: f32) -> f32 {
+    let p0 = light.vertex(0);
+    let e1 = flush_vector(light.vertex(1) - p0, STEP);
+    let e2 = flush_vector(light.vertex(2) - p0, STEP);
+    let m = flush_vector(cross(e1, e2), TINY_AREA);
+    let (squared, emitting) = facing(flush_vector(d, STEP), m, light.is_two_sided());
+    density(squared, emitting, pmf)
 }
 
 /// Connects `point` with a uniformly distributed point `y` of `light`, which was chosen with probability `pmf`.
@@ -87,31 +131,29 @@ pub fn connect(
 
     let n = flush_vector(point.normal(), STEP);
     let d = flush_vector(y - point.position(), STEP);
-    let squared = length_squared(d);
     let receiving = dot(n, d);
-    let front = -dot(m, d);
-    let emitting = if light.is_two_sided() { abs(front) } else { front };
-    let lit = receiving > 0.0 && emitting > TINY && squared > NEAREST_SQUARED && pmf > 0.0;
+    let (squared, emitting) = facing(d, m, light.is_two_sided());
+    let lit = receiving > 0.0 && emitting > 0.0 && pmf > 0.0;
 
     let mut contribution = Vec3::ZERO;
+    let mut scattering_density = 0.0;
     if lit {
         let weight = flush(div(receiving, squared) * div(emitting, squared), TINY);
-        let scale = flush(div(0.5 * weight, pmf), TINY);
-        let f = material.eval(n, d * rsqrt(squared), wo);
-        contribution = flush_vector(
-            Vec3::new(
-                flush(f.x * scale, TINY) * light.radiance[0],
-                flush(f.y * scale, TINY) * light.radiance[1],
-                flush(f.z * scale, TINY) * light.radiance[2],
-            ),
-            TINY,
+        let scale = bounded_quotient(0.5 * weight, pmf);
+        let scattering = material.scatter(n, d * rsqrt(squared), wo);
+        let f = scattering.reflectance;
+        contribution = Vec3::new(
+            bounded_product(bounded_product(f.x, scale), light.radiance[0]),
+            bounded_product(bounded_product(f.y, scale), light.radiance[1]),
+            bounded_product(bounded_product(f.z, scale), light.radiance[2]),
         );
+        scattering_density = scattering.density;
     }
 
     // Off the light's plane, towards the receiver.
     let offset = offset_distance(p0, p1, p2);
     let area_squared = length_squared(m);
-    let towards = if front < 0.0 { -offset } else { offset };
+    let towards = if dot(m, d) > 0.0 { -offset } else { offset };
     let shift = if area_squared > 0.0 {
         m * rsqrt(area_squared) * towards
     } else {
@@ -120,5 +162,7 @@ pub fn connect(
     Connection {
         contribution,
         target: y + shift,
+        density: density(squared, emitting, pmf),
+        scattering_density,
     }
 }

@@ -5,7 +5,7 @@
 //! ray tests is zero or at least 2^-100, and every sum of such products zero or at least 2^-123: all normal.
 
 use glam::Vec3;
-use lightbvh::exact::{abs, flush, pow2};
+use lightbvh::exact::{abs, div, exponent, flush, pow2};
 
 /// The grid's step, metres.
 pub const STEP: f32 = pow2(-40);
@@ -43,4 +43,40 @@ pub fn snap_point(p: Vec3) -> Vec3 {
 #[must_use]
 pub fn flush_vector(v: Vec3, tiny: f32) -> Vec3 {
     Vec3::new(flush(v.x, tiny), flush(v.y, tiny), flush(v.z, tiny))
+}
+
+/// Largest estimate of a radiance, W/(m² sr): 2^90. Greater ones are cut to it, so that no sum of up to 2^30 of them
+/// overflows.
+pub const MAX_ESTIMATE: f32 = pow2(MAX_EXPONENT);
+const MAX_EXPONENT: i32 = 90;
+
+/// `a b` for numbers that are not negative: +0 where it is below [`TINY`], [`MAX_ESTIMATE`] where it would reach that.
+#[inline]
+#[must_use]
+pub fn bounded_product(a: f32, b: f32) -> f32 {
+    // The product is at least 2^e for e the sum of the exponents, and below 2^(e + 2).
+    let over = exponent(a) + exponent(b) >= MAX_EXPONENT;
+    let product = a * if over { 0.0 } else { b };
+    let bounded = if product < MAX_ESTIMATE {
+        product
+    } else {
+        MAX_ESTIMATE
+    };
+    if over { MAX_ESTIMATE } else { flush(bounded, TINY) }
+}
+
+/// `a / b` for `a` not negative and `b` positive and normal: +0 where it is below [`TINY`], [`MAX_ESTIMATE`] where it
+/// would reach that.
+#[inline]
+#[must_use]
+pub fn bounded_quotient(a: f32, b: f32) -> f32 {
+    // The quotient is above 2^(e - 1) for e the difference of the exponents, and below 2^(e + 1).
+    let over = exponent(a) - exponent(b) > MAX_EXPONENT;
+    let quotient = div(a, if over { a } else { b });
+    let bounded = if quotient < MAX_ESTIMATE {
+        quotient
+    } else {
+        MAX_ESTIMATE
+    };
+    if over { MAX_ESTIMATE } else { flush(bounded, TINY) }
 }

@@ -2,15 +2,19 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use lightbvh::exact::{clamp, flush, rsqrt};
-use lightbvh::vector::{dot, length_squared};
+use lightbvh::exact::{clamp, div, floor_u32, flush, max, pow2};
+use lightbvh::vector::dot;
 
-use super::grid::{STEP, TINY};
+use super::grid::{STEP, TINY, flush_vector};
+use super::lobe::{about, circle, cosine_power, power_cosine};
 
 /// Largest [`Material::exponent_log2`] that counts; larger ones are read as this.
 pub const MAX_EXPONENT_LOG2: u32 = 16;
 
 const INV_PI: f32 = core::f32::consts::FRAC_1_PI;
+
+/// Directions less likely than this count as never sampled: a quotient by the density then stays in range.
+const MIN_DENSITY: f32 = pow2(-60);
 
 /// A reflectance; 20 bytes. It never reflects more than arrives.
 #[repr(C)]
@@ -37,33 +41,95 @@ impl Material {
     #[inline]
     #[must_use]
     pub fn eval(&self, n: Vec3, wi: Vec3, wo: Vec3) -> Vec3 {
-        let specular = clamp(self.specular, 0.0, 1.0);
-        let diffuse = (1.0 - specular) * INV_PI;
+        self.scatter(n, wi, wo).reflectance
+    }
 
+    /// [`eval`](Self::eval), and the density with which [`sample`](Self::sample) chooses `wi`.
+    #[inline]
+    #[must_use]
+    pub fn scatter(&self, n: Vec3, wi: Vec3, wo: Vec3) -> Scattering {
+        let specular = self.specular();
+        let diffuse = (1.0 - specular) * INV_PI;
         let half = wi + wo;
-        let squared = length_squared(half);
-        // Opposite directions have no half vector; they meet only where both graze the surface.
-        let cosine = if squared > STEP {
-            dot(n, half) * rsqrt(squared)
-        } else {
-            0.0
-        };
-        let mut lobe = flush(clamp(cosine, 0.0, 1.0), STEP);
-        let log2 = if self.exponent_log2 < MAX_EXPONENT_LOG2 {
+        let log2 = self.log2();
+        let exponent = (1_u32 << log2) as i32 as f32;
+        let lobe = cosine_power(n, half, log2);
+        let gloss = flush(specular * lobe, TINY) * ((exponent + 6.0) * (INV_PI * 0.125));
+
+        // The half vector has density k / (2 pi) (n . h)^(k-1) over its own solid angle, and the reflected direction
+        // 1 / (4 wo . h) of that (pbrt-v4, section 9.6.5). With h = half / |half|, wo . h = |half| / 2, so that the
+        // product is k (n . h)^k / (4 pi n . half).
+        let along = dot(n, half);
+        let mut gloss_density = 0.0;
+        if lobe > 0.0 {
+            gloss_density = div(lobe, along) * (exponent * (INV_PI * 0.25));
+        }
+        let diffuse_density = flush(dot(n, wi), STEP) * INV_PI;
+        let share = self.gloss_share();
+        let density = flush((1.0 - share) * diffuse_density, TINY) + flush(share * gloss_density, TINY);
+        Scattering {
+            reflectance: Vec3::new(
+                flush(diffuse * self.albedo[0], TINY) + gloss,
+                flush(diffuse * self.albedo[1], TINY) + gloss,
+                flush(diffuse * self.albedo[2], TINY) + gloss,
+            ),
+            density: if diffuse_density > 0.0 && density > MIN_DENSITY {
+                density
+            } else {
+                0.0
+            },
+        }
+    }
+
+    /// A unit direction that light may come from, chosen about as [`eval`](Self::eval) times cosine, with the density
+    /// that [`scatter`](Self::scatter) tells: the half vector by the lobe's own power of the cosine, or the direction by
+    /// the cosine. It may lie below the surface, where the density of what is reflected is 0.
+    #[inline]
+    #[must_use]
+    pub fn sample(&self, n: Vec3, wo: Vec3, u: [f32; 3]) -> Vec3 {
+        let glossy = u[2] < self.gloss_share();
+        let [cosine, sine] = power_cosine(u[0], if glossy { self.log2() } else { 1 });
+        let [across, up] = circle(u[1]);
+        let chosen = about(n, sine * across, sine * up, cosine);
+        let mirrored = flush_vector(chosen * (2.0 * flush(dot(wo, chosen), STEP)) - wo, STEP);
+        if glossy { mirrored } else { chosen }
+    }
+
+    #[inline]
+    fn specular(&self) -> f32 {
+        clamp(self.specular, 0.0, 1.0)
+    }
+
+    #[inline]
+    fn log2(&self) -> u32 {
+        if self.exponent_log2 < MAX_EXPONENT_LOG2 {
             self.exponent_log2
         } else {
             MAX_EXPONENT_LOG2
-        };
-        for _ in 0..log2 {
-            lobe = flush(lobe * lobe, STEP);
         }
-        let exponent = (1_u32 << log2) as i32 as f32;
-        let gloss = flush(specular * lobe, TINY) * ((exponent + 6.0) * (INV_PI * 0.125));
-
-        Vec3::new(
-            flush(diffuse * self.albedo[0], TINY) + gloss,
-            flush(diffuse * self.albedo[1], TINY) + gloss,
-            flush(diffuse * self.albedo[2], TINY) + gloss,
-        )
     }
+
+    /// The part of the directions that are sampled by the lobe: its part of the reflected light, about, as a multiple of
+    /// 2^-24 so that it is the exact probability.
+    #[inline]
+    fn gloss_share(&self) -> f32 {
+        let specular = flush(self.specular(), STEP);
+        let albedo = clamp(max(max(self.albedo[0], self.albedo[1]), self.albedo[2]), 0.0, 1.0);
+        let both = specular + flush((1.0 - specular) * albedo, STEP);
+        let mut share = 0.0;
+        if both > 0.0 {
+            share = floor_u32(div(specular, both) * pow2(24)) as i32 as f32 * pow2(-24);
+        }
+        share
+    }
+}
+
+/// How a surface scatters from one direction to another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scattering {
+    /// The BRDF, 1/sr, linear RGB.
+    pub reflectance: Vec3,
+    /// Density over solid angle with which [`Material::sample`] chooses the direction, 1/sr; 0 below the surface, and
+    /// where it would be under 2^-60.
+    pub density: f32,
 }

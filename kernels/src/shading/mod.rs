@@ -9,6 +9,8 @@
 //! | [`area`] | a point on the chosen light, and what it contributes |
 //! | [`pick`] | the choice of a light: the trait, uniform and by power |
 //! | [`pixel`] | all of it together, for one pixel |
+//! | [`lobe`], [`mis`] | directions with a known density; weights of two ways to find a light |
+//! | [`path`] | light along whole paths |
 //!
 //! Results agree to the bit between processors in this domain: coordinates at most [`grid::MAX_COORDINATE`] in magnitude
 //! and on the grid (the host's ray-BVH builder sees to both), radiances as in [`lightbvh::light`], albedo and specular
@@ -17,7 +19,10 @@
 pub mod area;
 pub mod camera;
 pub mod grid;
+pub mod lobe;
 pub mod material;
+pub mod mis;
+pub mod path;
 pub mod pick;
 pub mod pixel;
 pub mod ray;

@@ -1,7 +1,7 @@
 //! The choice of a light for a shading point.
 
-use lightbvh::ShadingPoint;
 use lightbvh::exact::pow2;
+use lightbvh::{INVALID, ShadingPoint};
 
 use super::trace::NONE;
 
@@ -18,6 +18,11 @@ pub struct Picked {
 pub trait PickLight {
     /// Chooses a light for `point` with 32 uniformly distributed random bits.
     fn pick(&self, point: &ShadingPoint, random: u32) -> Picked;
+
+    /// The probability with which [`pick`](Self::pick) returns `light` for `point`: to the bit the pmf that comes with the
+    /// light when it is picked, 0 where it never is. `mesh` is the light's [`mesh`](lightbvh::EmissiveTriangle::mesh);
+    /// only a picker over mesh lights looks at it.
+    fn pmf(&self, point: &ShadingPoint, light: u32, mesh: u32) -> f32;
 }
 
 /// Random numbers count in 2^-24 here: the number of those that lead to a light then fits an `f32` exactly, and so does
@@ -33,28 +38,43 @@ pub struct Uniform {
     pub count: u32,
 }
 
-impl PickLight for Uniform {
-    /// Light `floor(r n / 2^24)` for the random number `r`. It is chosen by `ceil((i+1) 2^24 / n) - ceil(i 2^24 / n)` of
-    /// the `2^24` random numbers, which differs between lights by one, and the pmf says so.
+impl Uniform {
+    /// How many lights are told apart.
     #[inline]
-    fn pick(&self, _point: &ShadingPoint, random: u32) -> Picked {
-        let count = if self.count < MAX_PICKABLE {
+    fn pickable(&self) -> u32 {
+        if self.count < MAX_PICKABLE {
             self.count
         } else {
             MAX_PICKABLE
-        };
+        }
+    }
+}
+
+impl PickLight for Uniform {
+    /// Light `floor(r n / 2^24)` for the random number `r`.
+    #[inline]
+    fn pick(&self, point: &ShadingPoint, random: u32) -> Picked {
+        let count = self.pickable();
         let light = multiply_shift(random >> (32 - RANDOM_BITS), count);
-        let chances = first_random(light + 1, count).wrapping_sub(first_random(light, count));
-        if count == 0 {
-            Picked {
-                light: NONE,
-                pmf: 0.0,
-            }
+        Picked {
+            light: if count == 0 { NONE } else { light },
+            pmf: self.pmf(point, light, INVALID),
+        }
+    }
+
+    /// Light `i` is chosen by `ceil((i+1) 2^24 / n) - ceil(i 2^24 / n)` of the `2^24` random numbers, which differs
+    /// between lights by one, and the pmf says so.
+    #[inline]
+    fn pmf(&self, _point: &ShadingPoint, light: u32, _mesh: u32) -> f32 {
+        let count = self.pickable();
+        // A light beyond the last is asked about as the first, whose arithmetic is in range.
+        let known = light < count;
+        let i = if known { light } else { 0 };
+        let chances = first_random(i + 1, count).wrapping_sub(first_random(i, count));
+        if known {
+            chances as i32 as f32 * pow2(-24)
         } else {
-            Picked {
-                light,
-                pmf: chances as i32 as f32 * pow2(-24),
-            }
+            0.0
         }
     }
 }
@@ -96,7 +116,7 @@ pub struct Power<'a> {
 
 impl PickLight for Power<'_> {
     #[inline]
-    fn pick(&self, _point: &ShadingPoint, random: u32) -> Picked {
+    fn pick(&self, point: &ShadingPoint, random: u32) -> Picked {
         let entries = self.thresholds.len() as u32;
         let random = random >> (32 - RANDOM_BITS);
         let mut low = 0;
@@ -110,20 +130,24 @@ impl PickLight for Power<'_> {
                 high = if right { high } else { middle };
             }
         }
-        let mut picked = Picked {
-            light: NONE,
-            pmf: 0.0,
-        };
-        if entries > 1 {
-            let start = self.thresholds[low as usize];
-            let stop = self.thresholds[low as usize + 1];
+        let pmf = self.pmf(point, low, INVALID);
+        Picked {
+            light: if pmf > 0.0 { low } else { NONE },
+            pmf,
+        }
+    }
+
+    #[inline]
+    fn pmf(&self, _point: &ShadingPoint, light: u32, _mesh: u32) -> f32 {
+        let entries = self.thresholds.len() as u32;
+        let mut pmf = 0.0;
+        if entries > 1 && light < entries - 1 {
+            let start = self.thresholds[light as usize];
+            let stop = self.thresholds[light as usize + 1];
             if start < stop && stop <= MAX_PICKABLE {
-                picked = Picked {
-                    light: low,
-                    pmf: (stop - start) as i32 as f32 * pow2(-24),
-                };
+                pmf = (stop - start) as i32 as f32 * pow2(-24);
             }
         }
-        picked
+        pmf
     }
 }

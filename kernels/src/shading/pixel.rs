@@ -10,7 +10,7 @@ use super::grid::{TINY, TINY_AREA, flush_vector};
 use super::material::Material;
 use super::pick::PickLight;
 use super::ray::Ray;
-use super::trace::{Surfaces, any_hit, closest_hit, vertex};
+use super::trace::{NONE, Surfaces, any_hit, closest_hit, vertex};
 
 /// Random numbers that one light sample uses.
 const RANDOM_PER_SAMPLE: u32 = 3;
@@ -40,10 +40,28 @@ pub struct Seen {
     pub direct: Vec3,
 }
 
+/// What a ray meets, and how far away.
+#[derive(Clone, Copy, Debug)]
+pub struct Encounter {
+    /// What it sees.
+    pub seen: Seen,
+    /// Index of the emissive triangle that it met, or [`NONE`].
+    pub light: u32,
+    /// Distance in multiples of the ray's direction; the ray's end if it met nothing.
+    pub distance: f32,
+}
+
 /// Follows `ray` to the first surface.
 #[inline]
 #[must_use]
 pub fn see(scene: &Scene<'_>, ray: &Ray, background: Vec3) -> Seen {
+    encounter(scene, ray, background).seen
+}
+
+/// [`see`], and what a path needs to know besides.
+#[inline]
+#[must_use]
+pub fn encounter(scene: &Scene<'_>, ray: &Ray, background: Vec3) -> Encounter {
     let triangles = scene.surfaces.triangles;
     let hit = closest_hit(&scene.surfaces, ray);
     let mut seen = Seen {
@@ -55,6 +73,7 @@ pub fn see(scene: &Scene<'_>, ray: &Ray, background: Vec3) -> Seen {
         material: 0,
         direct: background,
     };
+    let mut light = NONE;
     if hit.triangle < triangles.len() as u32 {
         let p0 = vertex(triangles, hit.triangle, 0);
         let p1 = vertex(triangles, hit.triangle, 1);
@@ -75,9 +94,14 @@ pub fn see(scene: &Scene<'_>, ray: &Ray, background: Vec3) -> Seen {
             seen.wo = -ray.direction * div(1.0, sqrt(length_squared(ray.direction)));
         }
         seen.material = triangles[hit.triangle as usize].material;
-        seen.direct = emitted(scene.lights, triangles[hit.triangle as usize].light, front);
+        light = triangles[hit.triangle as usize].light;
+        seen.direct = emitted(scene.lights, light, front);
     }
-    seen
+    Encounter {
+        seen,
+        light,
+        distance: hit.t,
+    }
 }
 
 /// The point where `ray` meets the plane of a triangle it is known to hit, from its barycentric coordinates: off the plane
@@ -143,7 +167,7 @@ pub fn reflected<P: PickLight>(scene: &Scene<'_>, seen: &Seen, picker: &P, sampl
 }
 
 #[inline]
-fn load_material(materials: &[Material], index: u32) -> Material {
+pub(super) fn load_material(materials: &[Material], index: u32) -> Material {
     let i = index as usize;
     Material {
         albedo: [
@@ -163,7 +187,7 @@ fn light_vertex(lights: &[EmissiveTriangle], i: usize, k: usize) -> [f32; 3] {
 }
 
 #[inline]
-fn load_light(lights: &[EmissiveTriangle], index: u32) -> EmissiveTriangle {
+pub(super) fn load_light(lights: &[EmissiveTriangle], index: u32) -> EmissiveTriangle {
     let i = index as usize;
     EmissiveTriangle {
         p: [

@@ -1,0 +1,178 @@
+//! Passes `path_*`: light along paths of several reflections, one invocation per pixel. Same buffers as `render_*`.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{UVec3, Vec3};
+use lightbvh::exact::{div, hash};
+use lightbvh::{EmissiveTriangle, Instance};
+use spirv_std::spirv;
+
+use crate::bvh::{Node, TreePush};
+use crate::invocation;
+use crate::render::RenderParams;
+use crate::shading::camera::Camera;
+use crate::shading::grid::{TINY, flush_vector};
+use crate::shading::material::Material;
+use crate::shading::path::path_radiance;
+use crate::shading::pick::{PickLight, Power, Uniform};
+use crate::shading::pixel::Scene;
+use crate::shading::trace::{RayNode, SurfaceTriangle, Surfaces};
+
+/// The radiance that reaches the camera through pixel `index` along paths of up to `bounces` reflections, linear RGB,
+/// W/(m² sr): the mean of [`samples`](RenderParams::samples) paths. Pixels are numbered by rows from the upper left, and
+/// all paths of a pixel begin with the same camera ray, as the light samples of [`render_pixel`](crate::render::render_pixel).
+#[inline]
+#[must_use]
+pub fn path_pixel<P: PickLight>(
+    scene: &Scene<'_>,
+    camera: &Camera,
+    params: &RenderParams,
+    bounces: u32,
+    picker: &P,
+    index: u32,
+) -> [f32; 3] {
+    let width = if params.width == 0 { 1 } else { params.width };
+    let y = index / width;
+    let x = index - y * width;
+    let pixel = hash(index);
+    let ray = camera.ray(x, y, width, params.height, pixel.wrapping_add(params.jitter));
+    let background = Vec3::new(params.background[0], params.background[1], params.background[2]);
+    let seed = hash(pixel.wrapping_add(hash(params.seed)));
+    let mut sum = Vec3::ZERO;
+    for sample in 0..params.samples {
+        sum += path_radiance(
+            scene,
+            &ray,
+            background,
+            picker,
+            bounces,
+            hash(seed.wrapping_add(sample)),
+        );
+    }
+    let count = if params.samples == 0 { 1 } else { params.samples };
+    let mean = flush_vector(sum * div(1.0, count as i32 as f32), TINY);
+    [mean.x, mean.y, mean.z]
+}
+
+/// Push constants of the path passes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct PathPush {
+    /// The image; `samples` counts paths.
+    pub params: RenderParams,
+    /// Most reflections of a path, at most [`MAX_BOUNCES`](crate::shading::path::MAX_BOUNCES).
+    pub bounces: u32,
+    /// First pixel of this dispatch; `results` begins with it.
+    pub first: u32,
+    /// Number of pixels of this dispatch.
+    pub count: u32,
+    /// The light BVH (`path_bvh` only).
+    pub tree: TreePush,
+}
+
+/// Paths with lights chosen from a light BVH of one or two levels.
+#[spirv(compute(threads(64), entry_point_name = "path_bvh"))]
+pub fn path_bvh(
+    #[spirv(global_invocation_id)] id: UVec3,
+    #[spirv(push_constant)] push: &PathPush,
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] camera: &[Camera],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] nodes: &[Node],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] meshes: &[Instance],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] trails: &[u32],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] results: &mut [[f32; 3]],
+) {
+    let i = invocation(id);
+    if i < push.count {
+        let scene = Scene {
+            surfaces: Surfaces {
+                nodes: ray_nodes,
+                triangles: surfaces,
+            },
+            materials,
+            lights,
+        };
+        let picker = push.tree.picker(nodes, meshes, trails);
+        results[i as usize] = path_pixel(
+            &scene,
+            &camera[0],
+            &push.params,
+            push.bounces,
+            &picker,
+            push.first.wrapping_add(i),
+        );
+    }
+}
+
+/// Paths with lights chosen in proportion to their power. `thresholds` is [`Power`]'s table.
+#[spirv(compute(threads(64), entry_point_name = "path_power"))]
+pub fn path_power(
+    #[spirv(global_invocation_id)] id: UVec3,
+    #[spirv(push_constant)] push: &PathPush,
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] camera: &[Camera],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] thresholds: &[u32],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] results: &mut [[f32; 3]],
+) {
+    let i = invocation(id);
+    if i < push.count {
+        let scene = Scene {
+            surfaces: Surfaces {
+                nodes: ray_nodes,
+                triangles: surfaces,
+            },
+            materials,
+            lights,
+        };
+        let picker = Power { thresholds };
+        results[i as usize] = path_pixel(
+            &scene,
+            &camera[0],
+            &push.params,
+            push.bounces,
+            &picker,
+            push.first.wrapping_add(i),
+        );
+    }
+}
+
+/// Paths with lights chosen uniformly.
+#[spirv(compute(threads(64), entry_point_name = "path_uniform"))]
+pub fn path_uniform(
+    #[spirv(global_invocation_id)] id: UVec3,
+    #[spirv(push_constant)] push: &PathPush,
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] camera: &[Camera],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] results: &mut [[f32; 3]],
+) {
+    let i = invocation(id);
+    if i < push.count {
+        let scene = Scene {
+            surfaces: Surfaces {
+                nodes: ray_nodes,
+                triangles: surfaces,
+            },
+            materials,
+            lights,
+        };
+        let picker = Uniform {
+            count: lights.len() as u32,
+        };
+        results[i as usize] = path_pixel(
+            &scene,
+            &camera[0],
+            &push.params,
+            push.bounces,
+            &picker,
+            push.first.wrapping_add(i),
+        );
+    }
+}

@@ -1,0 +1,337 @@
+//! Sampled directions have exactly the density that is told of them.
+
+use glam::{DVec3, Vec3};
+use lightbvh_kernels::shading::lobe::{about, circle, cosine_power, power_cosine};
+use lightbvh_kernels::shading::material::{MAX_EXPONENT_LOG2, Material};
+use lightbvh_tests::generate::Random;
+use lightbvh_tests::statistics::{Mean, chi_squared, chi_squared_quantile, normal_quantile};
+use std::f64::consts::{PI, TAU};
+
+/// Chance that a right sampler fails one comparison.
+const TAIL: f64 = 1e-7;
+
+fn material(albedo: f32, specular: f32, exponent_log2: u32) -> Material {
+    Material {
+        albedo: [albedo, 0.5 * albedo, 0.0],
+        specular,
+        exponent_log2,
+    }
+}
+
+fn draw3(random: &mut Random) -> [f32; 3] {
+    [random.unit(), random.unit(), random.unit()]
+}
+
+/// Polar angle by its cosine, and azimuth.
+fn direction(cosine: f64, turns: f64) -> DVec3 {
+    let sine = (1.0 - cosine * cosine).sqrt();
+    DVec3::new(sine * (turns * TAU).cos(), sine * (turns * TAU).sin(), cosine)
+}
+
+/// The density of [`Material::sample`] above the surface, in f64 and by the formulas: `share` of the directions mirror
+/// `wo` in a half vector of density `k / (2 pi) cos^(k-1)`, the others have `cos / pi`.
+fn density(wi: DVec3, wo: DVec3, share: f64, k: f64) -> f64 {
+    let half = (wi + wo).normalize();
+    if wi.z <= 0.0 || half.z <= 0.0 {
+        return 0.0;
+    }
+    let gloss = k / TAU * half.z.powf(k - 1.0) / (4.0 * wo.dot(half));
+    (1.0 - share) * wi.z / PI + share * gloss
+}
+
+/// The part of the lobe that the sampler is documented to take, of reflected light about.
+fn share(m: &Material) -> f64 {
+    let specular = f64::from(m.specular);
+    specular / (specular + (1.0 - specular) * f64::from(m.albedo[0]))
+}
+
+#[test]
+fn the_circle_is_round_to_its_bound() {
+    let mut worst = 0.0_f64;
+    for i in 0..1_u32 << 24 {
+        let turns = i as f32 / 16_777_216.0;
+        let [cosine, sine] = circle(turns);
+        let (s, c) = (f64::from(turns) * TAU).sin_cos();
+        worst = worst
+            .max((f64::from(cosine) - c).abs())
+            .max((f64::from(sine) - s).abs());
+    }
+    assert!(worst < 2f64.powi(-22), "{worst:e}");
+}
+
+#[test]
+fn the_cosine_is_the_root_of_a_root() {
+    for log2 in 0..=MAX_EXPONENT_LOG2 {
+        let k = f64::from(1_u32 << log2);
+        for i in (0..1_u32 << 24).step_by(4099) {
+            let u = i as f32 / 16_777_216.0;
+            let [cosine, sine] = power_cosine(u, log2);
+            // cos = (1 - u)^(1/k), and 1 - cos^2 without cancellation.
+            let exponent = (-f64::from(u)).ln_1p() / k;
+            let (c, s) = (exponent.exp(), (-(2.0 * exponent).exp_m1()).sqrt());
+            // Each of the roots and quotients rounds once, and so do the sum and the product at the end.
+            let bound = f64::from(log2 + 3) * 2f64.powi(-24);
+            assert!((f64::from(cosine) - c).abs() <= bound * c, "{u} {log2}");
+            assert!(
+                (f64::from(sine) - s).abs() <= bound * s + 1e-12,
+                "{u} {log2}: {sine} {s}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_power_of_a_narrow_lobe_is_accurate() {
+    let mut random = Random::new(5);
+    let mut worst = 0.0_f64;
+    for i in 0..200_000 {
+        let log2 = i % (MAX_EXPONENT_LOG2 + 1);
+        let n = Vec3::from(random.direction());
+        let [cosine, sine] = power_cosine(random.unit(), log2);
+        let [x, y] = circle(random.unit());
+        let v = about(n, sine * x, sine * y, cosine) * (0.5 + random.unit());
+        let (n, d) = (n.as_dvec3().normalize(), v.as_dvec3().normalize());
+        let expected = n.dot(d).powi(1 << log2);
+        let found = f64::from(cosine_power(n.as_vec3(), v, log2));
+        // The vectors' own rounding tilts them by about 2^-24, which the power multiplies by k sin.
+        let k = f64::from(1_u32 << log2);
+        let tilt = 2f64.powi(-23) * k * n.cross(d).length() / n.dot(d);
+        let bound = 2.0 * tilt + 2f64.powi(-18);
+        if expected > 2f64.powi(-30) {
+            let error = (found / expected - 1.0).abs();
+            assert!(error <= bound, "2^{log2}: {found} {expected} {bound:e}");
+            worst = worst.max(error);
+        }
+    }
+    assert!(worst < 2e-3, "{worst}");
+}
+
+#[test]
+fn frames_are_orthonormal() {
+    let mut random = Random::new(8);
+    let mut normals: Vec<[f32; 3]> = (0..10_000).map(|_| random.direction()).collect();
+    normals.extend([
+        [1.0, 0.0, 0.0],
+        [0.0, -1.0, 0.0],
+        [0.0, 0.0, 1.0],
+        [0.0, 0.0, -1.0],
+        [1e-20, 0.0, -1.0],
+    ]);
+    for n in normals {
+        let n = Vec3::from(n);
+        let axes = [about(n, 1.0, 0.0, 0.0), about(n, 0.0, 1.0, 0.0), n].map(|v| v.as_dvec3());
+        for i in 0..3 {
+            for j in 0..3 {
+                let expected = if i == j { 1.0 } else { 0.0 };
+                // The normal is unit length to 2^-22, and each component sums three roundings.
+                assert!((axes[i].dot(axes[j]) - expected).abs() < 2e-6, "{n}");
+            }
+        }
+        assert!(axes[0].cross(axes[1]).dot(axes[2]) > 0.99, "{n}: right-handed");
+    }
+}
+
+/// Frequencies of sampled directions over cells of the hemisphere, against the integral of the density over each; all
+/// that goes below the surface is one cell.
+#[test]
+fn directions_have_their_density() {
+    const SAMPLES: u32 = 300_000;
+    const RINGS: usize = 10;
+    const SECTORS: usize = 16;
+    const SIDE: usize = 40;
+    let mut random = Random::new(2);
+    for (m, cos_o) in [
+        (material(0.8, 0.0, 3), 0.7),
+        (material(0.0, 1.0, 0), 0.8),
+        (material(0.0, 1.0, 1), 0.6),
+        (material(0.3, 1.0, 3), 0.9),
+        (material(0.5, 0.4, 2), 0.3),
+        (material(0.9, 0.1, 5), 0.5),
+        (material(0.1, 0.9, 4), 0.2),
+    ] {
+        let n = Vec3::from(random.direction());
+        let local = direction(cos_o, f64::from(random.unit()));
+        let wo = about(n, local.x as f32, local.y as f32, local.z as f32);
+        let axes = [about(n, 1.0, 0.0, 0.0), about(n, 0.0, 1.0, 0.0), n].map(|v| v.as_dvec3());
+
+        let mut counts = vec![0_u64; RINGS * SECTORS + 1];
+        for _ in 0..SAMPLES {
+            let wi = m.sample(n, wo, draw3(&mut random)).as_dvec3();
+            assert!((wi.length() - 1.0).abs() < 4e-6);
+            let [x, y, z] = axes.map(|a| a.dot(wi));
+            let cell = if z > 0.0 {
+                let ring = ((z * RINGS as f64) as usize).min(RINGS - 1);
+                let sector = (y.atan2(x).rem_euclid(TAU) / TAU * SECTORS as f64) as usize;
+                ring * SECTORS + sector.min(SECTORS - 1)
+            } else {
+                RINGS * SECTORS
+            };
+            counts[cell] += 1;
+        }
+
+        let k = f64::from(1_u32 << m.exponent_log2);
+        let mut expected: Vec<f64> = (0..RINGS * SECTORS)
+            .map(|cell| {
+                let mut sum = 0.0;
+                for i in 0..SIDE * SIDE {
+                    let ring = (cell / SECTORS) as f64 + ((i / SIDE) as f64 + 0.5) / SIDE as f64;
+                    let sector = (cell % SECTORS) as f64 + ((i % SIDE) as f64 + 0.5) / SIDE as f64;
+                    let wi = direction(ring / RINGS as f64, sector / SECTORS as f64);
+                    sum += density(wi, local, share(&m), k);
+                }
+                sum / (SIDE * SIDE) as f64 * TAU / (RINGS * SECTORS) as f64
+            })
+            .collect();
+        let above: f64 = expected.iter().sum();
+        assert!(above <= 1.0 + 1e-3, "{m:?}: {above}");
+        expected.push((1.0 - above).max(0.0));
+        // Midpoints err far less than the frequencies vary; where nothing goes below, a rounding may.
+        if expected[RINGS * SECTORS] < 1e-4 {
+            expected[RINGS * SECTORS] = 1e-4;
+        }
+        let (statistic, degrees) = chi_squared(&counts, &expected);
+        let threshold = chi_squared_quantile(degrees, TAIL);
+        assert!(
+            statistic < threshold,
+            "{m:?} at {cos_o}: {statistic} of {threshold}, {degrees} degrees"
+        );
+    }
+}
+
+/// Lobes too narrow for cells: the power of the half vector's cosine is uniform in [0, 1).
+#[test]
+fn half_vectors_of_narrow_lobes_have_their_density() {
+    const CELLS: usize = 64;
+    let mut random = Random::new(4);
+    for exponent_log2 in 0..=MAX_EXPONENT_LOG2 {
+        let m = material(0.0, 1.0, exponent_log2);
+        let n = Vec3::from(random.direction());
+        let wo = n;
+        let mut counts = vec![0_u64; CELLS];
+        for _ in 0..50_000 {
+            let wi = m.sample(n, wo, draw3(&mut random));
+            // From straight above every half vector is met, and the mirrored direction tells it: twice its angle.
+            let cos_squared = (1.0 + f64::from(wi.dot(n))) / 2.0;
+            let sin_squared = (wi - n).as_dvec3().length_squared() / 4.0;
+            let power = if sin_squared < 0.5 {
+                ((-sin_squared).ln_1p() * 0.5 * f64::from(1_u32 << exponent_log2)).exp()
+            } else {
+                cos_squared.max(0.0).powf(0.5 * f64::from(1_u32 << exponent_log2))
+            };
+            counts[((power * CELLS as f64) as usize).min(CELLS - 1)] += 1;
+        }
+        let (statistic, degrees) = chi_squared(&counts, &vec![1.0 / CELLS as f64; CELLS]);
+        let threshold = chi_squared_quantile(degrees, TAIL);
+        assert!(
+            statistic < threshold,
+            "2^{exponent_log2}: {statistic} of {threshold}"
+        );
+    }
+}
+
+/// What is told of a sampled direction, and of any other, is the density by its formula.
+#[test]
+fn told_densities_are_the_formula_s() {
+    let mut random = Random::new(6);
+    let mut seen = 0;
+    for i in 0..100_000_u32 {
+        let m = material(random.unit(), [0.0, 1.0, random.unit()][i as usize % 3], i % 17);
+        let n = Vec3::Z;
+        let wo = direction(0.05 + 0.95 * f64::from(random.unit()), f64::from(random.unit()));
+        let wo = wo.as_vec3();
+        let wi = if i % 2 == 0 {
+            m.sample(n, wo, draw3(&mut random))
+        } else {
+            direction(f64::from(random.unit()), f64::from(random.unit())).as_vec3()
+        };
+        let k = f64::from(1_u32 << m.exponent_log2);
+        let told = f64::from(m.scatter(n, wi, wo).density);
+        let (i64, o64) = (wi.as_dvec3().normalize(), wo.as_dvec3().normalize());
+        let expected = density(i64, o64, share(&m), k);
+        let half = (i64 + o64).normalize();
+        // Rounding of the directions tilts the half vector; below 2^-40 the lobe's power is cut.
+        let length = (i64 + o64).length();
+        let tilt = 2f64.powi(-22) / length * (k * half.z.acos().tan() + 1.0 / i64.z + 1.0 / half.z);
+        let cut = k * 2f64.powi(-39) / length;
+        // The share is a multiple of 2^-24.
+        let either = density(i64, o64, 0.0, k) + density(i64, o64, 1.0, k);
+        let tolerance = expected * (tilt + 2f64.powi(-17)) + cut + 2f64.powi(-23) * either;
+        if i64.z > 1e-3 && expected > 1e-12 {
+            assert!(
+                (told - expected).abs() <= tolerance,
+                "{m:?} {wi} {wo}: {told} {expected}"
+            );
+            seen += 1;
+        }
+    }
+    assert!(seen > 60_000, "{seen}");
+}
+
+/// The mean of what a sampled direction carries is the albedo, here by quadrature; nowhere above one.
+#[test]
+fn sampled_furnaces_have_the_albedo() {
+    const SAMPLES: u32 = 200_000;
+    const SIDE: u32 = 600;
+    let mut random = Random::new(9);
+    for (m, cos_o) in [
+        (material(0.8, 0.0, 0), 0.3),
+        (material(1.0, 1.0, 0), 1.0),
+        (material(0.7, 0.5, 1), 0.2),
+        (material(0.4, 0.6, 4), 0.9),
+        (material(1.0, 1.0, 6), 0.6),
+    ] {
+        let wo = direction(cos_o, 0.0).as_vec3();
+        let mut mean = Mean::default();
+        for _ in 0..SAMPLES {
+            let wi = m.sample(Vec3::Z, wo, draw3(&mut random));
+            let scattering = m.scatter(Vec3::Z, wi, wo);
+            let carried = if scattering.density > 0.0 {
+                f64::from(scattering.reflectance.x) * f64::from(wi.z) / f64::from(scattering.density)
+            } else {
+                0.0
+            };
+            mean.add(carried);
+        }
+        let mut albedo = 0.0;
+        for i in 0..SIDE * SIDE {
+            // Uniform in the square of the sine: the cosine cancels.
+            let squared = (f64::from(i / SIDE) + 0.5) / f64::from(SIDE);
+            let turns = (f64::from(i % SIDE) + 0.5) / f64::from(SIDE);
+            let wi = direction((1.0 - squared).sqrt(), turns).as_vec3();
+            albedo += f64::from(m.eval(Vec3::Z, wi, wo).x) * PI;
+        }
+        albedo /= f64::from(SIDE * SIDE);
+        let tolerance = normal_quantile(TAIL) * mean.error() + 1e-4;
+        assert!(
+            (mean.mean() - albedo).abs() <= tolerance,
+            "{m:?} at {cos_o}: {} ± {}, {albedo}",
+            mean.mean(),
+            mean.error()
+        );
+        assert!(albedo <= 1.0 + 1e-3);
+    }
+}
+
+/// Materials and vectors from broken files: no direction and no density that is not a number.
+#[test]
+fn hostile_materials_give_numbers() {
+    let mut random = Random::new(10);
+    for albedo in [0.0, 1e-30, 1.0, 7.0, -1.0] {
+        for specular in [0.0, 1e-30, 1e-8, 1.0, -3.0, 9.0] {
+            for exponent_log2 in [0, 1, 16, 17, u32::MAX] {
+                let m = material(albedo, specular, exponent_log2);
+                for wo in [Vec3::Z, Vec3::X, Vec3::new(0.6, 0.0, 0.8), -Vec3::Z] {
+                    for u in [draw3(&mut random), [0.0; 3], [1.0 - 2f32.powi(-24); 3]] {
+                        let wi = m.sample(Vec3::Z, wo, u);
+                        let s = m.scatter(Vec3::Z, wi, wo);
+                        assert!(
+                            wi.is_finite() && s.density.is_finite() && s.density >= 0.0,
+                            "{m:?} {wo}"
+                        );
+                        assert!(s.reflectance.is_finite(), "{m:?} {wo}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! Images of paths, on every device of the machine against the CPU, word for word.
+
+use bytemuck::cast_slice;
+use lightbvh::BuildParams;
+use lightbvh_host::backend::{Backend, CpuBackend, DeviceBackend, PIXEL_RECORD, Sampler};
+use lightbvh_host::compare::compare_words;
+use lightbvh_host::scene::Scene;
+use lightbvh_host::vulkan::Options;
+use lightbvh_host::workload::{Shot, arrays_at, build};
+use lightbvh_tests::devices::on_each_device;
+
+#[test]
+fn paths_have_the_same_words_on_every_device() {
+    let scene = Scene::open("carousel").expect("a built-in scene");
+    let shot = Shot {
+        frame: 30,
+        width: 40,
+        height: 25,
+        samples: 2,
+        seed: 7,
+    };
+    let arrays = arrays_at(&scene, shot.frame, shot.width, shot.height).expect("a frame");
+    let params = shot.params([0.2, 0.3, 0.4]);
+    on_each_device(Options::default(), |device| {
+        for sampler in Sampler::ALL {
+            let bvh = build(&arrays.lights, sampler, &BuildParams::default());
+            let mut cpu = CpuBackend::new(bvh.clone(), arrays.lights.clone());
+            let mut other = DeviceBackend::new(device, &bvh, &arrays.lights).expect("a backend");
+            for bounces in [0, 1, 7] {
+                let expected = cpu
+                    .render_path(&arrays, &params, bounces, sampler)
+                    .expect("an image")
+                    .value;
+                let found = other
+                    .render_path(&arrays, &params, bounces, sampler)
+                    .expect("an image")
+                    .value;
+                let comparison = compare_words(&PIXEL_RECORD, cast_slice(&expected), cast_slice(&found))
+                    .expect("images of one size");
+                assert!(
+                    comparison.different == 0,
+                    "{}, {}, {bounces} bounces: {} words differ, first {}",
+                    device.name(),
+                    sampler.name(),
+                    comparison.different,
+                    comparison.first.expect("a difference")
+                );
+                let lit = expected.iter().filter(|p| p.iter().any(|&c| c > 0.0)).count();
+                assert!(
+                    lit > expected.len() / 2,
+                    "{}: {lit} pixels are lit",
+                    sampler.name()
+                );
+            }
+        }
+    });
+}
