@@ -6,7 +6,7 @@
 //!
 //! 1. [`update`](Scene::update) with what changed, checked as a whole before any of it is done;
 //! 2. [`refit`](Scene::refit), which computes just the nodes that this touches (paper section 3.4), or the same on a device
-//!    by the lists of [`work`](Scene::work);
+//!    by the lists of [`plan`](Scene::plan);
 //! 3. [`rebuild`](Scene::rebuild) for the next frame: a [`Rebuild`] is self-contained work for any thread, whose result
 //!    [`adopt`](Scene::adopt) swaps in (paper section 3.5).
 //!
@@ -75,6 +75,8 @@ pub struct Scene<N, const W: usize> {
     top: Top,
     work: Work,
     pending: refit::Pending,
+    /// Whether `work` is what the next refit does.
+    planned: bool,
     /// Lights of the previous frame that are none, or others, now.
     removed_lights: Vec<Range<u32>>,
     /// Counts what comes, goes or is built, so that a rebuild can tell who came after it began.
@@ -150,6 +152,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             top: Top::default(),
             work: Work::default(),
             pending: refit::Pending::default(),
+            planned: false,
             removed_lights: Vec::new(),
             clock: 0,
             refits: 0,

@@ -58,7 +58,7 @@ impl Pending {
     }
 }
 
-/// What the last refit did: what a mirror of the scene's arrays must copy, and the lists of the passes that then make its
+/// What a refit does: what a mirror of the scene's arrays must copy before it, and the lists of the passes that then make its
 /// nodes the same. Copy first, then run [`refit::leaves`], [`refit::level`], [`refit::root`], [`refit::mesh_leaves`] and
 /// [`refit::level`] over the lists in this order, each range of levels by itself.
 #[derive(Clone, Debug, Default)]
@@ -96,9 +96,20 @@ impl Work {
 }
 
 impl<N: LightNode<W>, const W: usize> Scene<N, W> {
+    /// Turns the edits since the last [`refit`](Self::refit) into the lists of [`work`](Self::work), which a mirror on a device
+    /// may follow before, after or instead of a refit here.
+    pub fn plan(&mut self) -> &Work {
+        if !self.planned {
+            self.planned = true;
+            self.gather();
+        }
+        &self.work
+    }
+
     /// Computes the nodes that the last edits touch, and no other.
     pub fn refit(&mut self) {
         self.plan();
+        self.planned = false;
         let work = core::mem::take(&mut self.work);
         self.refits += u64::from(work.computed() > 0);
         run(&mut self.nodes, &work.leaves, |nodes, i| {
@@ -124,14 +135,14 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         self.work = work;
     }
 
-    /// What the last [`refit`](Self::refit) did.
+    /// What was planned last: what the last [`refit`](Self::refit) did, or the next one will do.
     #[must_use]
     pub fn work(&self) -> &Work {
         &self.work
     }
 
     /// Turns what is pending into lists.
-    fn plan(&mut self) {
+    fn gather(&mut self) {
         let pending = core::mem::take(&mut self.pending);
         let mut work = Work {
             written_nodes: pending.written_nodes,

@@ -2,14 +2,14 @@
 
 use std::time::Instant;
 
-use lightbvh::{ImportanceModel, Lights, ShadingPoint, refit, traverse};
+use lightbvh::{INVALID, Lights, refit, traverse};
 use lightbvh_kernels::bvh::{BvhPicker, Importance, Node, WIDTH};
 use lightbvh_kernels::query::{Query, Sampled};
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use rayon::prelude::*;
 
-use super::{Backend, Bvh, Sampler, SceneArrays, Timed};
+use super::{Backend, Bvh, LightScene, Sampler, SceneArrays, Structure, Timed};
 use crate::render::{render, render_path};
 use crate::vulkan::VulkanError;
 
@@ -18,21 +18,24 @@ const SERIAL: usize = 2048;
 
 /// The CPU as a backend: the reference that devices are compared with.
 pub struct CpuBackend {
-    bvh: Bvh,
+    structure: Structure,
     lights: Lights,
 }
 
 impl CpuBackend {
-    /// Takes a BVH over `lights`.
+    /// Takes a BVH, or moving lights, over `lights` in the world.
     #[must_use]
-    pub fn new(bvh: Bvh, lights: Lights) -> Self {
-        Self { bvh, lights }
+    pub fn new(structure: impl Into<Structure>, lights: Lights) -> Self {
+        Self {
+            structure: structure.into(),
+            lights,
+        }
     }
 
-    /// The BVH as last refitted.
+    /// What lights are chosen by, as last refitted.
     #[must_use]
-    pub fn bvh(&self) -> &Bvh {
-        &self.bvh
+    pub fn structure(&self) -> &Structure {
+        &self.structure
     }
 
     /// The lights as last refitted to.
@@ -50,19 +53,46 @@ impl Backend for CpuBackend {
     fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<Node>>, VulkanError> {
         self.lights = lights.clone();
         let start = Instant::now();
-        refit_parallel(&mut self.bvh, lights);
+        if let Structure::Bvh(bvh) = &mut self.structure {
+            refit_parallel(bvh, lights);
+        }
         Ok(Timed {
             time: start.elapsed(),
-            value: self.bvh.nodes().to_vec(),
+            value: self.structure.tree().nodes.to_vec(),
         })
+    }
+
+    fn follow(&mut self, scene: &LightScene, lights: &Lights) -> Result<Timed<()>, VulkanError> {
+        self.lights = lights.clone();
+        let mut own = scene.clone();
+        let start = Instant::now();
+        own.refit();
+        let time = start.elapsed();
+        self.structure = own.into();
+        Ok(Timed { time, value: () })
+    }
+
+    fn nodes(&mut self) -> Result<Vec<Node>, VulkanError> {
+        Ok(self.structure.tree().nodes.to_vec())
     }
 
     fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<Sampled>>, VulkanError> {
         let start = Instant::now();
+        let tree = self.structure.tree();
         let value = queries
             .par_iter()
             .with_min_len(256)
-            .map(|query| sample_one::<Importance>(&self.bvh, &query.point, query.random_or_light))
+            .map(|query| {
+                let sampled = traverse::sample::<Node, Importance, _, WIDTH>(
+                    &tree,
+                    &query.point,
+                    query.random_or_light,
+                );
+                Sampled {
+                    light: sampled.light,
+                    pmf: sampled.pmf,
+                }
+            })
             .collect();
         Ok(Timed {
             value,
@@ -72,12 +102,18 @@ impl Backend for CpuBackend {
 
     fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, VulkanError> {
         let start = Instant::now();
+        let (tree, two_level) = (self.structure.tree(), self.structure.is_two_level());
+        let lights = self.lights.triangles();
         let value = queries
             .par_iter()
             .with_min_len(256)
             .map(|query| {
-                self.bvh
-                    .pmf::<Importance>(&self.lights, &query.point, query.random_or_light)
+                let light = query.random_or_light;
+                let mesh = lights.get(light as usize).map(|triangle| triangle.mesh);
+                let mesh = mesh.map(|mesh| if two_level { mesh } else { INVALID });
+                mesh.map_or(0.0, |mesh| {
+                    traverse::pmf::<Node, Importance, _, WIDTH>(&tree, &query.point, light, mesh)
+                })
             })
             .collect();
         Ok(Timed {
@@ -147,8 +183,8 @@ impl CpuBackend {
             }
             Sampler::SingleLevel | Sampler::TwoLevel => {
                 let picker = BvhPicker {
-                    tree: self.bvh.tree(),
-                    two_level: self.bvh.is_two_level(),
+                    tree: self.structure.tree(),
+                    two_level: self.structure.is_two_level(),
                 };
                 integrator.image(scene, &picker)
             }
@@ -157,14 +193,6 @@ impl CpuBackend {
             value,
             time: start.elapsed(),
         }
-    }
-}
-
-fn sample_one<I: ImportanceModel>(bvh: &Bvh, point: &ShadingPoint, random: u32) -> Sampled {
-    let sampled = traverse::sample::<Node, I, _, WIDTH>(&bvh.tree(), point, random);
-    Sampled {
-        light: sampled.light,
-        pmf: sampled.pmf,
     }
 }
 

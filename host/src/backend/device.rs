@@ -13,7 +13,7 @@ use lightbvh_kernels::refit::RefitPush;
 use lightbvh_kernels::render::{RenderParams, RenderPush};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
-use super::{Backend, Bvh, Sampler, SceneArrays, Timed};
+use super::{Backend, Bvh, LightScene, Sampler, SceneArrays, Timed};
 use crate::vulkan::{Binding, Buffer, Device, Pass, Timings, VulkanError};
 
 /// Queries per dispatch: 28 MiB of them, within the smallest storage buffer range seen (128 MiB).
@@ -25,12 +25,15 @@ const SURFACES_PER_PASS: usize = 1 << 18;
 
 /// A light BVH on a device.
 pub struct DeviceBackend<'d> {
-    device: &'d Device,
-    nodes: Buffer<Node>,
-    meshes: Buffer<Instance>,
-    roots: Buffer<BlasRoot>,
-    trails: Buffer<u32>,
-    triangles: Buffer<EmissiveTriangle>,
+    pub(super) device: &'d Device,
+    pub(super) nodes: Buffer<Node>,
+    pub(super) meshes: Buffer<Instance>,
+    pub(super) roots: Buffer<BlasRoot>,
+    pub(super) trails: Buffer<u32>,
+    /// The lights in the world.
+    pub(super) triangles: Buffer<EmissiveTriangle>,
+    /// The triangles of bottom levels, where those are not the lights in the world.
+    pub(super) local: Option<Buffer<EmissiveTriangle>>,
     /// The lists that refit runs over, one after the other; the dispatches below are parts of it.
     lists: Buffer<u32>,
     /// Nodes of the bottom levels, then those with inner children level by level.
@@ -40,7 +43,7 @@ pub struct DeviceBackend<'d> {
     /// Nodes of the top level, then those with inner children level by level.
     top_nodes: RefitPush,
     top: Vec<RefitPush>,
-    tree: TreePush,
+    pub(super) tree: TreePush,
 }
 
 impl<'d> DeviceBackend<'d> {
@@ -78,6 +81,7 @@ impl<'d> DeviceBackend<'d> {
             meshes: device.upload(tree.meshes)?,
             trails: device.upload(tree.trails)?,
             triangles: device.upload(lights.triangles())?,
+            local: None,
             roots: device.upload(bvh.roots())?,
             lists: device.upload(&lists)?,
             bottom_nodes,
@@ -89,6 +93,35 @@ impl<'d> DeviceBackend<'d> {
                 root: tree.root,
                 trail_words: tree.trail_words,
                 two_level: u32::from(two_level),
+            },
+        })
+    }
+
+    /// Uploads moving lights, planned or refitted; `lights` are those in the world.
+    ///
+    /// # Errors
+    /// [`VulkanError`] when they do not fit, or the device fails.
+    pub fn of_scene(device: &'d Device, scene: &LightScene, lights: &Lights) -> Result<Self, VulkanError> {
+        let tree = scene.tree();
+        let none = RefitPush { first: 0, count: 0 };
+        Ok(Self {
+            device,
+            nodes: device.upload(tree.nodes)?,
+            meshes: device.upload(tree.meshes)?,
+            trails: device.upload(tree.trails)?,
+            triangles: device.upload(lights.triangles())?,
+            local: Some(device.upload(scene.triangles())?),
+            roots: device.upload(scene.roots())?,
+            lists: device.upload(&[])?,
+            bottom_nodes: none,
+            bottom: Vec::new(),
+            bottom_roots: none,
+            top_nodes: none,
+            top: Vec::new(),
+            tree: TreePush {
+                root: tree.root,
+                trail_words: tree.trail_words,
+                two_level: 1,
             },
         })
     }
@@ -166,6 +199,14 @@ impl Backend for DeviceBackend<'_> {
             value: self.nodes.read()?,
             time,
         })
+    }
+
+    fn follow(&mut self, scene: &LightScene, lights: &Lights) -> Result<Timed<()>, VulkanError> {
+        self.follow_scene(scene, lights)
+    }
+
+    fn nodes(&mut self) -> Result<Vec<Node>, VulkanError> {
+        self.nodes.read()
     }
 
     fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<Sampled>>, VulkanError> {
@@ -296,7 +337,7 @@ impl DeviceBackend<'_> {
 }
 
 /// The kernels' own time by the device's clock, or else by ours.
-fn device_time(timings: &Timings) -> Duration {
+pub(super) fn device_time(timings: &Timings) -> Duration {
     match &timings.dispatch_ns {
         Some(ns) => Duration::from_nanos(ns.iter().sum::<f64>() as u64),
         None => timings.wall,

@@ -3,11 +3,14 @@
 
 mod cpu;
 mod device;
+mod follow;
 mod scene;
+mod structure;
 
 pub use cpu::CpuBackend;
 pub use device::DeviceBackend;
 pub use scene::{Sampler, SceneArrays};
+pub use structure::Structure;
 
 use std::time::Duration;
 
@@ -39,11 +42,25 @@ pub trait Backend {
     /// Name for tables.
     fn name(&self) -> &str;
 
-    /// Refits to `lights`, which are those of the BVH moved or changed, and returns all nodes.
+    /// Refits a BVH to `lights`, which are those of the BVH moved or changed, and returns all nodes. Moving lights are left
+    /// as they are.
     ///
     /// # Errors
     /// [`VulkanError`] from a device.
     fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<Node>>, VulkanError>;
+
+    /// Takes over what [`plan`](lightbvh::Scene::plan) says has changed in `scene`, and refits it here. Planned frames must
+    /// be followed without gaps, each before it is refitted in `scene` itself; `lights` are its lights in the world.
+    ///
+    /// # Errors
+    /// [`VulkanError`] from a device.
+    fn follow(&mut self, scene: &LightScene, lights: &Lights) -> Result<Timed<()>, VulkanError>;
+
+    /// All nodes as they are.
+    ///
+    /// # Errors
+    /// [`VulkanError`] from a device.
+    fn nodes(&mut self) -> Result<Vec<Node>, VulkanError>;
 
     /// Chooses a light for each query.
     ///

@@ -113,6 +113,24 @@ impl<T: Pod> Buffer<T> {
         self.memory.write(bytemuck::cast_slice(data))
     }
 
+    /// Replaces the elements from `first` on.
+    ///
+    /// # Errors
+    /// [`VulkanError::WrongLength`] when they do not fit, [`VulkanError::Busy`], or those of a copy to the device.
+    pub fn write_from(&mut self, first: usize, data: &[T]) -> Result<(), VulkanError> {
+        if first > self.len || data.len() > self.len - first {
+            return Err(VulkanError::WrongLength {
+                given: first.saturating_add(data.len()),
+                held: self.len,
+            });
+        }
+        if data.is_empty() {
+            return Ok(());
+        }
+        self.memory
+            .write_at(first * Self::ELEMENT_BYTES, bytemuck::cast_slice(data))
+    }
+
     /// Sets every word to [`UNWRITTEN`] again.
     ///
     /// # Errors

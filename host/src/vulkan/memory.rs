@@ -84,10 +84,15 @@ impl Memory {
 
     /// Copies `data` to the start of the buffer; not longer than it.
     pub(crate) fn write(&mut self, data: &[u8]) -> Result<(), VulkanError> {
+        self.write_at(0, data)
+    }
+
+    /// Copies to `at` bytes from the start of the buffer; not more than it holds from there.
+    pub(crate) fn write_at(&mut self, at: usize, data: &[u8]) -> Result<(), VulkanError> {
         let shared = Arc::clone(&self.shared);
         let idle = shared.idle_queue()?;
         if let Some(mapped) = self.mapped_mut() {
-            mapped[..data.len()].copy_from_slice(data);
+            mapped[at..at + data.len()].copy_from_slice(data);
             return Ok(());
         }
         drop(idle);
@@ -96,7 +101,7 @@ impl Memory {
         };
         for (offset, chunk) in chunks(data.len()) {
             staging.write(&data[offset..offset + chunk])?;
-            staging.copy_to(self, 0, offset as u64, chunk as u64)?;
+            staging.copy_to(self, 0, (at + offset) as u64, chunk as u64)?;
         }
         Ok(())
     }
