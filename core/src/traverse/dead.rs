@@ -7,7 +7,7 @@
 //! too where no live one follows among the siblings. Neighbours are mostly live and near, so one look on each side is
 //! the usual cost.
 
-use super::descend::{Descent, enter};
+use super::descend::{Descent, Start, enter};
 use super::neighbor::Neighbor;
 use crate::exact;
 use crate::importance::ImportanceModel;
@@ -310,17 +310,19 @@ pub(super) fn adopted<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W:
     total
 }
 
-/// The light that takes over from the dead end of `d`, and the slots that the search found dead beside it.
+/// The light that takes over from the dead end of `d`, the slots that the search found dead beside it, and where to start
+/// on the way to it.
 pub(super) fn heir<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: usize>(
     tree: &LightTree<'_, N, L>,
     point: &ShadingPoint,
     d: &Descent<W>,
-) -> (Found, Dead) {
+) -> (Found, Dead, Start<W>) {
     let mut found = Found {
         light: INVALID,
         mesh: INVALID,
     };
     let mut dead = Dead::UNKNOWN;
+    let mut neighbor = Neighbor::NONE;
     let (mut left, mut right) = (d.left, d.right);
     let mut done = false;
     let mut steps = 4 * W as u32 * max_levels(W);
@@ -328,7 +330,7 @@ pub(super) fn heir<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: us
         steps -= 1;
         // The deeper neighbour is the nearer; of one node's slots, the right ones come first.
         let to_right = !right.is_none() && (left.is_none() || right.position >= left.position);
-        let neighbor = if to_right { right } else { left };
+        neighbor = if to_right { right } else { left };
         found = find_live::<N, I, L, false, W>(tree, point, &neighbor, to_right);
         done = neighbor.is_none() || found.light != INVALID;
         // What was tried before in this node: from the way's own slot up to this one; or, coming back from the right,
@@ -351,5 +353,5 @@ pub(super) fn heir<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: us
             }
         }
     }
-    (found, dead)
+    (found, dead, Start::beside(tree, d, &neighbor))
 }
