@@ -81,7 +81,7 @@ pub trait LightNode<const W: usize>: Pod + Send + Sync {
     fn open<I: ImportanceModel, R: Receiver>(&self, point: &R) -> u32 {
         let mut open = 0;
         for slot in 0..W {
-            open |= u32::from(I::importance(&self.cluster(slot), point).significand > 0.0) << slot;
+            open |= u32::from(I::reaches(&self.cluster(slot), point)) << slot;
         }
         open
     }
