@@ -45,6 +45,12 @@ pub struct Importance {
 pub trait ImportanceModel {
     /// Importance of `cluster` at `point`: zero only if no light in it can contribute there.
     fn importance<R: Receiver>(cluster: &Cluster, point: &R) -> Importance;
+
+    /// Whether [`importance`](Self::importance) is positive; a model may know that at a lower price.
+    #[inline(always)]
+    fn reaches<R: Receiver>(cluster: &Cluster, point: &R) -> bool {
+        Self::importance(cluster, point).significand > 0.0
+    }
 }
 
 /// Outward slack of the cosine towards the emitters, 2^-8. At its zero, where it decides, cos θ' is off by less than
@@ -83,6 +89,21 @@ pub struct Eq4;
 impl ImportanceModel for Eq4 {
     #[inline(always)]
     fn importance<R: Receiver>(cluster: &Cluster, point: &R) -> Importance {
+        let (factor, d_squared) = Self::factor(cluster, point);
+        over_distance(cluster, d_squared, factor)
+    }
+
+    /// The factor is zero or above 2^-48, and what flux and distance add to it lies between 1/4 and 4.
+    #[inline(always)]
+    fn reaches<R: Receiver>(cluster: &Cluster, point: &R) -> bool {
+        (cluster.phi > 0.0) & (Self::factor(cluster, point).0 > 0.0)
+    }
+}
+
+impl Eq4 {
+    /// |cos θ_i'| cos θ' as bounds, and d².
+    #[inline(always)]
+    fn factor<R: Receiver>(cluster: &Cluster, point: &R) -> (f32, f32) {
         let v = cluster.center - point.position();
         let n = point.normal();
         let d_squared = exact::max(length_squared(v), MIN_DISTANCE_SQUARED);
@@ -132,7 +153,7 @@ impl ImportanceModel for Eq4 {
         let reach = if surrounded { 1.0 } else { facing } + outward;
         let orientation = if reach > cluster.cos_theta_e { reach } else { 0.0 };
 
-        over_distance(cluster, d_squared, incident * orientation)
+        (incident * orientation, d_squared)
     }
 }
 

@@ -78,4 +78,25 @@ pub trait LightNode<const W: usize>: Pod + Send + Sync {
         }
         to_weights(&importances)
     }
+
+    /// Bit `slot` is set where the child has importance at `point`: where [`weights`](Self::weights) is positive, without
+    /// the cost of scale and sum.
+    #[inline(always)]
+    fn open<I: ImportanceModel, R: Receiver>(&self, point: &R) -> u32 {
+        let mut open = 0;
+        for slot in 0..W {
+            open |= u32::from(I::reaches(&self.cluster(slot), point)) << slot;
+        }
+        open
+    }
+
+    /// Bit `slot` is set where the child is a light.
+    #[inline(always)]
+    fn lights(&self) -> u32 {
+        let mut lights = 0;
+        for slot in 0..W {
+            lights |= u32::from(self.kind(slot) == kind::LIGHT) << slot;
+        }
+        lights
+    }
 }

@@ -7,7 +7,7 @@
 //! too where no live one follows among the siblings. Neighbours are mostly live and near, so one look on each side is
 //! the usual cost.
 
-use super::descend::{Descent, enter};
+use super::descend::{Descent, Start, enter};
 use super::neighbor::Neighbor;
 use crate::exact;
 use crate::importance::ImportanceModel;
@@ -23,25 +23,17 @@ pub(super) struct Found {
     pub mesh: u32,
 }
 
-/// What [`find_live`] looks for.
-#[derive(Clone, Copy, PartialEq, Eq)]
-struct Order {
-    /// The first reachable light, else the last.
-    ascending: bool,
-    /// Any light will do, only whether there is one matters.
-    any: bool,
-}
-
-/// The first or last reachable light below `start`, which has importance.
+/// The first reachable light below `start`, which has importance, or with `!ascending` the last. With `ANY` only whether
+/// there is one matters, and the light found is 0.
 ///
 /// A depth-first search without a stack: after a dead end it starts over along the trail, changed at the deepest
 /// alternative (the restart trail of Laine 2010). In any well-formed tree it ends within the bound; hostile words end
 /// at it.
-fn find_live<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: usize>(
+fn find_live<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const ANY: bool, const W: usize>(
     tree: &LightTree<'_, N, L>,
     point: &ShadingPoint,
     start: &Neighbor<W>,
-    order: Order,
+    ascending: bool,
 ) -> Found {
     let (first_index, first_position, first_mesh) =
         enter::<N, L, W>(tree, start.kind, start.link, start.position, start.mesh);
@@ -67,72 +59,78 @@ fn find_live<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: usize>(
         steps -= 1;
         let valid = index < tree.nodes.len() as u32;
         let node = &tree.nodes[if valid { index as usize } else { 0 }];
-        let (weights, _) = node.weights::<I, L::Local>(&receiver);
+        let open = node.open::<I, L::Local>(&receiver);
+        let open = if valid { open } else { 0 };
 
-        // The slot to enter, and the one after it in the order of search.
-        let from = if position < retrace {
-            path.slot::<W>(position)
-        } else {
-            INVALID
-        };
-        let mut chosen = INVALID;
-        let mut after = INVALID;
-        let mut lights = false;
-        for i in 0..W {
-            let slot = if order.ascending { i } else { W - 1 - i };
-            let open = valid & (weights[slot] > 0.0);
-            let reached = (from == INVALID) | (chosen != INVALID) | (slot as u32 == from);
-            let takes = open & reached;
-            let first = takes & (chosen == INVALID);
-            let second = takes & !first & (after == INVALID);
-            chosen = if first { slot as u32 } else { chosen };
-            after = if second { slot as u32 } else { after };
-            // A light among the children settles whether there is one at once.
-            lights |= open & (node.kind(slot) == kind::LIGHT);
-        }
-        if after != INVALID {
-            other_position = position;
-            other_slot = after;
-        }
-
-        if order.any & lights {
+        if ANY && open & node.lights() != 0 {
+            // A light among the children settles at once whether there is one.
             found = Found { light: 0, mesh };
             done = true;
-        } else if chosen != INVALID {
-            path = path.with::<W>(position, chosen);
-            let slot = if chosen < W as u32 { chosen as usize } else { 0 };
-            let (to, link) = (node.kind(slot), node.link(slot));
-            if to == kind::LIGHT {
-                found = Found {
-                    light: tree.light_of(link, mesh),
-                    mesh,
-                };
-                done = true;
+        } else {
+            // The slot to enter, and the one after it in the order of search. What is retraced was open before.
+            let from = if position < retrace {
+                path.slot::<W>(position)
+            } else if ascending || ANY {
+                0
             } else {
-                let (next, next_position, next_mesh) = enter::<N, L, W>(tree, to, link, position, mesh);
-                index = next;
-                position = next_position;
-                if next_mesh != mesh {
-                    mesh = next_mesh;
+                W as u32 - 1
+            };
+            let (chosen, after) = two_from::<W>(open, from, ascending || ANY);
+            if after != INVALID {
+                other_position = position;
+                other_slot = after;
+            }
+            if chosen != INVALID {
+                path = path.with::<W>(position, chosen);
+                let slot = if chosen < W as u32 { chosen as usize } else { 0 };
+                let (to, link) = (node.kind(slot), node.link(slot));
+                if !ANY && to == kind::LIGHT {
+                    found = Found {
+                        light: tree.light_of(link, mesh),
+                        mesh,
+                    };
+                    done = true;
+                } else {
+                    let (next, next_position, next_mesh) = enter::<N, L, W>(tree, to, link, position, mesh);
+                    index = next;
+                    position = next_position;
+                    if next_mesh != mesh {
+                        mesh = next_mesh;
+                        receiver = tree.receiver(point, mesh);
+                    }
+                }
+            } else if other_position != INVALID {
+                // Dead end: start over with the deepest alternative.
+                path = path.with::<W>(other_position, other_slot);
+                retrace = other_position + 1;
+                other_position = INVALID;
+                index = first_index;
+                position = first_position;
+                if mesh != first_mesh {
+                    mesh = first_mesh;
                     receiver = tree.receiver(point, mesh);
                 }
+            } else {
+                done = true;
             }
-        } else if other_position != INVALID {
-            // Dead end: start over with the deepest alternative.
-            path = path.with::<W>(other_position, other_slot);
-            retrace = other_position + 1;
-            other_position = INVALID;
-            index = first_index;
-            position = first_position;
-            if mesh != first_mesh {
-                mesh = first_mesh;
-                receiver = tree.receiver(point, mesh);
-            }
-        } else {
-            done = true;
         }
     }
     found
+}
+
+/// The first two of the slots `open` from slot `from` on, ascending or descending; [`INVALID`] for none.
+#[inline(always)]
+fn two_from<const W: usize>(open: u32, from: u32, ascending: bool) -> (u32, u32) {
+    let (mut first, mut second) = (INVALID, INVALID);
+    for i in 0..W as u32 {
+        // Against the order, so that the first two come last.
+        let slot = if ascending { W as u32 - 1 - i } else { i };
+        let reached = if ascending { slot >= from } else { slot <= from };
+        let takes = ((open >> slot) & 1 != 0) & reached;
+        second = if takes { first } else { second };
+        first = if takes { slot } else { first };
+    }
+    (first, second)
 }
 
 /// Each dead end costs at most one way down, and there are fewer dead ends than nodes.
@@ -268,10 +266,6 @@ pub(super) fn adopted<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W:
     d: &Descent<W>,
     dead: &Dead,
 ) -> f32 {
-    const ANY: Order = Order {
-        ascending: true,
-        any: true,
-    };
     let mut total = 0.0;
     // Left side first, then right, in one loop so that the kernel holds the search once.
     let mut right = false;
@@ -286,7 +280,7 @@ pub(super) fn adopted<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W:
         let none = neighbor.is_none();
         let live = !none
             && !dead.holds(&neighbor)
-            && find_live::<N, I, L, W>(tree, point, &neighbor, ANY).light != INVALID;
+            && find_live::<N, I, L, true, W>(tree, point, &neighbor, true).light != INVALID;
         if none || live {
             if right {
                 total += if live && neighbor.position == pending_position {
@@ -316,17 +310,19 @@ pub(super) fn adopted<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W:
     total
 }
 
-/// The light that takes over from the dead end of `d`, and the slots that the search found dead beside it.
+/// The light that takes over from the dead end of `d`, the slots that the search found dead beside it, and where to start
+/// on the way to it.
 pub(super) fn heir<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: usize>(
     tree: &LightTree<'_, N, L>,
     point: &ShadingPoint,
     d: &Descent<W>,
-) -> (Found, Dead) {
+) -> (Found, Dead, Start<W>) {
     let mut found = Found {
         light: INVALID,
         mesh: INVALID,
     };
     let mut dead = Dead::UNKNOWN;
+    let mut neighbor = Neighbor::NONE;
     let (mut left, mut right) = (d.left, d.right);
     let mut done = false;
     let mut steps = 4 * W as u32 * max_levels(W);
@@ -334,16 +330,8 @@ pub(super) fn heir<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: us
         steps -= 1;
         // The deeper neighbour is the nearer; of one node's slots, the right ones come first.
         let to_right = !right.is_none() && (left.is_none() || right.position >= left.position);
-        let neighbor = if to_right { right } else { left };
-        found = find_live::<N, I, L, W>(
-            tree,
-            point,
-            &neighbor,
-            Order {
-                ascending: to_right,
-                any: false,
-            },
-        );
+        neighbor = if to_right { right } else { left };
+        found = find_live::<N, I, L, false, W>(tree, point, &neighbor, to_right);
         done = neighbor.is_none() || found.light != INVALID;
         // What was tried before in this node: from the way's own slot up to this one; or, coming back from the right,
         // all beyond this one.
@@ -365,5 +353,5 @@ pub(super) fn heir<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: us
             }
         }
     }
-    (found, dead)
+    (found, dead, Start::beside(tree, d, &neighbor))
 }

@@ -39,6 +39,73 @@ pub(super) struct Descent<const W: usize> {
 /// A pmf never falls below 2^-120: a light less probable than that is never drawn, and must not seem impossible.
 const MIN_PMF: f32 = exact::pow2(-120);
 
+/// Where a descent starts, and what lies beside the way so far.
+#[derive(Clone, Copy)]
+pub(super) struct Start<const W: usize> {
+    index: u32,
+    position: u32,
+    mesh: u32,
+    mesh_position: u32,
+    pmf: f32,
+    left: Beside<W>,
+    right: Beside<W>,
+}
+
+impl<const W: usize> Start<W> {
+    /// The root.
+    #[inline(always)]
+    pub fn root<N: LightNode<W>, L: MeshLeaf>(tree: &LightTree<'_, N, L>) -> Self {
+        Self {
+            index: tree.root,
+            position: 0,
+            mesh: INVALID,
+            mesh_position: 0,
+            pmf: 1.0,
+            left: Beside::NONE,
+            right: Beside::NONE,
+        }
+    }
+
+    /// The node of `neighbor`, a child beside the way of `d`, for a way through that child: a descent from there ends as
+    /// one from the root does, to the bit. The root where `d` does not know enough of that node or of what will lie beside
+    /// the new way.
+    #[inline(always)]
+    pub fn beside<N: LightNode<W>, L: MeshLeaf>(
+        tree: &LightTree<'_, N, L>,
+        d: &Descent<W>,
+        neighbor: &Neighbor<W>,
+    ) -> Self {
+        let (mut open_left, mut open_right) = (false, false);
+        for slot in 0..W {
+            let open = neighbor.weights[slot] > 0.0;
+            open_left |= open & ((slot as u32) < neighbor.slot);
+            open_right |= open & (slot as u32 > neighbor.slot);
+        }
+        // What `d` saw beside its way above that node, it saw beside the new way too; in the node itself it will be seen.
+        let left_known = open_left | d.left.is_none() | (d.left.position < neighbor.position);
+        let right_known = open_right | d.right.is_none() | (d.right.position < neighbor.position);
+        // A neighbour further up may have had its probability reckoned backwards, rounded otherwise than on a descent; what
+        // `d` has kept of the nodes that it passed is as it was then.
+        let at_left = !d.left.is_none() & (d.left.position == neighbor.position);
+        let at_right = !d.right.is_none() & (d.right.position == neighbor.position);
+        if left_known & right_known & (at_left | at_right) {
+            let in_mesh = neighbor.position >= max_levels(W);
+            Self {
+                index: neighbor.index,
+                position: neighbor.position,
+                mesh: if in_mesh { d.mesh } else { INVALID },
+                mesh_position: if in_mesh { d.mesh_position } else { 0 },
+                pmf: if at_left { d.left.before } else { d.right.before },
+                left: Beside::of(&d.left),
+                right: Beside::of(&d.right),
+            }
+        } else {
+            Self::root(tree)
+        }
+    }
+}
+
+/// A way down from `start`, chosen at random or, with `FOLLOW`, followed.
 pub(super) fn descend<
     N: LightNode<W>,
     I: ImportanceModel,
@@ -49,21 +116,20 @@ pub(super) fn descend<
     tree: &LightTree<'_, N, L>,
     point: &ShadingPoint,
     guide: &Guide,
+    start: &Start<W>,
 ) -> Descent<W> {
     let mut out = Descent {
         light: INVALID,
-        mesh: INVALID,
-        mesh_position: 0,
-        pmf: 1.0,
+        mesh: start.mesh,
+        mesh_position: start.mesh_position,
+        pmf: start.pmf,
         path: guide.path,
         left: Neighbor::NONE,
         right: Neighbor::NONE,
     };
-    let mut left = Beside::<W>::NONE;
-    let mut right = Beside::<W>::NONE;
-    let mut index = tree.root;
-    let mut position = 0;
-    let mut receiver = L::outside(point);
+    let (mut left, mut right) = (start.left, start.right);
+    let (mut index, mut position) = (start.index, start.position);
+    let mut receiver = tree.receiver(point, start.mesh);
     let mut done = false;
     // A single exit at the head, no early return: rust-gpu miscompiles some of the others (spirt issue 31).
     let mut steps = 2 * max_levels(W);
@@ -73,14 +139,15 @@ pub(super) fn descend<
         let valid = index < tree.nodes.len() as u32;
         let node = &tree.nodes[if valid { index as usize } else { 0 }];
         let (weights, sum) = node.weights::<I, L::Local>(&receiver);
-        let alive = valid & (sum > 0.0);
         let wanted = if FOLLOW {
             guide.path.slot::<W>(position)
         } else {
             choose(&weights, guide.random, position)
         };
         // A followed way may be hostile too.
-        let chosen = if wanted < W as u32 { wanted } else { 0 };
+        let within = wanted < W as u32;
+        let chosen = if within { wanted } else { 0 };
+        let alive = valid & within & (sum > 0.0);
         let (to, link) = (node.kind(chosen as usize), node.link(chosen as usize));
 
         // Which side of the chosen slot has importance is as random as the choice: selects, no branches.
@@ -108,7 +175,9 @@ pub(super) fn descend<
             MIN_PMF,
         );
         out.pmf = if passes { product } else { 0.0 };
-        out.path = out.path.with::<W>(position, chosen);
+        if !FOLLOW {
+            out.path = out.path.with::<W>(position, chosen);
+        }
         let at_light = passes & (to == kind::LIGHT);
         out.light = if at_light { link } else { INVALID };
         done = at_light | !passes;
@@ -149,6 +218,22 @@ impl<const W: usize> Beside<W> {
         weights: [0.0; W],
         sum: 1.0,
     };
+
+    /// The node that `neighbor` is a child of.
+    #[inline(always)]
+    fn of(neighbor: &Neighbor<W>) -> Self {
+        Self {
+            index: if neighbor.is_none() {
+                INVALID
+            } else {
+                neighbor.index
+            },
+            position: neighbor.position,
+            before: neighbor.before,
+            weights: neighbor.weights,
+            sum: neighbor.sum,
+        }
+    }
 
     /// Becomes `other` if `yes`, field by field so that every one is a select.
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! The two questions that a renderer asks of a light BVH.
 
 use super::dead::{Dead, adopted, heir};
-use super::descend::{Guide, descend};
+use super::descend::{Guide, Start, descend};
 use crate::importance::ImportanceModel;
 use crate::node::LightNode;
 use crate::point::ShadingPoint;
@@ -39,14 +39,14 @@ pub fn sample<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: usize>(
         path: Path::default(),
         random,
     };
-    let mut d = descend::<N, I, L, false, W>(tree, point, &guide);
+    let mut d = descend::<N, I, L, false, W>(tree, point, &guide, &Start::root(tree));
     let mut dead = Dead::UNKNOWN;
     if d.light == INVALID {
-        let (found, known) = heir::<N, I, L, W>(tree, point, &d);
+        let (found, known, start) = heir::<N, I, L, W>(tree, point, &d);
         dead = known;
         if found.light != INVALID {
             let path = tree.path_of(found.light, found.mesh);
-            d = descend::<N, I, L, true, W>(tree, point, &Guide { path, random });
+            d = descend::<N, I, L, true, W>(tree, point, &Guide { path, random }, &start);
         }
     }
     if d.light == INVALID {
@@ -69,7 +69,7 @@ pub fn pmf<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: usize>(
     mesh: u32,
 ) -> f32 {
     let path = tree.path_of(light, mesh);
-    let d = descend::<N, I, L, true, W>(tree, point, &Guide { path, random: 0 });
+    let d = descend::<N, I, L, true, W>(tree, point, &Guide { path, random: 0 }, &Start::root(tree));
     if d.light == light && light != INVALID {
         d.pmf + adopted::<N, I, L, W>(tree, point, &d, &Dead::UNKNOWN)
     } else {
