@@ -17,6 +17,7 @@ pub mod bvh;
 pub mod query;
 pub mod refit;
 pub mod render;
+pub mod restir;
 pub mod self_test;
 pub mod shading;
 

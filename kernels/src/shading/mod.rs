@@ -9,6 +9,7 @@
 //! | [`area`] | a point on the chosen light, and what it contributes |
 //! | [`pick`] | the choice of a light: the trait, uniform and by power |
 //! | [`pixel`] | all of it together, for one pixel |
+//! | [`restir`] | reservoirs in place of independent samples |
 //!
 //! Results agree to the bit between processors in this domain: coordinates at most [`grid::MAX_COORDINATE`] in magnitude
 //! and on the grid (the host's ray-BVH builder sees to both), radiances as in [`lightbvh::light`], albedo and specular
@@ -21,4 +22,5 @@ pub mod material;
 pub mod pick;
 pub mod pixel;
 pub mod ray;
+pub mod restir;
 pub mod trace;

@@ -143,7 +143,7 @@ pub fn reflected<P: PickLight>(scene: &Scene<'_>, seen: &Seen, picker: &P, sampl
 }
 
 #[inline]
-fn load_material(materials: &[Material], index: u32) -> Material {
+pub(super) fn load_material(materials: &[Material], index: u32) -> Material {
     let i = index as usize;
     Material {
         albedo: [
@@ -163,7 +163,7 @@ fn light_vertex(lights: &[EmissiveTriangle], i: usize, k: usize) -> [f32; 3] {
 }
 
 #[inline]
-fn load_light(lights: &[EmissiveTriangle], index: u32) -> EmissiveTriangle {
+pub(super) fn load_light(lights: &[EmissiveTriangle], index: u32) -> EmissiveTriangle {
     let i = index as usize;
     EmissiveTriangle {
         p: [
