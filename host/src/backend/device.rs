@@ -233,7 +233,7 @@ impl Backend for DeviceBackend<'_> {
 }
 
 /// The kernels' own time by the device's clock, or else by ours.
-fn device_time(timings: &Timings) -> Duration {
+pub(super) fn device_time(timings: &Timings) -> Duration {
     match &timings.dispatch_ns {
         Some(ns) => Duration::from_nanos(ns.iter().sum::<f64>() as u64),
         None => timings.wall,

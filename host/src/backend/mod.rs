@@ -3,10 +3,15 @@
 
 mod cpu;
 mod device;
+mod restir;
 mod scene;
 
 pub use cpu::CpuBackend;
 pub use device::DeviceBackend;
+pub use restir::{
+    CandidateSource, Combination, CpuRestir, DeviceRestir, LightRemap, RESERVOIR_RECORD, Restir, RestirFrame,
+    RestirOptions, SURFACE_RECORD,
+};
 pub use scene::{Sampler, SceneArrays};
 
 use std::time::Duration;

@@ -26,6 +26,13 @@ pub(crate) const MODULES: &[Module] = &[
     module!("render_uniform"),
     module!("render_power"),
     module!("render_bvh"),
+    module!("restir_initial_power"),
+    module!("restir_initial_bvh"),
+    module!("restir_temporal_unbiased"),
+    module!("restir_temporal_biased"),
+    module!("restir_spatial_unbiased"),
+    module!("restir_spatial_biased"),
+    module!("restir_shade"),
     module!("self_test"),
 ];
 
