@@ -31,7 +31,7 @@ use crate::shading::restir::temporal::{Before, temporal};
 use crate::shading::restir::{PixelReservoir, RestirParams};
 use crate::shading::trace::{RayNode, SurfaceTriangle, Surfaces};
 
-/// Push constants of all passes; 72 bytes.
+/// Push constants of all passes; 76 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct RestirPush {
@@ -45,7 +45,7 @@ pub struct RestirPush {
     pub tree: TreePush,
 }
 
-const _: () = assert!(size_of::<RestirPush>() == 72);
+const _: () = assert!(size_of::<RestirPush>() == 76);
 
 /// Pass 1 with candidates in proportion to power. `thresholds` is [`Power`]'s table.
 #[spirv(compute(threads(64), entry_point_name = "restir_initial_power"))]
@@ -291,7 +291,7 @@ pub fn restir_shade(
         };
         let surface = gbuffer[pixel as usize];
         let last = reservoirs[pixel as usize];
-        let (shaded, kept) = shade(&scene, &surface, &last);
+        let (shaded, kept) = shade(&scene, &push.params, &surface, &last);
         results[pixel as usize] = shaded;
         reservoirs[pixel as usize] = kept;
     }

@@ -115,7 +115,7 @@ impl Restir for CpuRestir {
         let (shaded, kept): (Vec<_>, Vec<_>) = gbuffer
             .par_iter()
             .zip(&reservoirs)
-            .map(|(surface, last)| shade(&view, surface, last))
+            .map(|(surface, last)| shade(&view, &params, surface, last))
             .unzip();
         let time = start.elapsed();
         self.shadow_rays = shaded.iter().map(|pixel| u64::from(pixel.shadow_rays)).sum();

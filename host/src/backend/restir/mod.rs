@@ -233,6 +233,7 @@ fn params(options: &RestirOptions, frame: &RestirFrame<'_>) -> RestirParams {
         radius: options.radius,
         spatial_pass: 0,
         remapped: u32::from(frame.remap.is_some()),
+        drops_occluded: u32::from(options.combination == Combination::Unbiased),
     }
 }
 

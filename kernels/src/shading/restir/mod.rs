@@ -42,7 +42,7 @@ use bytemuck::{Pod, Zeroable};
 use lightbvh::exact::hash;
 use lightbvh::reservoir::Reservoir;
 
-/// What all pixels of a frame have in common besides the scene; 52 bytes.
+/// What all pixels of a frame have in common besides the scene; 56 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct RestirParams {
@@ -68,9 +68,12 @@ pub struct RestirParams {
     pub spatial_pass: u32,
     /// 1 where the remaps of lights hold entries, 0 where every light kept its index.
     pub remapped: u32,
+    /// 1 where the next frame is to know that the last shadow ray was blocked, as unbiased reuse needs; 0 leaves the
+    /// sample in the history (ReSTIR Algorithm 5), where neighbours may see it: less dark under biased reuse.
+    pub drops_occluded: u32,
 }
 
-const _: () = assert!(size_of::<RestirParams>() == 52);
+const _: () = assert!(size_of::<RestirParams>() == 56);
 
 /// The reservoir of a pixel, and what it cost; 24 bytes.
 #[repr(C)]

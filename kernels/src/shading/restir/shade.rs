@@ -6,9 +6,9 @@ use lightbvh::exact::{flush, min, pow2};
 
 use super::super::grid::TINY;
 use super::super::pixel::Scene;
-use super::PixelReservoir;
 use super::surface::Surface;
 use super::target::{lit, visible};
+use super::{PixelReservoir, RestirParams};
 
 /// Contributions count as at most this, W/(m² sr), so that their product with any weight is finite.
 const MAX_CONTRIBUTION: f32 = pow2(60);
@@ -25,10 +25,16 @@ pub struct Shaded {
 
 const _: () = assert!(size_of::<Shaded>() == 16);
 
-/// The pixel's colour, and its reservoir as the next frame may use it: of weight zero if its sample is occluded.
+/// The pixel's colour, and its reservoir as the next frame may use it: with [`RestirParams::drops_occluded`], of weight zero
+/// if its sample is occluded.
 #[inline]
 #[must_use]
-pub fn shade(scene: &Scene<'_>, surface: &Surface, last: &PixelReservoir) -> (Shaded, PixelReservoir) {
+pub fn shade(
+    scene: &Scene<'_>,
+    params: &RestirParams,
+    surface: &Surface,
+    last: &PixelReservoir,
+) -> (Shaded, PixelReservoir) {
     let mut kept = *last;
     let mut reflected = Vec3::ZERO;
     if last.reservoir.weight > 0.0 {
@@ -43,7 +49,8 @@ pub fn shade(scene: &Scene<'_>, surface: &Surface, last: &PixelReservoir) -> (Sh
             let w = last.reservoir.weight;
             let c = arriving.contribution;
             reflected = Vec3::new(weighted(c.x, w), weighted(c.y, w), weighted(c.z, w));
-        } else {
+        }
+        if !seen && params.drops_occluded != 0 {
             kept.reservoir = last.reservoir.occluded();
         }
     }
