@@ -51,12 +51,15 @@ struct Last {
 /// What initial candidates are drawn from.
 enum SourceBuffers {
     Power(Buffer<u32>),
-    LightBvh {
-        nodes: Buffer<Node>,
-        meshes: Buffer<MeshLight>,
-        trails: Buffer<u32>,
-        push: TreePush,
-    },
+    LightBvh(Box<TreeBuffers>),
+}
+
+/// A light BVH on the device.
+struct TreeBuffers {
+    nodes: Buffer<Node>,
+    meshes: Buffer<MeshLight>,
+    trails: Buffer<u32>,
+    push: TreePush,
 }
 
 impl SceneBuffers {
@@ -92,7 +95,7 @@ impl SourceBuffers {
             CandidateSource::Power => Self::Power(device.upload(&scene.thresholds)?),
             CandidateSource::LightBvh => {
                 let tree = bvh.tree();
-                Self::LightBvh {
+                Self::LightBvh(Box::new(TreeBuffers {
                     nodes: device.upload(tree.nodes)?,
                     meshes: device.upload(tree.meshes)?,
                     trails: device.upload(tree.trails)?,
@@ -101,7 +104,7 @@ impl SourceBuffers {
                         trail_words: tree.trail_words,
                         two_level: u32::from(bvh.is_two_level()),
                     },
-                }
+                }))
             }
         })
     }
@@ -109,26 +112,21 @@ impl SourceBuffers {
     fn kernel(&self) -> &'static str {
         match self {
             Self::Power(_) => "restir_initial_power",
-            Self::LightBvh { .. } => "restir_initial_bvh",
+            Self::LightBvh(_) => "restir_initial_bvh",
         }
     }
 
     fn bindings(&self) -> Vec<Binding<'_>> {
         match self {
             Self::Power(thresholds) => vec![thresholds.bind()],
-            Self::LightBvh {
-                nodes,
-                meshes,
-                trails,
-                ..
-            } => vec![nodes.bind(), meshes.bind(), trails.bind()],
+            Self::LightBvh(tree) => vec![tree.nodes.bind(), tree.meshes.bind(), tree.trails.bind()],
         }
     }
 
     fn push(&self) -> TreePush {
         match self {
             Self::Power(_) => TreePush::default(),
-            Self::LightBvh { push, .. } => *push,
+            Self::LightBvh(tree) => tree.push,
         }
     }
 }

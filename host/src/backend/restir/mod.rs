@@ -48,6 +48,12 @@ impl Combination {
             Self::Biased => "biased",
         }
     }
+
+    /// Whether the expectation of an image is its direct light.
+    #[must_use]
+    pub fn is_unbiased(self) -> bool {
+        self == Self::Unbiased
+    }
 }
 
 /// What ReSTIR does in each frame.
