@@ -13,8 +13,16 @@ use lightbvh_host::render::RayBvh;
 use lightbvh_host::scene::Scene;
 use lightbvh_host::vulkan::{Device, Options};
 use lightbvh_host::workload::arrays_at;
+use lightbvh_kernels::shading::camera::Camera;
+use lightbvh_kernels::shading::restir::combine::Unbiased;
+use lightbvh_kernels::shading::restir::shade::shade;
+use lightbvh_kernels::shading::restir::spatial::spatial;
+use lightbvh_kernels::shading::restir::surface::Surface;
+use lightbvh_kernels::shading::restir::temporal::{Before, temporal};
+use lightbvh_kernels::shading::restir::{PixelReservoir, RestirParams};
 use lightbvh_kernels::shading::trace::NONE;
 use lightbvh_tests::devices::on_each_device;
+use lightbvh_tests::generate::Random;
 
 const WIDTH: u32 = 40;
 const HEIGHT: u32 = 22;
@@ -193,9 +201,8 @@ fn lights_that_come_go_and_change_their_index_are_followed() {
         }
         cpu.state().expect("a state").1
     };
-    let counts = |reservoirs: &[lightbvh_kernels::shading::restir::PixelReservoir]| -> u32 {
-        reservoirs.iter().map(|pixel| pixel.reservoir.count).sum()
-    };
+    let counts =
+        |reservoirs: &[PixelReservoir]| -> u32 { reservoirs.iter().map(|pixel| pixel.reservoir.count).sum() };
     let one = counts(&render(&shots[..1]));
     assert!(
         counts(&render(&shots[..2])) > one + one / 2,
@@ -283,4 +290,80 @@ fn a_history_that_cannot_be_used_is_dropped() {
     cpu.reset();
     let after_reset = cpu.frame(&shot.frame(WIDTH, HEIGHT, 9)).expect("a frame").value;
     assert!(after_reset == first(&shot, WIDTH));
+}
+
+/// Whatever words are in the buffers, every step ends and reads within them.
+#[test]
+fn hostile_words_end_in_bounded_steps() {
+    let scene = Scene::open("street").expect("a built-in scene");
+    let arrays = arrays_at(&scene, 0, WIDTH, HEIGHT).expect("a frame");
+    let view = arrays.view();
+    let random = &mut Random::new(3);
+    for round in 0..200 {
+        let mut word = || match random.below(4) {
+            0 => random.bits(),
+            1 => random.below(2000),
+            2 => random.between(-50.0, 50.0).to_bits(),
+            _ => [0, u32::MAX, 0x7f80_0000, 0x7fc0_0000, 1, 0x8000_0000][random.below(6) as usize],
+        };
+        let surfaces: Vec<Surface> = (0..64)
+            .map(|_| bytemuck::cast::<[u32; 14], Surface>(std::array::from_fn(|_| word())))
+            .collect();
+        let reservoirs: Vec<PixelReservoir> = (0..64)
+            .map(|_| bytemuck::cast::<[u32; 6], PixelReservoir>(std::array::from_fn(|_| word())))
+            .collect();
+        let camera: Camera = bytemuck::cast::<[u32; 12], Camera>(std::array::from_fn(|_| word()));
+        let map: Vec<u32> = (0..8).map(|_| word()).collect();
+        let params = RestirParams {
+            width: [0, 8, 16_777_216][round % 3],
+            height: [8, 0, 64][round % 3],
+            seed: word(),
+            jitter: word(),
+            background: [0.0; 3],
+            candidates: 3,
+            history: word(),
+            neighbors: 5,
+            radius: word(),
+            spatial_pass: word(),
+            remapped: word(),
+            drops_occluded: word(),
+        };
+        let combine = Unbiased {
+            surfaces: view.surfaces,
+            lights: view.lights,
+        };
+        let before = Before {
+            camera: &camera,
+            gbuffer: &surfaces[..32],
+            reservoirs: &reservoirs[..40],
+            to_current: &map,
+        };
+        for index in 0..surfaces.len() as u32 {
+            let (surface, current) = (surfaces[index as usize], reservoirs[index as usize]);
+            let merged = temporal(
+                &combine,
+                view.materials,
+                view.lights,
+                &before,
+                &map,
+                &params,
+                &surface,
+                current,
+                index,
+            );
+            let spread = spatial(
+                &combine,
+                view.materials,
+                view.lights,
+                &surfaces,
+                &reservoirs,
+                &params,
+                index,
+            );
+            for last in [merged, spread] {
+                let (_, kept) = shade(&view, &params, &surface, &last);
+                assert_eq!(kept.reservoir.sample.light, last.reservoir.sample.light);
+            }
+        }
+    }
 }

@@ -36,6 +36,8 @@ pub enum Combination {
     /// for each reservoir merged.
     Unbiased,
     /// Biased: darker where pixels that reuse each other's samples do not see the same lights; two shadow rays in all.
+    /// Measured: 6 % of the light of the scene `street` is missing (`tests/tests/restir_error.rs`), a quarter in a scene
+    /// made of penumbrae (`restir_unbiased.rs`).
     Biased,
 }
 
@@ -63,11 +65,12 @@ pub struct RestirOptions {
     pub source: CandidateSource,
     /// How reservoirs are combined.
     pub combination: Combination,
-    /// Candidates per pixel and frame, 1 to 2^16.
+    /// Candidates per pixel and frame, 1 to 1024: a software device ends the loops of an invocation after 65,535 turns in
+    /// all (Mesa's llvmpipe), and a candidate takes 33 of them.
     pub candidates: u32,
     /// For how many times a frame's candidates the history counts at most; 0 for no reuse over time.
     pub history: u32,
-    /// Neighbours per spatial pass, at most 2^16.
+    /// Neighbours per spatial pass, at most 1024.
     pub neighbors: u32,
     /// How far away they may be, pixels, at most 2^20.
     pub radius: u32,

@@ -69,7 +69,7 @@ pub fn project(camera: &Camera, p: Vec3, width: u32, height: u32) -> u32 {
     if inside {
         let x = cell(div(across, half_width), width);
         let y = cell(div(down, half_height), height);
-        pixel = y * width + x;
+        pixel = y.wrapping_mul(width).wrapping_add(x);
     }
     pixel
 }
@@ -79,7 +79,7 @@ pub fn project(camera: &Camera, p: Vec3, width: u32, height: u32) -> u32 {
 fn cell(x: f32, count: u32) -> u32 {
     let scaled = (x + 1.0) * (0.5 * (count as i32 as f32));
     let cell = if scaled > 0.0 { scaled as u32 } else { 0 };
-    if cell < count { cell } else { count - 1 }
+    if cell < count { cell } else { count.wrapping_sub(1) }
 }
 
 /// Merges the reservoir of the pixel where the frame before saw `surface` into this frame's.
