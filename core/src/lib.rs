@@ -21,6 +21,7 @@
 //! | [`refit`] | new bounds on an unchanged topology |
 //! | [`traverse`] | sampling, and the probability of any light |
 //! | [`instance`] | leaves of the top level with a space of their own |
+//! | [`reservoir`] | resampling of light samples, over candidates and over other reservoirs (ReSTIR) |
 //! | `lights`, `build`, `bvh`, `validate` (feature `alloc`) | checked input, builders, owned trees, invariants |
 //! | `scene`, `transform` (feature `alloc`) | moving lights: edits, instances, refit of what changed, rebuilds |
 //!
@@ -60,6 +61,8 @@ assert_eq!(sampled.pmf.to_bits(), pmf.to_bits());
 //! - A. Conty Estevez, C. Kulla. Importance sampling of many lights with adaptive tree splitting. HPG 2018.
 //! - P. Moreau, M. Pharr, P. Clarberg. Dynamic many-light sampling for real-time ray tracing. HPG 2019.
 //! - P. Freire, J. M. Pereira. Dynamic many-light importance sampling for real-time ray tracing. 2023 ("the paper").
+//! - B. Bitterli, C. Wyman, M. Pharr, P. Shirley, A. Lefohn, W. Jarosz. Spatiotemporal reservoir resampling for real-time
+//!   ray tracing with dynamic direct lighting. 2020 ("ReSTIR").
 //! - M. Pharr, W. Jakob, G. Humphreys. Physically based rendering, 4th edition, section 12.6. 2023.
 #![no_std]
 #![forbid(unsafe_code)]
@@ -80,6 +83,7 @@ pub mod light;
 pub mod node;
 pub mod point;
 pub mod refit;
+pub mod reservoir;
 pub mod trail;
 pub mod traverse;
 pub mod tree;

@@ -75,6 +75,14 @@ pub enum HostError {
         /// What would do.
         expected: &'static str,
     },
+    /// An option that means nothing beside the others.
+    #[error("{option} needs {needs}")]
+    Usage {
+        /// The option.
+        option: &'static str,
+        /// What it needs.
+        needs: &'static str,
+    },
     /// No device, where one is required.
     #[error("no Vulkan device, and LIGHTBVH_REQUIRE_VULKAN is set: {0}")]
     DeviceRequired(String),

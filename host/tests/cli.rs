@@ -160,7 +160,14 @@ fn paths_render_and_add_what_is_reflected_again() {
 #[test]
 fn every_sampler_and_heuristic_renders() {
     let folder = Folder::new("samplers");
-    for sampler in ["uniform", "power", "single-level", "two-level"] {
+    for sampler in [
+        "uniform",
+        "power",
+        "single-level",
+        "two-level",
+        "restir",
+        "bvh-restir",
+    ] {
         for heuristic in ["sah", "saoh"] {
             let file = folder.file(&format!("{sampler}-{heuristic}.png"));
             let output = run(&[
@@ -191,6 +198,146 @@ fn every_sampler_and_heuristic_renders() {
             assert!(Path::new(&file).exists());
         }
     }
+}
+
+#[test]
+fn restir_says_what_it_is_and_gives_the_same_file_on_both_processors() {
+    let folder = Folder::new("restir");
+    let device = has_device();
+    for (sampler, mode) in [
+        ("restir", Some("biased")),
+        ("restir", Some("unbiased")),
+        ("bvh-restir", None),
+    ] {
+        let mut files = Vec::new();
+        for backend in ["cpu", "vulkan"] {
+            if backend == "vulkan" && !device {
+                continue;
+            }
+            let file = folder.file(&format!("{backend}.exr"));
+            let mut args = vec![
+                "render",
+                "carousel",
+                "--frame",
+                "2",
+                "--width",
+                "48",
+                "--height",
+                "27",
+                "--spp",
+                "2",
+                "--sampler",
+                sampler,
+                "--backend",
+                backend,
+                "-o",
+                &file,
+                "--json",
+            ];
+            args.extend(mode.into_iter().flat_map(|mode| ["--restir-mode", mode]));
+            let report = json(&args);
+            let restir = &report["restir"];
+            assert_eq!(report["sampler"], sampler);
+            assert_eq!(restir["mode"], mode.unwrap_or("unbiased"));
+            assert_eq!(restir["unbiased"], mode != Some("biased"));
+            let rays = report["shadow_rays_per_pixel"].as_f64().expect("rays");
+            let most = 2.0 * restir["most_shadow_rays_per_sample"].as_f64().expect("rays");
+            assert!(rays > 0.0 && rays <= most, "{rays} {most}");
+            files.push(std::fs::read(&file).expect("an image"));
+        }
+        assert!(
+            files.windows(2).all(|pair| pair[0] == pair[1]),
+            "{sampler}: the images differ"
+        );
+    }
+    let help = String::from_utf8(run(&["render", "--help"]).stdout).expect("text");
+    assert!(help.contains("biased (darker"), "{help}");
+}
+
+#[test]
+fn sequences_are_numbered_and_hold_what_single_frames_do() {
+    let folder = Folder::new("animate");
+    let small = [
+        "--width",
+        "32",
+        "--height",
+        "18",
+        "--spp",
+        "2",
+        "--backend",
+        "cpu",
+        "--json",
+    ];
+    for sampler in ["power", "two-level", "bvh-restir"] {
+        let out = folder.file(&format!("{sampler}.exr"));
+        let args = [
+            "render",
+            "street",
+            "--sampler",
+            sampler,
+            "--animate",
+            "0..3",
+            "-o",
+            &out,
+        ];
+        let report = json(&[&args[..], &small].concat());
+        let frames = report["frames"].as_array().expect("frames");
+        assert_eq!(frames.len(), 3);
+        for (number, frame) in (0..).zip(frames) {
+            assert_eq!(frame["frame"], number);
+            assert_eq!(
+                frame["output"],
+                folder.file(&format!("{sampler}-000{number}.exr"))
+            );
+            assert!(Path::new(frame["output"].as_str().expect("a path")).exists());
+        }
+        assert!(!Path::new(&out).exists());
+        // Nothing is carried from frame to frame without a tree, and the same history where it starts at frame 0.
+        if sampler != "two-level" {
+            let single = folder.file("single.exr");
+            let args = [
+                "render",
+                "street",
+                "--sampler",
+                sampler,
+                "--frame",
+                "2",
+                "-o",
+                &single,
+            ];
+            json(&[&args[..], &small].concat());
+            let last = std::fs::read(folder.file(&format!("{sampler}-0002.exr"))).expect("an image");
+            assert!(last == std::fs::read(&single).expect("an image"), "{sampler}");
+        }
+    }
+    let image = folder.file("refused.png");
+    for wrong in ["3", "3..3", "4..3", "a..b"] {
+        let said = refused(&["render", "street", "--animate", wrong, "-o", &image]);
+        assert!(said.contains("--animate"), "{said}");
+    }
+    refused(&[
+        "render",
+        "street",
+        "--animate",
+        "0..2",
+        "--frame",
+        "1",
+        "-o",
+        &image,
+    ]);
+    let said = refused(&["render", "street", "--restir-mode", "biased", "-o", &image]);
+    assert!(said.contains("--sampler restir"), "{said}");
+    let said = refused(&[
+        "render",
+        "street",
+        "--sampler",
+        "restir",
+        "--spp",
+        "65",
+        "-o",
+        &image,
+    ]);
+    assert!(said.contains("--spp 65"), "{said}");
 }
 
 #[test]

@@ -18,6 +18,7 @@ pub mod path;
 pub mod query;
 pub mod refit;
 pub mod render;
+pub mod restir;
 pub mod self_test;
 pub mod shading;
 

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use lightbvh::{INVALID, Lights, refit, traverse};
-use lightbvh_kernels::bvh::{BvhPicker, Importance, Node, WIDTH};
+use lightbvh_kernels::bvh::{Importance, Node, WIDTH};
 use lightbvh_kernels::query::{Query, Sampled};
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
@@ -181,13 +181,7 @@ impl CpuBackend {
                 let thresholds = &scene.thresholds;
                 integrator.image(scene, &Power { thresholds })
             }
-            Sampler::SingleLevel | Sampler::TwoLevel => {
-                let picker = BvhPicker {
-                    tree: self.structure.tree(),
-                    two_level: self.structure.is_two_level(),
-                };
-                integrator.image(scene, &picker)
-            }
+            Sampler::SingleLevel | Sampler::TwoLevel => integrator.image(scene, &self.structure.picker()),
         };
         Timed {
             value,

@@ -4,13 +4,18 @@
 mod cpu;
 mod device;
 mod follow;
+mod restir;
 mod scene;
 mod structure;
 
 pub use cpu::CpuBackend;
 pub use device::DeviceBackend;
+pub use restir::{
+    CandidateSource, Combination, CpuRestir, DeviceRestir, LightRemap, RESERVOIR_RECORD, Restir, RestirFrame,
+    RestirOptions, SURFACE_RECORD,
+};
 pub use scene::{Sampler, SceneArrays};
-pub use structure::Structure;
+pub use structure::{Structure, picker};
 
 use std::time::Duration;
 

@@ -1,6 +1,6 @@
 //! What lights are chosen by.
 
-use lightbvh_kernels::bvh::Tree;
+use lightbvh_kernels::bvh::{BvhPicker, Tree};
 
 use super::{Bvh, LightScene};
 
@@ -30,6 +30,26 @@ impl Structure {
             Self::Bvh(bvh) => bvh.is_two_level(),
             Self::Scene(_) => true,
         }
+    }
+}
+
+impl Structure {
+    /// Picks lights by it.
+    #[must_use]
+    pub fn picker(&self) -> BvhPicker<'_> {
+        BvhPicker {
+            tree: self.tree(),
+            two_level: self.is_two_level(),
+        }
+    }
+}
+
+/// Picks lights by a BVH.
+#[must_use]
+pub fn picker(bvh: &Bvh) -> BvhPicker<'_> {
+    BvhPicker {
+        tree: bvh.tree(),
+        two_level: bvh.is_two_level(),
     }
 }
 

@@ -40,7 +40,7 @@ enum Command {
     Demo(demo::Args),
     /// Render a frame of a scene.
     Render(render::Args),
-    /// Compare refit, sample, pmf and render on every device with the CPU, word for word.
+    /// Compare refit, sample, pmf, render and ReSTIR on every device with the CPU, word for word.
     Verify(verify::Args),
     /// Time build, refit, sample and pmf, and measure what accuracy costs.
     Bench(bench::Args),

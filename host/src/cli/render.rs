@@ -1,25 +1,29 @@
-//! `lightbvh render`: one frame of a scene, on the CPU or a device.
+//! `lightbvh render`: one frame of a scene or a sequence, on the CPU or a device.
 
+mod images;
+mod options;
+
+use std::ops::Range;
 use std::path::PathBuf;
+use std::sync::Arc;
 
-use lightbvh::exact::hash;
 use lightbvh::{BuildParams, Heuristic};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::{Context, Outcome, devices, table};
-use crate::backend::{Backend, CpuBackend, DeviceBackend, Sampler};
+use crate::backend::{Combination, SceneArrays};
 use crate::error::HostError;
-use crate::render::Film;
 use crate::scene::Scene;
-use crate::vulkan::VulkanError;
-use crate::workload::{Shot, arrays_at, build};
+use crate::vulkan::{Device, VulkanError};
+use crate::workload::{Shot, arrays_at};
+use images::{Integrator, Method, images};
+use options::{IntegratorName, SamplerName, frames, numbered};
 
-/// Greatest number of camera rays per pixel; the light samples of a pixel are shared out among them.
-const MAX_CAMERA_RAYS: u32 = 8;
-/// Greatest number of paths that begin with the same camera ray, and are followed by one invocation: llvmpipe leaves all
-/// loops of an invocation after some 65,000 iterations, silently, which four paths of eight reflections reach.
-const MAX_PATHS_PER_RAY: u32 = 1;
+/// Frames that ReSTIR runs through before the first one shown, where there are as many before it.
+const WARM_UP: u32 = 8;
+/// Most final samples of ReSTIR per pixel: each keeps a history of its own, about 80 bytes per pixel.
+const MAX_HISTORIES: u32 = 64;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -28,22 +32,31 @@ pub(super) struct Args {
     /// Frame of the animation, 25 per second.
     #[arg(long, default_value_t = 0)]
     frame: u32,
+    /// Render frames A to B (B left out) into files numbered by frame: FILE-0000.png and so on. The light BVH is built for
+    /// the first frame and refitted for each other.
+    #[arg(long, value_name = "A..B", value_parser = frames, conflicts_with = "frame")]
+    animate: Option<Range<u32>>,
     /// Columns, 1 to 16384.
     #[arg(long, default_value_t = 640)]
     width: u32,
     /// Rows, 1 to 16384.
     #[arg(long, default_value_t = 360)]
     height: u32,
-    /// Light samples, or paths, per pixel, 1 to 65536.
-    #[arg(long, default_value_t = 16)]
-    spp: u32,
-    /// How lights are chosen.
-    #[arg(long, value_enum, default_value_t = Sampler::TwoLevel)]
-    sampler: Sampler,
+    /// Light samples per pixel, 1 to 65536; of ReSTIR, final samples with a history each, 1 to 64 [default: 16; of
+    /// ReSTIR, 1].
+    #[arg(long)]
+    spp: Option<u32>,
+    /// How lights are chosen. ReSTIR runs through up to 8 earlier frames before the first one shown.
+    #[arg(long, value_enum, default_value_t = SamplerName::TwoLevel)]
+    sampler: SamplerName,
+    /// How ReSTIR combines samples of other pixels and frames: without bias, or biased (darker where pixels do not see the
+    /// same lights) with fewer shadow rays [default: unbiased].
+    #[arg(long, value_enum)]
+    restir_mode: Option<Combination>,
     /// Light reflected once, or along whole paths.
-    #[arg(long, value_enum, default_value_t = Integrator::Direct)]
-    integrator: Integrator,
-    /// Most reflections of a path, 1 to 64 (only with --integrator path; 1 is direct lighting).
+    #[arg(long, value_enum, default_value_t = IntegratorName::Direct)]
+    integrator: IntegratorName,
+    /// Most reflections of a path, 1 to 64, with --integrator path; 1 is direct lighting.
     #[arg(long, default_value_t = 8)]
     bounces: u32,
     /// Cost of splits when the light BVH is built.
@@ -82,34 +95,29 @@ impl HeuristicName {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
-enum Integrator {
-    Direct,
-    Path,
-}
-
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 enum BackendName {
     Cpu,
     Vulkan,
 }
 
-/// Number of camera rays per pixel, each for as many samples as the others: of light samples, as few as make edges
-/// smooth; of paths, as many as do not make a pass too small.
-fn camera_rays(integrator: Integrator, samples: u32) -> u32 {
-    let divisor = |most: u32| (1..=most).rev().find(|&n| samples.is_multiple_of(n)).unwrap_or(1);
-    match integrator {
-        Integrator::Direct => divisor(MAX_CAMERA_RAYS),
-        Integrator::Path => samples / divisor(MAX_PATHS_PER_RAY),
-    }
-}
-
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
+    let integrator = match args.integrator {
+        IntegratorName::Direct => Integrator::Direct,
+        IntegratorName::Path => Integrator::Path {
+            bounces: args.bounces,
+        },
+    };
+    let method = args.sampler.method(args.restir_mode, integrator)?;
+    let (most, expected, default) = match method {
+        Method::Independent { .. } => (65_536, "1 to 65536", 16),
+        Method::Restir(_) => (MAX_HISTORIES, "1 to 64 with ReSTIR", 1),
+    };
+    let samples = args.spp.unwrap_or(default);
     for (option, value, most, expected) in [
         ("--width", args.width, 16_384, "1 to 16384"),
         ("--height", args.height, 16_384, "1 to 16384"),
-        ("--spp", args.spp, 65_536, "1 to 65536"),
+        ("--spp", samples, most, expected),
         ("--bounces", args.bounces, MAX_BOUNCES, "1 to 64"),
     ] {
         if value == 0 || value > most {
@@ -124,68 +132,14 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     for warning in scene.warnings() {
         eprintln!("{}: {warning}", scene.name());
     }
-    let arrays = arrays_at(&scene, args.frame, args.width, args.height)?;
-    if args.sampler == Sampler::Power && arrays.thresholds.is_empty() {
-        return Err(HostError::Sampler {
-            scene: scene.name().to_owned(),
-            sampler: args.sampler.name(),
-            lights: arrays.lights.triangles().len(),
-        });
-    }
-    let bvh = build(&arrays.lights, args.sampler, &args.heuristic.params());
-    let background = scene.frame(args.frame).background;
-    let Args {
-        frame,
-        width,
-        height,
-        spp: samples,
-        seed,
-        ..
-    } = *args;
-    let shot = Shot {
-        frame,
-        width,
-        height,
+    let sequence = Sequence {
+        args,
+        method,
         samples,
-        seed,
+        scene: &scene,
     };
-
-    let film = |backend: &mut dyn Backend| -> Result<(Film, f64), VulkanError> {
-        let rays = camera_rays(args.integrator, samples);
-        let mut sum = vec![[0.0f32; 3]; width as usize * height as usize];
-        let mut seconds = 0.0;
-        for ray in 0..rays {
-            let mut params = shot.params(background);
-            params.samples = samples / rays;
-            params.jitter = ray;
-            let part = match args.integrator {
-                Integrator::Direct => {
-                    params.seed = seed.wrapping_mul(MAX_CAMERA_RAYS).wrapping_add(ray);
-                    backend.render(&arrays, &params, args.sampler)?
-                }
-                Integrator::Path => {
-                    params.seed = hash(seed).wrapping_add(ray);
-                    backend.render_path(&arrays, &params, args.bounces, args.sampler)?
-                }
-            };
-            seconds += part.time.as_secs_f64();
-            for (sum, part) in sum.iter_mut().zip(&part.value) {
-                for k in 0..3 {
-                    sum[k] += part[k] / rays as f32;
-                }
-            }
-        }
-        Ok((
-            Film::new(width, height, sum).expect("as many pixels as the image has"),
-            seconds,
-        ))
-    };
-    let (film, seconds, name) = match args.backend {
-        BackendName::Cpu => {
-            let mut cpu = CpuBackend::new(bvh, arrays.lights.clone());
-            let (film, seconds) = film(&mut cpu)?;
-            (film, seconds, "cpu".to_owned())
-        }
+    let (shown, name) = match args.backend {
+        BackendName::Cpu => (sequence.render(context, None)?, "cpu".to_owned()),
         BackendName::Vulkan => {
             let opened = devices::open(context)?;
             let Some(first) = opened.first() else {
@@ -194,34 +148,111 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                 }
                 .into());
             };
-            let mut device = DeviceBackend::new(&first.device, &bvh, &arrays.lights)?;
-            let (film, seconds) = film(&mut device)?;
-            drop(device);
+            let shown = sequence.render(context, Some(&first.device))?;
             let name = first.device.name().to_owned();
             devices::close(opened)?;
-            (film, seconds, name)
+            (shown, name)
         }
     };
-    // Direct lighting is reflected once.
-    let bounces = if args.integrator == Integrator::Path {
-        args.bounces
-    } else {
-        1
-    };
-    let exposure = args.exposure.unwrap_or_else(|| film.auto_exposure());
-    film.write(&args.output, exposure)?;
     if context.json {
-        table::print_json(&json!({
-            "scene": scene.name(), "frame": frame, "width": width, "height": height, "spp": samples,
-            "sampler": args.sampler, "integrator": args.integrator, "bounces": bounces, "backend": name, "render_ms": seconds * 1e3, "exposure": exposure,
-            "output": args.output,
-        }))?;
-    } else {
-        println!(
-            "{}: {:.1} ms on {name}, exposure {exposure:.3}",
-            args.output.display(),
-            seconds * 1e3
-        );
+        let mut report = json!({
+            "scene": scene.name(), "width": args.width, "height": args.height, "spp": samples,
+            "sampler": args.sampler, "backend": name,
+        });
+        if let Integrator::Path { bounces } = integrator {
+            report["bounces"] = bounces.into();
+        }
+        report["integrator"] = json!(args.integrator);
+        if let Some(restir) = method.report() {
+            report["restir"] = restir;
+        }
+        if args.animate.is_some() {
+            report["frames"] = shown.into();
+        } else {
+            for (key, value) in shown.first().and_then(Value::as_object).into_iter().flatten() {
+                report[key] = value.clone();
+            }
+        }
+        table::print_json(&report)?;
     }
     Ok(Outcome::Good)
+}
+
+/// What is to be rendered.
+struct Sequence<'a> {
+    args: &'a Args,
+    method: Method,
+    samples: u32,
+    scene: &'a Scene,
+}
+
+impl Sequence<'_> {
+    /// Renders and writes all frames; returns what the report says of each.
+    fn render(&self, context: &Context, device: Option<&Device>) -> Result<Vec<Value>, HostError> {
+        let args = self.args;
+        let shown = args
+            .animate
+            .clone()
+            .unwrap_or(args.frame..args.frame.saturating_add(1));
+        let warm_up = match self.method {
+            Method::Independent { .. } => 0,
+            Method::Restir(_) => WARM_UP,
+        };
+        let start = shown.start.saturating_sub(warm_up);
+        let first = self.arrays(start)?;
+        let heuristic = args.heuristic.params();
+        let mut images = images(self.method, &heuristic, device, &first, self.samples)?;
+        let mut exposure = args.exposure;
+        let mut reports = Vec::new();
+        let mut arrays = Some(first);
+        for frame in start..shown.end {
+            let arrays = match arrays.take() {
+                Some(first) => first,
+                None => self.arrays(frame)?,
+            };
+            let shot = Shot {
+                frame,
+                width: args.width,
+                height: args.height,
+                samples: self.samples,
+                seed: args.seed,
+            };
+            let image = images.next(&arrays, &shot, self.scene.frame(frame).background)?;
+            if frame < shown.start {
+                continue;
+            }
+            // All frames of a sequence are exposed as its first one.
+            let exposure = *exposure.get_or_insert_with(|| image.film.auto_exposure());
+            let output = match &args.animate {
+                Some(_) => numbered(&args.output, frame),
+                None => args.output.clone(),
+            };
+            image.film.write(&output, exposure)?;
+            if !context.json {
+                let on = device.map_or("cpu", Device::name);
+                let ms = image.seconds * 1e3;
+                println!("{}: {ms:.1} ms on {on}, exposure {exposure:.3}", output.display());
+            }
+            let mut report = json!({
+                "frame": frame, "render_ms": image.seconds * 1e3, "exposure": exposure, "output": output,
+            });
+            if let Some(rays) = image.shadow_rays {
+                report["shadow_rays_per_pixel"] = rays.into();
+            }
+            reports.push(report);
+        }
+        Ok(reports)
+    }
+
+    fn arrays(&self, frame: u32) -> Result<Arc<SceneArrays>, HostError> {
+        let arrays = arrays_at(self.scene, frame, self.args.width, self.args.height)?;
+        if self.method.needs_power_table() && arrays.thresholds.is_empty() {
+            return Err(HostError::Sampler {
+                scene: self.scene.name().to_owned(),
+                sampler: self.args.sampler.name(),
+                lights: arrays.lights.triangles().len(),
+            });
+        }
+        Ok(Arc::new(arrays))
+    }
 }

@@ -1,4 +1,6 @@
-//! `lightbvh verify`: refit, sample, pmf and images on every device against the CPU, word for word.
+//! `lightbvh verify`: refit, sample, pmf, images by every integrator on every device against the CPU, word for word.
+
+mod restir;
 
 use bytemuck::cast_slice;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -197,7 +199,8 @@ impl Run {
             self.batch(&what, &mut cpu, &mut devices, asked)?;
             first += u64::from(batch);
         }
-        self.images(scene, sampler, &arrays, &shot, &mut cpu, &mut devices)
+        self.images(scene, sampler, &arrays, &shot, &mut cpu, &mut devices)?;
+        restir::compare(scene, sampler, &shot, opened, &mut self.tallies)
     }
 
     /// Sample, then pmf: of the light sampled for every query but each eighth, which asks for some light.

@@ -30,6 +30,13 @@ pub(crate) const MODULES: &[Module] = &[
     module!("path_uniform"),
     module!("path_power"),
     module!("path_bvh"),
+    module!("restir_initial_power"),
+    module!("restir_initial_bvh"),
+    module!("restir_temporal_unbiased"),
+    module!("restir_temporal_biased"),
+    module!("restir_spatial_unbiased"),
+    module!("restir_spatial_biased"),
+    module!("restir_shade"),
     module!("self_test"),
 ];
 

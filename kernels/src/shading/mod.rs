@@ -11,6 +11,7 @@
 //! | [`pixel`] | all of it together, for one pixel |
 //! | [`lobe`], [`mis`] | directions with a known density; weights of two ways to find a light |
 //! | [`path`] | light along whole paths |
+//! | [`restir`] | reservoirs in place of independent samples |
 //!
 //! Results agree to the bit between processors in this domain: coordinates at most [`grid::MAX_COORDINATE`] in magnitude
 //! and on the grid (the host's ray-BVH builder sees to both), radiances as in [`lightbvh::light`], albedo and specular
@@ -26,4 +27,5 @@ pub mod path;
 pub mod pick;
 pub mod pixel;
 pub mod ray;
+pub mod restir;
 pub mod trace;

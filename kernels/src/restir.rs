@@ -1,0 +1,296 @@
+//! Passes of ReSTIR, one invocation per pixel, a barrier between dispatches:
+//!
+//! 1. `restir_initial_power` or `restir_initial_bvh`: what the pixel sees, and a light sample out of candidates drawn by
+//!    power (as in the paper) or from the light BVH. Writes G-buffer and reservoirs.
+//! 2. `restir_temporal_unbiased` or `restir_temporal_biased`: merges the frame before. Reads that frame's G-buffer and
+//!    reservoirs, updates reservoirs in place. Left out in the first frame.
+//! 3. `restir_spatial_unbiased` or `restir_spatial_biased`, as often as wanted: merges neighbours. Reads one buffer of
+//!    reservoirs, writes another.
+//! 4. `restir_shade`: shadow ray and colour. Updates reservoirs in place; they and the G-buffer are the next frame's
+//!    frame before.
+//!
+//! The unbiased passes are so under the conditions in [`crate::shading::restir`]; the biased ones say so in their names.
+
+use bytemuck::{Pod, Zeroable};
+use glam::UVec3;
+use lightbvh::{EmissiveTriangle, Instance};
+use spirv_std::spirv;
+
+use crate::bvh::{Node, TreePush};
+use crate::invocation;
+use crate::shading::camera::Camera;
+use crate::shading::material::Material;
+use crate::shading::pick::Power;
+use crate::shading::pixel::Scene;
+use crate::shading::restir::combine::{Biased, Unbiased};
+use crate::shading::restir::initial::{first_reservoir, first_surface};
+use crate::shading::restir::shade::{Shaded, shade};
+use crate::shading::restir::spatial::spatial;
+use crate::shading::restir::surface::Surface;
+use crate::shading::restir::temporal::{Before, temporal};
+use crate::shading::restir::{PixelReservoir, RestirParams};
+use crate::shading::trace::{RayNode, SurfaceTriangle, Surfaces};
+
+/// Push constants of all passes; 76 bytes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct RestirPush {
+    /// The frame.
+    pub params: RestirParams,
+    /// First pixel of this dispatch.
+    pub first: u32,
+    /// Number of pixels of this dispatch.
+    pub count: u32,
+    /// The light BVH (`restir_initial_bvh` only).
+    pub tree: TreePush,
+}
+
+const _: () = assert!(size_of::<RestirPush>() == 76);
+
+/// Pass 1 with candidates in proportion to power. `thresholds` is [`Power`]'s table.
+#[spirv(compute(threads(64), entry_point_name = "restir_initial_power"))]
+pub fn restir_initial_power(
+    #[spirv(global_invocation_id)] id: UVec3,
+    #[spirv(push_constant)] push: &RestirPush,
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] camera: &[Camera],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] thresholds: &[u32],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] gbuffer: &mut [Surface],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] reservoirs: &mut [PixelReservoir],
+) {
+    let i = invocation(id);
+    let pixel = push.first.wrapping_add(i);
+    if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
+        let scene = Scene {
+            surfaces: Surfaces {
+                nodes: ray_nodes,
+                triangles: surfaces,
+            },
+            materials,
+            lights,
+        };
+        let surface = first_surface(&scene, &camera[0], &push.params, pixel);
+        let picker = Power { thresholds };
+        gbuffer[pixel as usize] = surface;
+        reservoirs[pixel as usize] = first_reservoir(&scene, &push.params, &picker, &surface, pixel);
+    }
+}
+
+/// Pass 1 with candidates from the light BVH.
+#[spirv(compute(threads(64), entry_point_name = "restir_initial_bvh"))]
+pub fn restir_initial_bvh(
+    #[spirv(global_invocation_id)] id: UVec3,
+    #[spirv(push_constant)] push: &RestirPush,
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] camera: &[Camera],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] nodes: &[Node],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] meshes: &[Instance],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] trails: &[u32],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] gbuffer: &mut [Surface],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 9)] reservoirs: &mut [PixelReservoir],
+) {
+    let i = invocation(id);
+    let pixel = push.first.wrapping_add(i);
+    if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
+        let scene = Scene {
+            surfaces: Surfaces {
+                nodes: ray_nodes,
+                triangles: surfaces,
+            },
+            materials,
+            lights,
+        };
+        let surface = first_surface(&scene, &camera[0], &push.params, pixel);
+        let picker = push.tree.picker(nodes, meshes, trails);
+        gbuffer[pixel as usize] = surface;
+        reservoirs[pixel as usize] = first_reservoir(&scene, &push.params, &picker, &surface, pixel);
+    }
+}
+
+/// Pass 2 without bias; `before_*` is the frame before, `before_camera` its camera.
+#[spirv(compute(threads(64), entry_point_name = "restir_temporal_unbiased"))]
+pub fn restir_temporal_unbiased(
+    #[spirv(global_invocation_id)] id: UVec3,
+    #[spirv(push_constant)] push: &RestirPush,
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] before_ray_nodes: &[RayNode],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] before_surfaces: &[SurfaceTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] before_lights: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] to_previous: &[u32],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] materials: &[Material],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] lights: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] before_camera: &[Camera],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] before_gbuffer: &[Surface],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] before_reservoirs: &[PixelReservoir],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 9)] to_current: &[u32],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 10)] gbuffer: &[Surface],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 11)] reservoirs: &mut [PixelReservoir],
+) {
+    let i = invocation(id);
+    let pixel = push.first.wrapping_add(i);
+    if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
+        let combine = Unbiased {
+            surfaces: Surfaces {
+                nodes: before_ray_nodes,
+                triangles: before_surfaces,
+            },
+            lights: before_lights,
+        };
+        let before = Before {
+            camera: &before_camera[0],
+            gbuffer: before_gbuffer,
+            reservoirs: before_reservoirs,
+            to_current,
+        };
+        let surface = gbuffer[pixel as usize];
+        let current = reservoirs[pixel as usize];
+        reservoirs[pixel as usize] = temporal(
+            &combine,
+            materials,
+            lights,
+            &before,
+            to_previous,
+            &push.params,
+            &surface,
+            current,
+            pixel,
+        );
+    }
+}
+
+/// Pass 2, **biased**.
+#[spirv(compute(threads(64), entry_point_name = "restir_temporal_biased"))]
+pub fn restir_temporal_biased(
+    #[spirv(global_invocation_id)] id: UVec3,
+    #[spirv(push_constant)] push: &RestirPush,
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] materials: &[Material],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] lights: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] before_camera: &[Camera],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] before_gbuffer: &[Surface],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] before_reservoirs: &[PixelReservoir],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] to_current: &[u32],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] gbuffer: &[Surface],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] reservoirs: &mut [PixelReservoir],
+) {
+    let i = invocation(id);
+    let pixel = push.first.wrapping_add(i);
+    if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
+        let before = Before {
+            camera: &before_camera[0],
+            gbuffer: before_gbuffer,
+            reservoirs: before_reservoirs,
+            to_current,
+        };
+        let surface = gbuffer[pixel as usize];
+        let current = reservoirs[pixel as usize];
+        reservoirs[pixel as usize] = temporal(
+            &Biased,
+            materials,
+            lights,
+            &before,
+            to_current,
+            &push.params,
+            &surface,
+            current,
+            pixel,
+        );
+    }
+}
+
+/// Pass 3 without bias.
+#[spirv(compute(threads(64), entry_point_name = "restir_spatial_unbiased"))]
+pub fn restir_spatial_unbiased(
+    #[spirv(global_invocation_id)] id: UVec3,
+    #[spirv(push_constant)] push: &RestirPush,
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] gbuffer: &[Surface],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] reservoirs: &[PixelReservoir],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] results: &mut [PixelReservoir],
+) {
+    let i = invocation(id);
+    let pixel = push.first.wrapping_add(i);
+    if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
+        let combine = Unbiased {
+            surfaces: Surfaces {
+                nodes: ray_nodes,
+                triangles: surfaces,
+            },
+            lights,
+        };
+        results[pixel as usize] = spatial(
+            &combine,
+            materials,
+            lights,
+            gbuffer,
+            reservoirs,
+            &push.params,
+            pixel,
+        );
+    }
+}
+
+/// Pass 3, **biased**.
+#[spirv(compute(threads(64), entry_point_name = "restir_spatial_biased"))]
+pub fn restir_spatial_biased(
+    #[spirv(global_invocation_id)] id: UVec3,
+    #[spirv(push_constant)] push: &RestirPush,
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] materials: &[Material],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] lights: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] gbuffer: &[Surface],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] reservoirs: &[PixelReservoir],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] results: &mut [PixelReservoir],
+) {
+    let i = invocation(id);
+    let pixel = push.first.wrapping_add(i);
+    if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
+        results[pixel as usize] = spatial(
+            &Biased,
+            materials,
+            lights,
+            gbuffer,
+            reservoirs,
+            &push.params,
+            pixel,
+        );
+    }
+}
+
+/// Pass 4.
+#[spirv(compute(threads(64), entry_point_name = "restir_shade"))]
+pub fn restir_shade(
+    #[spirv(global_invocation_id)] id: UVec3,
+    #[spirv(push_constant)] push: &RestirPush,
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] gbuffer: &[Surface],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] reservoirs: &mut [PixelReservoir],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] results: &mut [Shaded],
+) {
+    let i = invocation(id);
+    let pixel = push.first.wrapping_add(i);
+    if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
+        let scene = Scene {
+            surfaces: Surfaces {
+                nodes: ray_nodes,
+                triangles: surfaces,
+            },
+            materials,
+            lights,
+        };
+        let surface = gbuffer[pixel as usize];
+        let last = reservoirs[pixel as usize];
+        let (shaded, kept) = shade(&scene, &push.params, &surface, &last);
+        results[pixel as usize] = shaded;
+        reservoirs[pixel as usize] = kept;
+    }
+}

@@ -1,0 +1,79 @@
+//! The first step: what the pixel sees, and one light sample out of many candidates (ReSTIR Algorithm 3), kept if nothing
+//! shadows it (visibility reuse, Algorithm 5).
+
+use glam::Vec3;
+use lightbvh::exact::{hash, unit_f32};
+use lightbvh::reservoir::{LightSample, Resampling, Reservoir};
+
+use super::super::camera::Camera;
+use super::super::pick::PickLight;
+use super::super::pixel::{Scene, see};
+use super::surface::Surface;
+use super::target::{lit, visible};
+use super::{INITIAL, PixelReservoir, RestirParams, step_seed};
+
+/// Random numbers that one candidate uses.
+const RANDOM_PER_CANDIDATE: u32 = 4;
+
+/// What pixel `index` sees: the same point for every seed.
+#[inline]
+#[must_use]
+pub fn first_surface(scene: &Scene<'_>, camera: &Camera, params: &RestirParams, index: u32) -> Surface {
+    let width = if params.width == 0 { 1 } else { params.width };
+    let y = index / width;
+    let x = index - y * width;
+    let ray = camera.ray(
+        x,
+        y,
+        width,
+        params.height,
+        hash(index).wrapping_add(params.jitter),
+    );
+    let background = Vec3::new(params.background[0], params.background[1], params.background[2]);
+    let seen = see(scene, &ray, background);
+    let eye = Vec3::new(camera.origin[0], camera.origin[1], camera.origin[2]);
+    Surface::new(&seen, eye)
+}
+
+/// One sample for `surface` out of [`RestirParams::candidates`] that `picker` draws.
+#[inline]
+#[must_use]
+pub fn first_reservoir<P: PickLight>(
+    scene: &Scene<'_>,
+    params: &RestirParams,
+    picker: &P,
+    surface: &Surface,
+    index: u32,
+) -> PixelReservoir {
+    let mut found = PixelReservoir {
+        reservoir: Reservoir::EMPTY,
+        shadow_rays: 0,
+    };
+    if surface.is_lit() {
+        let seed = step_seed(params, index, INITIAL);
+        let mut stream = Resampling::EMPTY;
+        for candidate in 0..params.candidates {
+            let random = seed.wrapping_add(candidate.wrapping_mul(RANDOM_PER_CANDIDATE));
+            let picked = picker.pick(&surface.point, hash(random));
+            let sample = LightSample {
+                light: picked.light,
+                uv: [
+                    unit_f32(hash(random.wrapping_add(1))),
+                    unit_f32(hash(random.wrapping_add(2))),
+                ],
+            };
+            let arriving = lit(scene.materials, scene.lights, surface, &sample);
+            stream.candidate(sample, arriving.target, picked.pmf, hash(random.wrapping_add(3)));
+        }
+        found.reservoir = stream.finish_equal();
+        if found.reservoir.weight > 0.0 {
+            let sample = found.reservoir.sample;
+            let end = lit(scene.materials, scene.lights, surface, &sample).end;
+            found.shadow_rays = 1;
+            if !visible(&scene.surfaces, surface, end, sample.light) {
+                found.reservoir = found.reservoir.occluded();
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,65 @@
+//! p̂, the target that samples are resampled by: the luminance of the unshadowed contribution (ReSTIR section 3).
+
+use glam::Vec3;
+use lightbvh::EmissiveTriangle;
+use lightbvh::reservoir::{LightSample, target};
+
+use super::super::area::{connect, luminance};
+use super::super::material::Material;
+use super::super::pixel::{load_light, load_material};
+use super::super::ray::Ray;
+use super::super::trace::{Surfaces, any_hit};
+use super::surface::Surface;
+
+/// What a light sample contributes to a surface if nothing is between.
+#[derive(Clone, Copy, Debug)]
+pub struct Lit {
+    /// The integrand over lights and the unit square, W/(m² sr).
+    pub contribution: Vec3,
+    /// p̂: zero where the contribution is, else in the range that [`target`] states.
+    pub target: f32,
+    /// The end of the shadow ray.
+    pub end: Vec3,
+}
+
+/// The light of `sample` at `surface`; nothing for a light or material that is not there.
+#[inline]
+#[must_use]
+pub fn lit(
+    materials: &[Material],
+    lights: &[EmissiveTriangle],
+    surface: &Surface,
+    sample: &LightSample,
+) -> Lit {
+    let mut lit = Lit {
+        contribution: Vec3::ZERO,
+        target: 0.0,
+        end: Vec3::ZERO,
+    };
+    if sample.light < lights.len() as u32 && surface.material < materials.len() as u32 && surface.is_lit() {
+        let material = load_material(materials, surface.material);
+        let light = load_light(lights, sample.light);
+        let connection = connect(
+            &surface.point,
+            surface.wo(),
+            &material,
+            &light,
+            1.0,
+            [sample.uv[0], sample.uv[1]],
+        );
+        let c = connection.contribution;
+        lit.contribution = c;
+        lit.target = target(luminance([c.x, c.y, c.z]));
+        lit.end = connection.target;
+    }
+    lit
+}
+
+/// Whether nothing lies between the surface and the point of `light` that `end` is just before: one shadow ray.
+#[inline]
+#[must_use]
+pub fn visible(surfaces: &Surfaces<'_>, surface: &Surface, end: Vec3, light: u32) -> bool {
+    let origin = surface.point.position();
+    let ray = Ray::new(origin, end - origin, 1.0);
+    !any_hit(surfaces, &ray, light)
+}
