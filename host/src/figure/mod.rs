@@ -1,0 +1,1 @@
+//! Figures: line charts and sheets of labelled images.
