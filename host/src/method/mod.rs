@@ -101,6 +101,9 @@ pub struct UpdateTimes {
     pub wait: Duration,
 }
 
+/// Names a sequence of images of consecutive frames.
+pub type Chain = u64;
+
 /// A method over one scene on one backend.
 pub trait Runner {
     /// Brings the structures to the next frame. Frames come in ascending order; only methods that say so in
@@ -110,7 +113,9 @@ pub trait Runner {
     /// [`HostError`] from a device, or for lights that the method cannot take.
     fn advance(&mut self, step: &Step<'_>) -> Result<UpdateTimes, HostError>;
 
-    /// Renders the frame last advanced to, which `arrays` are of, and `shot` too.
+    /// Renders the frame last advanced to, which `arrays` are of, and `shot` too. Images of one `chain` follow each other
+    /// over consecutive frames, so that what one leaves behind (reservoirs) may serve the next; a chain that is not known
+    /// yet begins.
     ///
     /// # Errors
     /// [`HostError`] from a device, or for a scene that the method cannot take.
@@ -119,15 +124,18 @@ pub trait Runner {
         step: &Step<'_>,
         arrays: &SceneArrays,
         shot: &Shot,
+        chain: Chain,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError>;
+
+    /// Drops what a chain left behind.
+    fn end(&mut self, _chain: Chain) {}
 
     /// Whether a frame depends on the first frame and itself alone, so that those between may be left out.
     fn may_skip(&self) -> bool {
         false
     }
 
-    /// For how many frames before the one that counts images of the same seed must be rendered, in order, for what they
-    /// leave behind.
+    /// How many images of its chain must come before the one that counts.
     fn history(&self) -> u32 {
         0
     }

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use lightbvh::BuildParams;
 
-use super::{Runner, Step, Target, UpdateTimes, render};
+use super::{Chain, Runner, Step, Target, UpdateTimes, render};
 use crate::backend::{Backend, Sampler, SceneArrays, Timed};
 use crate::error::HostError;
 use crate::render::power_thresholds;
@@ -52,6 +52,7 @@ impl Runner for NoTree<'_> {
         step: &Step<'_>,
         arrays: &SceneArrays,
         shot: &Shot,
+        _chain: Chain,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
         if self.sampler == Sampler::Power && arrays.thresholds.is_empty() {
             return Err(HostError::Sampler {

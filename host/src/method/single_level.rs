@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use lightbvh::BuildParams;
 
-use super::{Runner, Step, Target, UpdateTimes, render};
+use super::{Chain, Runner, Step, Target, UpdateTimes, render};
 use crate::backend::{Backend, Sampler, SceneArrays, Timed};
 use crate::error::HostError;
 use crate::workload::{Shot, build};
@@ -56,6 +56,7 @@ impl Runner for SingleLevel<'_> {
         step: &Step<'_>,
         arrays: &SceneArrays,
         shot: &Shot,
+        _chain: Chain,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
         render(&mut *self.backend, step, arrays, shot, Sampler::SingleLevel)
     }
