@@ -200,3 +200,17 @@ fn render(
     let params = shot.params(step.scene.data().background);
     Ok(backend.render(arrays, &params, sampler)?)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_those_of_the_command_line_and_of_results() {
+        for method in Method::IMPLEMENTED {
+            let parsed = <Method as clap::ValueEnum>::from_str(method.name(), false);
+            assert_eq!(parsed, Ok(method));
+            assert_eq!(serde_json::to_value(method).expect("a name"), method.name());
+        }
+    }
+}

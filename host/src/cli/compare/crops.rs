@@ -144,7 +144,10 @@ fn sheet(
     for (number, region) in (1..).zip(regions) {
         let corner = (at.0 + region.x * overview, at.1 + region.y * overview);
         canvas.outline(corner, (region.width * overview, region.height * overview), MARK);
-        canvas.text((corner.0 + 4, corner.1 + 4), &format!("{number}"), TEXT, MARK);
+        let text = format!("{number}");
+        let size = text_size(&text, TEXT);
+        canvas.fill(corner, (size.0 + 6, size.1 + 6), MARK);
+        canvas.text((corner.0 + 3, corner.1 + 3), &text, TEXT, PAPER);
     }
     for (row, region) in (0..).zip(regions) {
         let y = rows_top + row * (cell.1 + 2 * line + MARGIN);

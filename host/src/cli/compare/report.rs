@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
+use super::graphs::shown;
 use super::plan::Plan;
 use super::summary::{Average, Errors, Row};
 use super::{Report, SceneReport};
-use crate::method::Method;
 
 /// What the tables say that numbers cannot.
 pub(super) const NOTES: [&str; 6] = [
@@ -76,7 +76,7 @@ pub(super) fn markdown(plan: &Plan, report: &Report) -> String {
             ));
         }
         line("\n### Change of the MSE over the moving frames\n".to_owned());
-        line(changes(report, scene));
+        line(changes(plan, report, scene));
         line("### Table 2: milliseconds, averaged over the timed frames\n".to_owned());
         line(times(report, scene));
         for file in &scene.figures {
@@ -84,7 +84,8 @@ pub(super) fn markdown(plan: &Plan, report: &Report) -> String {
         }
     }
     line(format!(
-        "{} results computed, {} found in the folder. Images of devices that differ from the CPU's: {}.",
+        "{} results computed, {} found in the folder. Images of devices with other words than the \
+         CPU's: {}.",
         report.computed, report.reused, report.different
     ));
     out
@@ -133,17 +134,18 @@ fn errors(plan: &Plan, report: &Report, scene: &SceneReport, backend: &str) -> S
     out
 }
 
-fn changes(report: &Report, scene: &SceneReport) -> String {
-    let mut out = String::from("| backend | method | from | MSE | linear MSE |\n|---|---|---|---|---|\n");
-    for average in report.averages.iter().filter(|a| a.scene == scene.scene) {
+/// Of methods that can be told apart in percent; those without a tree are too far off, and in the JSON.
+fn changes(plan: &Plan, report: &Report, scene: &SceneReport) -> String {
+    let mut out = String::from("| backend | method | from | MSE |\n|---|---|---|---|\n");
+    let is_shown = |a: &&Average| a.scene == scene.scene && shown(plan).contains(&a.method);
+    for average in report.averages.iter().filter(is_shown) {
         for change in &average.mse_change {
             out += &format!(
-                "| {} | {} | {} | {} % | {} % |\n",
+                "| {} | {} | {} | {} % |\n",
                 average.backend,
                 average.method.name(),
                 change.from.name(),
                 measured(change.percent, change.percent_ci95, 1),
-                measured(change.linear_percent, change.linear_percent_ci95, 1),
             );
         }
     }
@@ -163,7 +165,7 @@ fn times(report: &Report, scene: &SceneReport) -> String {
         out += &format!(
             "| {} | {} | {} | {} | {} | {} | {frame} | {} |\n",
             average.backend,
-            Method::name(average.method),
+            average.method.name(),
             cell(times.refit_ms),
             cell(times.rebuild_ms),
             cell(times.wait_ms),

@@ -21,9 +21,13 @@ pub(super) struct Store {
     folder: PathBuf,
 }
 
-/// FNV-1a over words of eight bytes (G. Fowler, L. C. Noll, K.-P. Vo): tells files and scenes apart, not more.
+/// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo) over words of eight bytes, with a shift so that their upper bits count as much
+/// as the lower: tells files and scenes apart, not more.
 pub(super) fn fingerprint(bytes: &[u8]) -> String {
-    let step = |state: u64, word: u64| (state ^ word).wrapping_mul(0x0000_0100_0000_01b3);
+    let step = |state: u64, word: u64| {
+        let product = (state ^ word).wrapping_mul(0x0000_0100_0000_01b3);
+        product ^ (product >> 32)
+    };
     let (words, rest) = bytes.as_chunks::<8>();
     let state = words.iter().fold(0xcbf2_9ce4_8422_2325, |state, word| {
         step(state, u64::from_le_bytes(*word))
