@@ -124,6 +124,9 @@ impl Chart {
         ));
 
         for (i, series) in self.series.iter().enumerate() {
+            // Lines a little apart, so that error bars at one place do not hide each other.
+            let aside = (i as f64 - 0.5 * (self.series.len() as f64 - 1.0)) * 3.0;
+            let x = |v: f64| x(v) + aside;
             let color = COLORS[i % COLORS.len()];
             let dash = if i / COLORS.len() % 2 == 1 {
                 " stroke-dasharray=\"6 3\""
