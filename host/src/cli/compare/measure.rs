@@ -71,8 +71,9 @@ pub(super) struct Job<'a, 'd> {
     pub store: &'a Store,
     pub references: &'a [Reference],
     pub target: Target<'d>,
-    /// Images per frame.
+    /// Images per frame, and blocks that are timed.
     pub seeds: u32,
+    pub blocks: Vec<u32>,
     /// What this program is, for keys.
     pub program: &'a str,
     pub progress: &'a ProgressBar,
@@ -131,7 +132,7 @@ impl<'d> Job<'_, 'd> {
                     }
                 }
             }
-            for block in self.plan.timed_blocks() {
+            for &block in &self.blocks {
                 let wanted = self.wanted_times(frames, method, block);
                 match self.store.load::<Vec<FrameTimes>>(&wanted.name, &wanted.key) {
                     Some(times) => {

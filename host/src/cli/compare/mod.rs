@@ -154,6 +154,7 @@ impl Run<'_> {
                 references: &references,
                 target,
                 seeds: seeds(plan, &target),
+                blocks: blocks(plan, &target),
                 program: &self.program,
                 progress: &self.progress,
             })
@@ -208,8 +209,10 @@ fn work(plan: &Plan, samples: u32) -> u64 {
 /// The work of a scene: its references, and every method's images on every backend.
 fn all_work(plan: &Plan, targets: &[Target<'_>]) -> u64 {
     let references = work(plan, plan.reference_samples) * plan.frames.len() as u64;
-    let timed = plan.timed_blocks().len() as u64 * u64::from(BLOCK);
-    let images = |target: &Target<'_>| plan.frames.len() as u64 * u64::from(seeds(plan, target)) + timed;
+    let images = |target: &Target<'_>| {
+        let timed = blocks(plan, target).len() as u64 * u64::from(BLOCK);
+        plan.frames.len() as u64 * u64::from(seeds(plan, target)) + timed
+    };
     let images: u64 = targets.iter().map(images).sum();
     references + work(plan, plan.samples) * images * plan.methods.len() as u64
 }
@@ -220,6 +223,14 @@ fn seeds(plan: &Plan, target: &Target<'_>) -> u32 {
         Target::Cpu => plan.seeds,
         Target::Device(_) => 1,
     }
+}
+
+/// The blocks that are timed.
+fn blocks(plan: &Plan, target: &Target<'_>) -> Vec<u32> {
+    plan.timed_blocks(match target {
+        Target::Cpu => plan.timed_frames,
+        Target::Device(_) => plan.timed_on_devices,
+    })
 }
 
 fn progress() -> ProgressBar {
@@ -240,7 +251,7 @@ fn settings(plan: &Plan) -> Value {
     json!({
         "scenes": plan.scenes, "frames": plan.frames, "samples": plan.samples, "seeds": plan.seeds,
         "width": plan.width, "height": plan.height, "reference_samples": plan.reference_samples,
-        "timed_frames": plan.timed_frames, "methods": plan.methods, "cpu_threads": rayon::current_num_threads(),
+        "timed_frames": plan.timed_frames, "timed_on_devices": plan.timed_on_devices, "methods": plan.methods, "cpu_threads": rayon::current_num_threads(),
     })
 }
 

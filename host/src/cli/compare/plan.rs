@@ -34,15 +34,15 @@ pub(in crate::cli) struct Args {
     /// Shadow rays per pixel of the reference [default: 1024].
     #[arg(long)]
     reference_samples: Option<u32>,
-    /// Frames of the animation that times are averaged over, in runs of seven [default: 35].
+    /// Frames of the animation that times are averaged over, in runs of seven [default: 35, on devices 7].
     #[arg(long)]
     timed_frames: Option<u32>,
     /// Methods to compare; all by default. May be repeated.
     #[arg(long, value_enum)]
     method: Vec<Method>,
-    /// What renders. Devices render one image of each frame.
-    #[arg(long, value_enum, default_value_t = Backends::All)]
-    backend: Backends,
+    /// What renders; devices render one image of each frame [default: all, with --quick: cpu].
+    #[arg(long, value_enum)]
+    backend: Option<Backends>,
     /// Folder for tables, figures and results; made if it is not there. Results found there are not computed again.
     #[arg(long, default_value = "compare", value_name = "DIR")]
     pub(super) out: PathBuf,
@@ -74,6 +74,7 @@ pub(super) struct Plan {
     /// Even.
     pub reference_samples: u32,
     pub timed_frames: u32,
+    pub timed_on_devices: u32,
     pub methods: Vec<Method>,
     pub backends: Backends,
 }
@@ -117,9 +118,13 @@ impl Args {
             height: choose(self.height, 180, 54),
             reference_samples: choose(self.reference_samples, 1024, 128),
             timed_frames: choose(self.timed_frames, 35, 7),
+            timed_on_devices: choose(self.timed_frames, 7, 7),
             frames,
             methods,
-            backends: self.backend,
+            // A software device takes longer for its small images than the CPU for everything.
+            backends: self
+                .backend
+                .unwrap_or(if self.quick { Backends::Cpu } else { Backends::All }),
         };
         plan.check()?;
         Ok(Plan {
@@ -166,13 +171,13 @@ impl Plan {
         (self.width, self.height)
     }
 
-    /// The blocks whose frames are timed, spread evenly over the animation.
-    pub fn timed_blocks(&self) -> Vec<u32> {
+    /// The blocks that have so many timed frames between them, as far as there are as many, spread evenly.
+    pub fn timed_blocks(&self, timed_frames: u32) -> Vec<u32> {
         // A last block of one frame, which follows no other of its block, does not count.
-        let blocks = self.last().div_ceil(BLOCK);
-        let wanted = self.timed_frames.div_ceil(BLOCK - 1).min(blocks);
+        let blocks = u64::from(self.last().div_ceil(BLOCK));
+        let wanted = u64::from(timed_frames.div_ceil(BLOCK - 1)).min(blocks);
         (0..wanted)
-            .map(|i| (u64::from(i) * u64::from(blocks) / u64::from(wanted)) as u32)
+            .map(|i| ((2 * i + 1) * blocks / (2 * wanted)) as u32)
             .collect()
     }
 }
@@ -181,28 +186,31 @@ impl Plan {
 mod tests {
     use super::*;
 
-    fn plan(frames: &[u32], timed_frames: u32) -> Plan {
-        Plan {
+    fn blocks(last: u32, timed_frames: u32) -> Vec<u32> {
+        let plan = Plan {
             scenes: Vec::new(),
-            frames: frames.to_vec(),
+            frames: vec![last],
             samples: 1,
             seeds: 1,
             width: 1,
             height: 1,
             reference_samples: 2,
             timed_frames,
+            timed_on_devices: 0,
             methods: Vec::new(),
             backends: Backends::Cpu,
-        }
+        };
+        plan.timed_blocks(timed_frames)
     }
 
     #[test]
     fn timed_blocks_are_spread_over_the_animation() {
-        assert_eq!(plan(&[150], 35).timed_blocks(), [0, 3, 7, 11, 15]);
-        assert_eq!(plan(&[150], 1000).timed_blocks(), (0..19).collect::<Vec<u32>>());
-        assert_eq!(plan(&[16], 1000).timed_blocks(), [0, 1]);
-        assert_eq!(plan(&[17], 1000).timed_blocks(), [0, 1, 2]);
-        assert!(plan(&[0], 10).timed_blocks().is_empty());
-        assert!(plan(&[150], 0).timed_blocks().is_empty());
+        assert_eq!(blocks(150, 35), [1, 5, 9, 13, 17]);
+        assert_eq!(blocks(150, 1), [9]);
+        assert_eq!(blocks(150, 1000), (0..19).collect::<Vec<u32>>());
+        assert_eq!(blocks(16, 1000), [0, 1]);
+        assert_eq!(blocks(17, 1000), [0, 1, 2]);
+        assert!(blocks(0, 10).is_empty());
+        assert!(blocks(150, 0).is_empty());
     }
 }
