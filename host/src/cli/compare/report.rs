@@ -8,7 +8,7 @@ use super::summary::{Average, Errors, Row};
 use super::{Report, SceneReport};
 
 /// What the tables say that numbers cannot.
-pub(super) const NOTES: [&str; 6] = [
+pub(super) const NOTES: [&str; 7] = [
     "All methods trace the same number of shadow rays per pixel, through the same camera rays: what differs is the light \
      that each ray goes to.",
     "MSE, SSIM, PSNR and FLIP are of tone-mapped 8-bit sRGB at one exposure per scene (MSE in steps squared, 0 to 255²), as \
@@ -20,6 +20,7 @@ pub(super) const NOTES: [&str; 6] = [
     "Refit and waiting and image times add up to the frame; a rebuild beside the frame counts only as far as the frame \
      waits for it. Image times of devices are the kernels' own where the device has a clock; transfers are left out.",
     "Rebuild times are of the CPU on every backend.",
+    "Close-ups are of the last frame with the first seed: the three regions where the methods' MSEs lie furthest apart.",
 ];
 
 /// A mean and half its confidence interval.
