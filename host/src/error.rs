@@ -74,16 +74,6 @@ pub enum HostError {
         /// Why not.
         source: std::io::Error,
     },
-    /// A list on the command line that cannot be understood.
-    #[error("{option} {value}: expected {expected}")]
-    List {
-        /// The option.
-        option: &'static str,
-        /// What was given.
-        value: String,
-        /// What would do.
-        expected: &'static str,
-    },
     /// A folder for output.
     #[error("cannot create the folder {path}: {source}; choose another with --out")]
     Folder {

@@ -6,12 +6,12 @@ use std::time::Duration;
 use bytemuck::cast_slice;
 use indicatif::ProgressBar;
 use serde::{Deserialize, Serialize};
-use serde_json::{Value, json};
 
 use super::frames::Frames;
 use super::plan::{BLOCK, Plan};
 use super::reference::Reference;
 use super::store::{Store, fingerprint};
+use super::wanted::Wanted;
 use crate::error::HostError;
 use crate::method::{Chain, Method, Runner, Target, UpdateTimes, runner};
 use crate::metrics::Quality;
@@ -77,16 +77,6 @@ pub(super) struct Job<'a, 'd> {
     /// What this program is, for keys.
     pub program: &'a str,
     pub progress: &'a ProgressBar,
-}
-
-/// A result that is still wanted, with its name and key.
-struct Wanted {
-    /// Frame of an image, or number of a timed block.
-    at: u32,
-    /// Of an image.
-    seed: u32,
-    name: String,
-    key: Value,
 }
 
 /// A method at work, and what is still wanted of it.
@@ -280,62 +270,6 @@ impl<'d> Job<'_, 'd> {
             samples: self.plan.samples,
             seed,
         }
-    }
-
-    fn wanted_image(
-        &self,
-        frames: &mut Frames<'_>,
-        method: Method,
-        frame: u32,
-        seed: u32,
-        reference: &Reference,
-    ) -> Wanted {
-        let mut key = self.key(frames, method, frame);
-        key["seed"] = seed.into();
-        key["reference_samples"] = self.plan.reference_samples.into();
-        key["exposure"] = reference.judge.exposure().to_bits().into();
-        Wanted {
-            at: frame,
-            seed,
-            name: self.name(frames, method, &format!("f{frame:03}-s{seed:02}")),
-            key,
-        }
-    }
-
-    fn wanted_times(&self, frames: &mut Frames<'_>, method: Method, block: u32) -> Wanted {
-        let last = self.plan.last().min(block * BLOCK + BLOCK - 1);
-        let mut key = self.key(frames, method, last);
-        key["times_from"] = (block * BLOCK).into();
-        key["threads"] = rayon::current_num_threads().into();
-        Wanted {
-            at: block,
-            seed: 0,
-            name: self.name(frames, method, &format!("times-f{:03}", block * BLOCK)),
-            key,
-        }
-    }
-
-    fn key(&self, frames: &mut Frames<'_>, method: Method, frame: u32) -> Value {
-        let driver = match self.target {
-            Target::Cpu => String::new(),
-            Target::Device(device) => {
-                let driver = &device.probe().driver;
-                format!("{} {}", driver.name, driver.info)
-            }
-        };
-        json!({
-            "program": self.program, "scene": frames.scene().name(), "print": frames.print(frame), "frame": frame,
-            "width": self.plan.width, "height": self.plan.height, "samples": self.plan.samples,
-            "method": method, "backend": self.target.name(), "driver": driver,
-        })
-    }
-
-    fn name(&self, frames: &Frames<'_>, method: Method, rest: &str) -> String {
-        let (scene, backend) = (
-            super::stem(frames.scene().name()),
-            super::stem(self.target.name()),
-        );
-        format!("{scene}/{}-{backend}-{rest}", method.name())
     }
 }
 

@@ -10,6 +10,7 @@ mod reference;
 mod report;
 mod store;
 mod summary;
+mod wanted;
 
 use std::path::Path;
 
