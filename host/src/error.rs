@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use lightbvh::LightsError;
 
 use crate::compare::CompareError;
+use crate::metrics::MetricError;
 use crate::render::{FilmError, RayBvhError};
 use crate::scene::SceneError;
 use crate::vulkan::VulkanError;
@@ -57,6 +58,22 @@ pub enum HostError {
     /// An image.
     #[error(transparent)]
     Film(#[from] FilmError),
+    /// Two images that cannot be measured.
+    #[error(transparent)]
+    Metric(#[from] MetricError),
+    /// A method without an implementation.
+    #[error("the method `{0}` is not implemented yet; leave it out")]
+    Method(&'static str),
+    /// A result that cannot be kept.
+    #[error(
+        "cannot write {path}: {source}; free space or choose another folder with --out, and run again to go on"
+    )]
+    Store {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        source: std::io::Error,
+    },
     /// A folder for output.
     #[error("cannot create the folder {path}: {source}; choose another with --out")]
     Folder {

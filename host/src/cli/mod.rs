@@ -2,6 +2,7 @@
 //! error. Exit status: 0 done, 1 results differ or an invariant is violated, 2 the input or the machine is at fault.
 
 mod bench;
+mod compare;
 mod demo;
 mod devices;
 mod export;
@@ -44,6 +45,8 @@ enum Command {
     Verify(verify::Args),
     /// Time build, refit, sample and pmf, and measure what accuracy costs.
     Bench(bench::Args),
+    /// Compare the methods over an animation as the paper does: errors, times, graphs and close-ups.
+    Compare(compare::Args),
     /// List the Vulkan devices and whether their arithmetic is exact.
     Info,
     /// Check every invariant of the light BVHs of a scene.
@@ -90,6 +93,7 @@ pub fn main() -> ExitCode {
         Command::Render(args) => render::run(&context, args),
         Command::Verify(args) => verify::run(&context, args),
         Command::Bench(args) => bench::run(&context, args),
+        Command::Compare(args) => compare::run(&context, args),
         Command::Info => info::run(&context),
         Command::Validate(args) => validate::run(&context, args),
         Command::Export(args) => export::run(&context, args),

@@ -45,6 +45,14 @@ pub enum FilmError {
         /// What the encoder says.
         source: image::ImageError,
     },
+    /// The file cannot be read as an image.
+    #[error("{}: cannot read the image: {source}; remove the file to have it made again", .path.display())]
+    Read {
+        /// The path asked for.
+        path: PathBuf,
+        /// What the decoder says.
+        source: image::ImageError,
+    },
     /// The file cannot be written.
     #[error("{}: cannot write the image: {source}; check that the directory exists and may be written", .path.display())]
     Write {
@@ -136,6 +144,27 @@ impl Film {
         }
     }
 
+    /// The image as a screen shows it: tone-mapped 8-bit sRGB after scaling by `exposure`, three bytes per pixel.
+    #[must_use]
+    pub fn shown(&self, exposure: f32) -> Vec<u8> {
+        let channels = self.pixels.iter().flatten();
+        channels.map(|&c| display(c, exposure)).collect()
+    }
+
+    /// Reads back what [`write`](Self::write) made of a `.exr`; other images are taken as linear radiance as well.
+    ///
+    /// # Errors
+    /// [`FilmError::Read`] for a file that is not there or is no image.
+    pub fn read(path: &Path) -> Result<Self, FilmError> {
+        let image = image::open(path).map_err(|source| FilmError::Read {
+            path: path.to_owned(),
+            source,
+        })?;
+        let (width, height) = (image.width(), image.height());
+        let pixels = image.into_rgb32f().pixels().map(|pixel| pixel.0).collect();
+        Self::new(width, height, pixels)
+    }
+
     /// Writes the image: tone-mapped 8-bit sRGB after scaling by `exposure` for `.png`, the radiance itself in 32-bit
     /// floats for `.exr`. The file appears whole or not at all.
     ///
@@ -144,15 +173,7 @@ impl Film {
     pub fn write(&self, path: &Path, exposure: f32) -> Result<(), FilmError> {
         let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
         let (bytes, color, format): (Vec<u8>, _, _) = match extension.as_deref() {
-            Some("png") => {
-                let bytes = self
-                    .pixels
-                    .iter()
-                    .flatten()
-                    .map(|&c| display(c, exposure))
-                    .collect();
-                (bytes, ExtendedColorType::Rgb8, ImageFormat::Png)
-            }
+            Some("png") => (self.shown(exposure), ExtendedColorType::Rgb8, ImageFormat::Png),
             Some("exr") => {
                 let bytes = bytemuck::cast_slice(&self.pixels).to_vec();
                 (bytes, ExtendedColorType::Rgb32F, ImageFormat::OpenExr)

@@ -12,5 +12,6 @@ mod tone;
 pub use camera::{View, camera};
 pub use cpu::{render, render_path};
 pub use film::{Film, FilmError};
+pub use output::write_whole;
 pub use power::{PowerError, flux, power_thresholds};
 pub use ray_bvh::{RayBvh, RayBvhError};

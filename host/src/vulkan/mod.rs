@@ -46,6 +46,7 @@ pub use buffer::{Binding, Buffer, UNWRITTEN};
 pub use device::{Device, DeviceInfo, DeviceList, Options};
 pub use error::VulkanError;
 pub use kernel::Kernel;
+pub use modules::module_bytes;
 pub use pass::Pass;
 pub use probe::{Driver, Features, FloatControls, Limits, Probe};
 pub use run::Timings;

@@ -40,6 +40,11 @@ pub(crate) const MODULES: &[Module] = &[
     module!("self_test"),
 ];
 
+/// All kernels' bytes, one after the other: different for every change of a kernel that changes what it does.
+pub fn module_bytes() -> Vec<u8> {
+    MODULES.iter().flat_map(|module| module.bytes).copied().collect()
+}
+
 /// A module's bytes as words; a ragged end is dropped and will not parse.
 pub(crate) fn words(bytes: &[u8]) -> Vec<u32> {
     bytes

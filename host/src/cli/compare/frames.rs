@@ -1,0 +1,95 @@
+//! Frames of a scene, each made once for all who ask.
+
+use std::collections::BTreeMap;
+
+use bytemuck::cast_slice;
+use lightbvh::Lights;
+
+use super::store::fingerprint;
+use crate::backend::SceneArrays;
+use crate::error::HostError;
+use crate::method::Step;
+use crate::scene::Scene;
+use crate::workload::{arrays_at, lights_at};
+
+/// The frames of a scene that are at hand.
+pub(super) struct Frames<'a> {
+    scene: &'a Scene,
+    size: (u32, u32),
+    lights: BTreeMap<u32, Lights>,
+    arrays: BTreeMap<u32, SceneArrays>,
+    prints: BTreeMap<u32, String>,
+}
+
+impl<'a> Frames<'a> {
+    pub fn new(scene: &'a Scene, size: (u32, u32)) -> Self {
+        Self {
+            scene,
+            size,
+            lights: BTreeMap::new(),
+            arrays: BTreeMap::new(),
+            prints: BTreeMap::new(),
+        }
+    }
+
+    pub fn scene(&self) -> &'a Scene {
+        self.scene
+    }
+
+    /// Makes the lights of a frame, and its arrays if they are `to_render`.
+    pub fn prepare(&mut self, frame: u32, to_render: bool) -> Result<(), HostError> {
+        if !self.lights.contains_key(&frame) {
+            self.lights.insert(frame, lights_at(self.scene, frame)?);
+        }
+        if to_render && !self.arrays.contains_key(&frame) {
+            let arrays = arrays_at(self.scene, frame, self.size.0, self.size.1)?;
+            self.arrays.insert(frame, arrays);
+        }
+        Ok(())
+    }
+
+    /// A frame as methods learn of it, once prepared.
+    pub fn step(&self, frame: u32) -> Step<'_> {
+        Step {
+            scene: self.scene,
+            frame,
+            lights: &self.lights[&frame],
+        }
+    }
+
+    /// The arrays of a frame, once prepared to render.
+    pub fn arrays(&self, frame: u32) -> &SceneArrays {
+        &self.arrays[&frame]
+    }
+
+    /// Lets all frames go.
+    pub fn clear(&mut self) {
+        self.lights.clear();
+        self.arrays.clear();
+    }
+
+    /// Tells scenes of one name apart: the first frame, this one and the one half-way.
+    pub fn print(&mut self, frame: u32) -> String {
+        let parts: Vec<String> = [0, frame / 2, frame]
+            .into_iter()
+            .map(|f| self.one_print(f))
+            .collect();
+        fingerprint(parts.concat().as_bytes())
+    }
+
+    fn one_print(&mut self, frame: u32) -> String {
+        let scene = self.scene;
+        let make = || {
+            let data = scene.frame(frame);
+            let rest = format!("{:?} {:?}", data.camera, data.background);
+            [
+                fingerprint(cast_slice(&data.triangles)),
+                fingerprint(cast_slice(&data.emissive)),
+                fingerprint(cast_slice(&data.materials)),
+                fingerprint(rest.as_bytes()),
+            ]
+            .concat()
+        };
+        self.prints.entry(frame).or_insert_with(make).clone()
+    }
+}

@@ -1,0 +1,270 @@
+//! `lightbvh compare`: the paper's comparison. Table 1 (errors), Figures 4 and 5 (errors over frames), Figure 6
+//! (close-ups) and Table 2 (times), for every method that there is.
+
+mod crops;
+mod frames;
+mod graphs;
+mod measure;
+mod plan;
+mod reference;
+mod report;
+mod store;
+mod summary;
+mod wanted;
+
+use std::path::Path;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use super::{Context, Outcome, devices, table};
+use crate::error::HostError;
+use crate::method::Target;
+use crate::render::write_whole;
+use crate::scene::Scene;
+use crate::vulkan::VulkanError;
+
+use frames::Frames;
+use measure::{Job, Results};
+pub(super) use plan::Args;
+use plan::{BLOCK, Backends, Plan};
+use reference::{Noise, references};
+use store::{Store, fingerprint};
+use summary::{Average, Row, summarize};
+
+/// Everything that came out.
+#[derive(Serialize)]
+struct Report {
+    settings: Value,
+    notes: &'static [&'static str],
+    scenes: Vec<SceneReport>,
+    rows: Vec<Row>,
+    averages: Vec<Average>,
+    crops: Vec<crops::Crop>,
+    /// Results that this run computed, and those that it found in the folder.
+    computed: u64,
+    reused: u64,
+    /// Images of devices with other words than the CPU's.
+    different: u64,
+}
+
+/// What belongs to a scene as a whole.
+#[derive(Serialize)]
+struct SceneReport {
+    scene: String,
+    exposure: f32,
+    references: Vec<Noise>,
+    /// File names in the folder.
+    figures: Vec<String>,
+}
+
+pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
+    let plan = args.plan()?;
+    let scenes = plan
+        .scenes
+        .iter()
+        .map(|name| Scene::open(name))
+        .collect::<Result<Vec<_>, _>>()?;
+    for scene in &scenes {
+        scene.require_lights()?;
+        for warning in scene.warnings() {
+            eprintln!("{}: {warning}", scene.name());
+        }
+    }
+    let opened = match plan.backends {
+        Backends::Cpu => Vec::new(),
+        Backends::Vulkan | Backends::All => devices::open(context)?,
+    };
+    let cpu = (plan.backends != Backends::Vulkan).then_some(Target::Cpu);
+    let targets: Vec<Target<'_>> = cpu
+        .into_iter()
+        .chain(opened.iter().map(|o| Target::Device(&o.device)))
+        .collect();
+    let store = Store::open(&args.out.join("results"))?;
+    let mut run = Run {
+        plan: &plan,
+        store,
+        program: program(),
+        progress: progress(),
+        report: Report {
+            settings: settings(&plan),
+            notes: &report::NOTES,
+            scenes: Vec::new(),
+            rows: Vec::new(),
+            averages: Vec::new(),
+            crops: Vec::new(),
+            computed: 0,
+            reused: 0,
+            different: 0,
+        },
+    };
+    if targets.is_empty() {
+        return Err(VulkanError::NoDevice {
+            notes: "--backend vulkan needs one".to_owned(),
+        }
+        .into());
+    }
+    run.progress
+        .set_length(scenes.len() as u64 * all_work(&plan, &targets));
+    for scene in &scenes {
+        run.scene(scene, &targets, &args.out)?;
+    }
+    run.progress.finish_and_clear();
+    let report = run.report;
+    drop(targets);
+    devices::close(opened)?;
+
+    let text = report::markdown(&plan, &report);
+    let mut json = serde_json::to_vec_pretty(&report).map_err(std::io::Error::from)?;
+    json.push(b'\n');
+    for (name, bytes) in [("compare.json", json.as_slice()), ("compare.md", text.as_bytes())] {
+        let path = args.out.join(name);
+        write_whole(&path, bytes).map_err(|source| HostError::Store { path, source })?;
+    }
+    if context.json {
+        table::print_json(&report)?;
+    } else {
+        table::print_text(&text)?;
+    }
+    Ok(if report.different == 0 {
+        Outcome::Good
+    } else {
+        Outcome::Bad
+    })
+}
+
+struct Run<'p> {
+    plan: &'p Plan,
+    store: Store,
+    program: String,
+    progress: ProgressBar,
+    report: Report,
+}
+
+impl Run<'_> {
+    fn scene(&mut self, scene: &Scene, targets: &[Target<'_>], folder: &Path) -> Result<(), HostError> {
+        let plan = self.plan;
+        let mut frames = Frames::new(scene, plan.size());
+        let references = references(&mut frames, plan, &self.store, &self.progress)?;
+        let jobs: Vec<Job<'_, '_>> = targets
+            .iter()
+            .map(|&target| Job {
+                plan,
+                store: &self.store,
+                references: &references,
+                target,
+                seeds: seeds(plan, &target),
+                blocks: blocks(plan, &target),
+                program: &self.program,
+                progress: &self.progress,
+            })
+            .collect();
+        let all = jobs
+            .iter()
+            .map(|job| job.run(&mut frames))
+            .collect::<Result<Vec<Results>, _>>()?;
+
+        let stem = stem(scene.name());
+        let mut figures = Vec::new();
+        for (target, results) in targets.iter().zip(&all) {
+            let (rows, averages) = summarize(plan, scene.name(), target.name(), results);
+            // All backends show the same images, so one gives the figures.
+            if figures.is_empty() {
+                figures = graphs::write(folder, plan, &stem, &rows)?;
+            }
+            self.report.rows.extend(rows);
+            self.report.averages.extend(averages);
+            self.report.computed += results.computed;
+            self.report.reused += results.reused;
+            self.report.different += results.different_from(&all[0]);
+        }
+        let crops = format!("crops-{stem}.png");
+        let (last, films) = (&references[references.len() - 1], &all[0].films);
+        self.report.crops.extend(crops::write(
+            &folder.join(&crops),
+            plan,
+            scene.name(),
+            &last.judge,
+            films,
+        )?);
+        figures.push(crops);
+        self.report.scenes.push(SceneReport {
+            scene: scene.name().to_owned(),
+            exposure: last.judge.exposure(),
+            references: references
+                .iter()
+                .map(|reference| reference.noise.clone())
+                .collect(),
+            figures,
+        });
+        Ok(())
+    }
+}
+
+/// Shadow rays in thousands, what the progress bar counts, of an image with `samples` per pixel.
+fn work(plan: &Plan, samples: u32) -> u64 {
+    (u64::from(plan.width) * u64::from(plan.height) * u64::from(samples)).div_ceil(1000)
+}
+
+/// The work of a scene: its references, and every method's images on every backend.
+fn all_work(plan: &Plan, targets: &[Target<'_>]) -> u64 {
+    let references = work(plan, plan.reference_samples) * plan.frames.len() as u64;
+    let images = |target: &Target<'_>| {
+        let timed = blocks(plan, target).len() as u64 * u64::from(BLOCK);
+        plan.frames.len() as u64 * u64::from(seeds(plan, target)) + timed
+    };
+    let images: u64 = targets.iter().map(images).sum();
+    references + work(plan, plan.samples) * images * plan.methods.len() as u64
+}
+
+/// Images of each frame: devices show that they render the same, and how fast.
+fn seeds(plan: &Plan, target: &Target<'_>) -> u32 {
+    match target {
+        Target::Cpu => plan.seeds,
+        Target::Device(_) => 1,
+    }
+}
+
+/// The blocks that are timed.
+fn blocks(plan: &Plan, target: &Target<'_>) -> Vec<u32> {
+    plan.timed_blocks(match target {
+        Target::Cpu => plan.timed_frames,
+        Target::Device(_) => plan.timed_on_devices,
+    })
+}
+
+fn progress() -> ProgressBar {
+    let style =
+        ProgressStyle::with_template("{bar:30} {percent:>3} % {elapsed} passed, {eta} left  {wide_msg}");
+    // Without a terminal on standard error nothing is drawn.
+    ProgressBar::new(0).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+/// Tells this program from others, whose results may differ: its own file's bytes.
+fn program() -> String {
+    let own = std::env::current_exe().and_then(std::fs::read);
+    // Without them the version must do.
+    fingerprint(&own.unwrap_or_else(|_| env!("CARGO_PKG_VERSION").into()))
+}
+
+fn settings(plan: &Plan) -> Value {
+    json!({
+        "scenes": plan.scenes, "frames": plan.frames, "samples": plan.samples, "seeds": plan.seeds,
+        "width": plan.width, "height": plan.height, "reference_samples": plan.reference_samples,
+        "timed_frames": plan.timed_frames, "timed_on_devices": plan.timed_on_devices, "methods": plan.methods, "cpu_threads": rayon::current_num_threads(),
+    })
+}
+
+/// A name for files: that of a scene or of a scene's file, with nothing in it that a file system minds.
+fn stem(name: &str) -> String {
+    let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
+    let plain = |c: char| {
+        if c.is_ascii_alphanumeric() {
+            c.to_ascii_lowercase()
+        } else {
+            '-'
+        }
+    };
+    stem.chars().map(plain).take(40).collect()
+}

@@ -1,0 +1,178 @@
+//! The tables, as Markdown: the same text on standard output and in the folder.
+
+use std::fmt::Write;
+
+use super::graphs::shown;
+use super::plan::Plan;
+use super::summary::{Average, Errors, Row};
+use super::{Report, SceneReport};
+
+/// What the tables say that numbers cannot.
+pub(super) const NOTES: [&str; 7] = [
+    "All methods trace the same number of shadow rays per pixel, through the same camera rays: what differs is the light \
+     that each ray goes to.",
+    "MSE, SSIM, PSNR and FLIP are of tone-mapped 8-bit sRGB at one exposure per scene (MSE in steps squared, 0 to 255²), as \
+     in the paper; linear MSE is of radiance.",
+    "± is half the 95 % confidence interval of the mean over the seeds (Student's t); one seed gives none. Of an average, \
+     each seed's mean over the frames is one measurement.",
+    "References come from the two-level light BVH with many samples and random numbers of their own. Their own noise, \
+     estimated from two halves, is in every MSE; compare it with the differences you look at.",
+    "Refit and waiting and image times add up to the frame; a rebuild beside the frame counts only as far as the frame \
+     waits for it. Image times of devices are the kernels' own where the device has a clock; transfers are left out.",
+    "Rebuild times are of the CPU on every backend.",
+    "Close-ups are of the last frame with the first seed: the three regions where the methods' MSEs lie furthest apart.",
+];
+
+/// A mean and half its confidence interval.
+fn measured(mean: f64, ci95: Option<f64>, decimals: usize) -> String {
+    match ci95 {
+        Some(ci95) => format!("{mean:.decimals$} ± {ci95:.decimals$}"),
+        None => format!("{mean:.decimals$}"),
+    }
+}
+
+type Cell = fn(&Errors) -> String;
+
+/// The measures of Table 1 and how they are written.
+const MEASURES: [(&str, Cell); 5] = [
+    ("MSE", |e| measured(e.mse, e.mse_ci95, 1)),
+    ("SSIM", |e| measured(e.ssim, e.ssim_ci95, 4)),
+    ("PSNR", |e| measured(e.psnr, e.psnr_ci95, 2)),
+    ("FLIP", |e| measured(e.flip, e.flip_ci95, 4)),
+    ("linear MSE", |e| match e.linear_mse_ci95 {
+        Some(ci95) => format!("{:.3e} ± {ci95:.1e}", e.linear_mse),
+        None => format!("{:.3e}", e.linear_mse),
+    }),
+];
+
+/// All tables.
+pub(super) fn markdown(plan: &Plan, report: &Report) -> String {
+    let mut out = String::new();
+    // Writing to a string does not fail.
+    let mut line = |text: String| {
+        let _ = writeln!(out, "{text}");
+    };
+    line(format!(
+        "# Light sampling methods compared\n\n{} × {} pixels, {} shadow rays per pixel, {} seeds per frame (devices: one), \
+         references of {} shadow rays per pixel.\n",
+        plan.width, plan.height, plan.samples, plan.seeds, plan.reference_samples
+    ));
+    for note in NOTES {
+        line(format!("- {note}"));
+    }
+    for scene in &report.scenes {
+        line(format!("\n## {}\n\n### Table 1: errors\n", scene.scene));
+        for backend in backends(report, scene) {
+            line(errors(plan, report, scene, &backend));
+        }
+        line(format!(
+            "### Own noise of the references, exposure {:.3}\n",
+            scene.exposure
+        ));
+        line("| frame | MSE | linear MSE |\n|---|---|---|".to_owned());
+        for noise in &scene.references {
+            line(format!(
+                "| {} | {:.2} | {:.3e} |",
+                noise.frame, noise.mse, noise.linear_mse
+            ));
+        }
+        line("\n### Change of the MSE over the moving frames\n".to_owned());
+        line(changes(plan, report, scene));
+        line("### Table 2: milliseconds, averaged over the timed frames\n".to_owned());
+        line(times(report, scene));
+        for file in &scene.figures {
+            line(format!("![{file}]({file})\n"));
+        }
+    }
+    line(format!(
+        "{} results computed, {} found in the folder. Images of devices with other words than the \
+         CPU's: {}.",
+        report.computed, report.reused, report.different
+    ));
+    out
+}
+
+/// The backends of a scene, in the order of the rows.
+fn backends(report: &Report, scene: &SceneReport) -> Vec<String> {
+    let mut backends: Vec<String> = Vec::new();
+    for row in report.rows.iter().filter(|row| row.scene == scene.scene) {
+        if !backends.contains(&row.backend) {
+            backends.push(row.backend.clone());
+        }
+    }
+    backends
+}
+
+fn errors(plan: &Plan, report: &Report, scene: &SceneReport, backend: &str) -> String {
+    let frames: Vec<String> = plan.frames.iter().map(u32::to_string).collect();
+    let mut out = format!(
+        "On {backend}:\n\n| measure | method | {} | average |\n",
+        frames.join(" | ")
+    );
+    out += &format!("|---|---|{}---|\n", "---|".repeat(frames.len()));
+    for (name, cell) in MEASURES {
+        for &method in &plan.methods {
+            let of_frame = |frame: u32| {
+                let is_it = |row: &&Row| {
+                    row.scene == scene.scene
+                        && row.backend == backend
+                        && row.method == method
+                        && row.frame == frame
+                };
+                report
+                    .rows
+                    .iter()
+                    .find(is_it)
+                    .map_or(String::new(), |row| cell(&row.errors))
+            };
+            let is_it = |a: &&Average| a.scene == scene.scene && a.backend == backend && a.method == method;
+            let average = report.averages.iter().find(is_it);
+            let mut cells: Vec<String> = plan.frames.iter().map(|&frame| of_frame(frame)).collect();
+            cells.push(average.map_or(String::new(), |a| cell(&a.errors)));
+            out += &format!("| {name} | {} | {} |\n", method.name(), cells.join(" | "));
+        }
+    }
+    out
+}
+
+/// Of methods that can be told apart in percent; those without a tree are too far off, and in the JSON.
+fn changes(plan: &Plan, report: &Report, scene: &SceneReport) -> String {
+    let mut out = String::from("| backend | method | from | MSE |\n|---|---|---|---|\n");
+    let is_shown = |a: &&Average| a.scene == scene.scene && shown(plan).contains(&a.method);
+    for average in report.averages.iter().filter(is_shown) {
+        for change in &average.mse_change {
+            out += &format!(
+                "| {} | {} | {} | {} % |\n",
+                average.backend,
+                average.method.name(),
+                change.from.name(),
+                measured(change.percent, change.percent_ci95, 1),
+            );
+        }
+    }
+    out
+}
+
+fn times(report: &Report, scene: &SceneReport) -> String {
+    let mut out = String::from(
+        "| backend | method | refit | rebuild | waiting | image | frame | frames timed |\n|---|---|---|---|---|---|---|---|\n",
+    );
+    for average in report.averages.iter().filter(|a| a.scene == scene.scene) {
+        let times = &average.times;
+        let cell = |ms: Option<f64>| ms.map_or(String::from("-"), |ms| format!("{ms:.2}"));
+        let frame = times
+            .frame_ms
+            .map_or(String::from("-"), |ms| measured(ms, times.frame_ms_ci95, 2));
+        out += &format!(
+            "| {} | {} | {} | {} | {} | {} | {frame} | {} |\n",
+            average.backend,
+            average.method.name(),
+            cell(times.refit_ms),
+            cell(times.rebuild_ms),
+            cell(times.wait_ms),
+            cell(times.image_ms),
+            times.timed_frames,
+        );
+    }
+    out
+}

@@ -1,0 +1,77 @@
+//! Results by name and key: everything that they depend on.
+
+use serde_json::{Value, json};
+
+use super::frames::Frames;
+use super::measure::Job;
+use super::plan::BLOCK;
+use super::reference::Reference;
+use crate::method::{Method, Target};
+
+/// A result that is still wanted, with its name and key.
+pub(super) struct Wanted {
+    /// Frame of an image, or number of a timed block.
+    pub at: u32,
+    /// Of an image.
+    pub seed: u32,
+    pub name: String,
+    pub key: Value,
+}
+
+impl Job<'_, '_> {
+    pub fn wanted_image(
+        &self,
+        frames: &mut Frames<'_>,
+        method: Method,
+        frame: u32,
+        seed: u32,
+        reference: &Reference,
+    ) -> Wanted {
+        let mut key = self.key(frames, method, frame);
+        key["seed"] = seed.into();
+        key["reference_samples"] = self.plan.reference_samples.into();
+        key["exposure"] = reference.judge.exposure().to_bits().into();
+        Wanted {
+            at: frame,
+            seed,
+            name: self.name(frames, method, &format!("f{frame:03}-s{seed:02}")),
+            key,
+        }
+    }
+
+    pub fn wanted_times(&self, frames: &mut Frames<'_>, method: Method, block: u32) -> Wanted {
+        let last = self.plan.last().min(block * BLOCK + BLOCK - 1);
+        let mut key = self.key(frames, method, last);
+        key["times_from"] = (block * BLOCK).into();
+        key["threads"] = rayon::current_num_threads().into();
+        Wanted {
+            at: block,
+            seed: 0,
+            name: self.name(frames, method, &format!("times-f{:03}", block * BLOCK)),
+            key,
+        }
+    }
+
+    fn key(&self, frames: &mut Frames<'_>, method: Method, frame: u32) -> Value {
+        let driver = match self.target {
+            Target::Cpu => String::new(),
+            Target::Device(device) => {
+                let driver = &device.probe().driver;
+                format!("{} {}", driver.name, driver.info)
+            }
+        };
+        json!({
+            "program": self.program, "scene": frames.scene().name(), "print": frames.print(frame), "frame": frame,
+            "width": self.plan.width, "height": self.plan.height, "samples": self.plan.samples,
+            "method": method, "backend": self.target.name(), "driver": driver,
+        })
+    }
+
+    fn name(&self, frames: &Frames<'_>, method: Method, rest: &str) -> String {
+        let (scene, backend) = (
+            super::stem(frames.scene().name()),
+            super::stem(self.target.name()),
+        );
+        format!("{scene}/{}-{backend}-{rest}", method.name())
+    }
+}

@@ -1,0 +1,216 @@
+//! The methods that are compared: each a way to choose lights, and what it does from frame to frame to keep choosing well.
+//!
+//! A method is one file with one [`Runner`]; [`runner`] is the only place that knows them all.
+
+mod no_tree;
+mod single_level;
+mod two_level;
+
+use std::time::Duration;
+
+use lightbvh::{Heuristic, Lights};
+use serde::{Deserialize, Serialize};
+
+use crate::backend::{Backend, Bvh, CpuBackend, DeviceBackend, SceneArrays, Timed};
+use crate::error::HostError;
+use crate::scene::Scene;
+use crate::vulkan::{Device, VulkanError};
+use crate::workload::Shot;
+
+/// A method of the paper's comparison, or a baseline.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, clap::ValueEnum, Serialize, Deserialize,
+)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Every light alike.
+    Uniform,
+    /// In proportion to flux.
+    Power,
+    /// One tree over all triangles, built at the first frame and refitted ever after.
+    SingleLevelRefit,
+    /// One tree over all triangles, built anew every frame.
+    SingleLevelRebuilt,
+    /// The paper's two levels, split by the surface area heuristic.
+    TwoLevelSah,
+    /// The paper's two levels, split by the surface area orientation heuristic.
+    TwoLevelSaoh,
+    /// Spatiotemporal reservoirs (Bitterli et al. 2020).
+    #[value(skip)]
+    Restir,
+    /// The same with the two-level light BVH as the source of candidates.
+    #[value(skip)]
+    TwoLevelRestir,
+}
+
+impl Method {
+    /// The methods that have a [`Runner`], in the order of tables.
+    pub const IMPLEMENTED: [Self; 6] = [
+        Self::Uniform,
+        Self::Power,
+        Self::SingleLevelRefit,
+        Self::SingleLevelRebuilt,
+        Self::TwoLevelSah,
+        Self::TwoLevelSaoh,
+    ];
+
+    /// As on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Uniform => "uniform",
+            Self::Power => "power",
+            Self::SingleLevelRefit => "single-level-refit",
+            Self::SingleLevelRebuilt => "single-level-rebuilt",
+            Self::TwoLevelSah => "two-level-sah",
+            Self::TwoLevelSaoh => "two-level-saoh",
+            Self::Restir => "restir",
+            Self::TwoLevelRestir => "two-level-restir",
+        }
+    }
+
+    /// Whether it walks a light BVH and nothing else.
+    #[must_use]
+    pub fn is_light_bvh(self) -> bool {
+        matches!(
+            self,
+            Self::SingleLevelRefit | Self::SingleLevelRebuilt | Self::TwoLevelSah | Self::TwoLevelSaoh
+        )
+    }
+}
+
+/// A frame of an animation, as a method learns of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Step<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Number of the frame.
+    pub frame: u32,
+    /// Its lights.
+    pub lights: &'a Lights,
+}
+
+/// What bringing a method's structures to a frame took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct UpdateTimes {
+    /// New bounds in the structures there are.
+    pub refit: Duration,
+    /// Building structures anew, wherever and whenever it ran.
+    pub rebuild: Duration,
+    /// How long the frame stood still for a rebuild: all of it where it does not run beside the frame.
+    pub wait: Duration,
+}
+
+/// Names a sequence of images of consecutive frames.
+pub type Chain = u64;
+
+/// A method over one scene on one backend.
+pub trait Runner {
+    /// Brings the structures to the next frame. Frames come in ascending order; only methods that say so in
+    /// [`may_skip`](Self::may_skip) see them with gaps.
+    ///
+    /// # Errors
+    /// [`HostError`] from a device, or for lights that the method cannot take.
+    fn advance(&mut self, step: &Step<'_>) -> Result<UpdateTimes, HostError>;
+
+    /// Renders the frame last advanced to, which `arrays` are of, and `shot` too. Images of one `chain` follow each other
+    /// over consecutive frames, so that what one leaves behind (reservoirs) may serve the next; a chain that is not known
+    /// yet begins.
+    ///
+    /// # Errors
+    /// [`HostError`] from a device, or for a scene that the method cannot take.
+    fn image(
+        &mut self,
+        step: &Step<'_>,
+        arrays: &SceneArrays,
+        shot: &Shot,
+        chain: Chain,
+    ) -> Result<Timed<Vec<[f32; 3]>>, HostError>;
+
+    /// Drops what a chain left behind.
+    fn end(&mut self, _chain: Chain) {}
+
+    /// Whether a frame depends on the first frame and itself alone, so that those between may be left out.
+    fn may_skip(&self) -> bool {
+        false
+    }
+
+    /// How many images of its chain must come before the one that counts.
+    fn history(&self) -> u32 {
+        0
+    }
+}
+
+/// Where a method renders and refits.
+#[derive(Clone, Copy)]
+pub enum Target<'d> {
+    /// All cores of the current rayon pool.
+    Cpu,
+    /// A Vulkan device.
+    Device(&'d Device),
+}
+
+impl<'d> Target<'d> {
+    /// As in tables.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Cpu => "cpu",
+            Self::Device(device) => device.name(),
+        }
+    }
+
+    /// A backend over `bvh`, a BVH over `lights`.
+    fn backend(&self, bvh: Bvh, lights: &Lights) -> Result<Box<dyn Backend + 'd>, VulkanError> {
+        Ok(match *self {
+            Self::Cpu => Box::new(CpuBackend::new(bvh, lights.clone())),
+            Self::Device(device) => Box::new(DeviceBackend::new(device, &bvh, lights)?),
+        })
+    }
+}
+
+/// Builds what `method` needs at its first frame.
+///
+/// # Errors
+/// [`HostError::Method`] for a method without a runner; else from a device.
+pub fn runner<'d>(
+    method: Method,
+    first: &Step<'_>,
+    target: Target<'d>,
+) -> Result<Box<dyn Runner + 'd>, HostError> {
+    Ok(match method {
+        Method::Uniform => Box::new(no_tree::NoTree::uniform(first, target)?),
+        Method::Power => Box::new(no_tree::NoTree::power(first, target)?),
+        Method::SingleLevelRefit => Box::new(single_level::SingleLevel::refitted(first, target)?),
+        Method::SingleLevelRebuilt => Box::new(single_level::SingleLevel::rebuilt(first, target)?),
+        Method::TwoLevelSah => Box::new(two_level::TwoLevel::new(first, target, Heuristic::Sah)?),
+        Method::TwoLevelSaoh => Box::new(two_level::TwoLevel::new(first, target, Heuristic::Saoh)?),
+        Method::Restir | Method::TwoLevelRestir => return Err(HostError::Method(method.name())),
+    })
+}
+
+/// Renders through a backend.
+fn render(
+    backend: &mut dyn Backend,
+    step: &Step<'_>,
+    arrays: &SceneArrays,
+    shot: &Shot,
+    sampler: crate::backend::Sampler,
+) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
+    let params = shot.params(step.scene.data().background);
+    Ok(backend.render(arrays, &params, sampler)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_those_of_the_command_line_and_of_results() {
+        for method in Method::IMPLEMENTED {
+            let parsed = <Method as clap::ValueEnum>::from_str(method.name(), false);
+            assert_eq!(parsed, Ok(method));
+            assert_eq!(serde_json::to_value(method).expect("a name"), method.name());
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! One light BVH over all triangles: refitted only, as in Mogwai, the paper's baseline; or built anew every frame, the best
+//! that a single level can do.
+
+use std::time::Instant;
+
+use lightbvh::BuildParams;
+
+use super::{Chain, Runner, Step, Target, UpdateTimes, render};
+use crate::backend::{Backend, Sampler, SceneArrays, Timed};
+use crate::error::HostError;
+use crate::workload::{Shot, build};
+
+/// A single-level light BVH.
+pub(super) struct SingleLevel<'d> {
+    rebuilds: bool,
+    target: Target<'d>,
+    backend: Box<dyn Backend + 'd>,
+}
+
+impl<'d> SingleLevel<'d> {
+    pub(super) fn refitted(first: &Step<'_>, target: Target<'d>) -> Result<Self, HostError> {
+        Self::new(first, target, false)
+    }
+
+    pub(super) fn rebuilt(first: &Step<'_>, target: Target<'d>) -> Result<Self, HostError> {
+        Self::new(first, target, true)
+    }
+
+    fn new(first: &Step<'_>, target: Target<'d>, rebuilds: bool) -> Result<Self, HostError> {
+        let bvh = build(first.lights, Sampler::SingleLevel, &BuildParams::default());
+        Ok(Self {
+            rebuilds,
+            target,
+            backend: target.backend(bvh, first.lights)?,
+        })
+    }
+}
+
+impl Runner for SingleLevel<'_> {
+    fn advance(&mut self, step: &Step<'_>) -> Result<UpdateTimes, HostError> {
+        let mut times = UpdateTimes::default();
+        if self.rebuilds {
+            let start = Instant::now();
+            let bvh = build(step.lights, Sampler::SingleLevel, &BuildParams::default());
+            times.rebuild = start.elapsed();
+            times.wait = times.rebuild;
+            self.backend = self.target.backend(bvh, step.lights)?;
+        } else {
+            times.refit = self.backend.refit(step.lights)?.time;
+        }
+        Ok(times)
+    }
+
+    fn image(
+        &mut self,
+        step: &Step<'_>,
+        arrays: &SceneArrays,
+        shot: &Shot,
+        _chain: Chain,
+    ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
+        render(&mut *self.backend, step, arrays, shot, Sampler::SingleLevel)
+    }
+
+    /// The tree's shape is that of the first frame or of this one.
+    fn may_skip(&self) -> bool {
+        true
+    }
+}

@@ -1,0 +1,72 @@
+//! The methods of the comparison: what they may leave out, and what they are equal to.
+
+use lightbvh::BuildParams;
+use lightbvh_host::backend::{Backend, CpuBackend, Sampler};
+use lightbvh_host::method::{Method, Step, Target, runner};
+use lightbvh_host::scene::Scene;
+use lightbvh_host::workload::{Shot, arrays_at, build, lights_at};
+
+const LAST: u32 = 12;
+const SHOT: Shot = Shot {
+    frame: LAST,
+    width: 48,
+    height: 27,
+    samples: 2,
+    seed: 5,
+};
+
+/// The image of the last frame by `method`, brought to it over the frames that `visits` says.
+fn image(scene: &Scene, method: Method, visits: impl Fn(u32, bool) -> bool) -> Vec<[f32; 3]> {
+    let lights = lights_at(scene, 0).expect("lights");
+    let first = Step {
+        scene,
+        frame: 0,
+        lights: &lights,
+    };
+    let mut runner = runner(method, &first, Target::Cpu).expect("a runner");
+    for frame in (1..=LAST)
+        .filter(|&frame| visits(frame, runner.may_skip()))
+        .collect::<Vec<u32>>()
+    {
+        let lights = lights_at(scene, frame).expect("lights");
+        let step = Step {
+            scene,
+            frame,
+            lights: &lights,
+        };
+        let times = runner.advance(&step).expect("an update");
+        assert!(times.wait <= times.rebuild, "a frame waits for what is built");
+    }
+    let arrays = arrays_at(scene, LAST, SHOT.width, SHOT.height).expect("a frame");
+    let step = Step {
+        scene,
+        frame: LAST,
+        lights: &arrays.lights,
+    };
+    runner.image(&step, &arrays, &SHOT, 0).expect("an image").value
+}
+
+#[test]
+fn skipped_frames_change_no_word() {
+    let scene = Scene::open("street").expect("a scene");
+    for method in Method::IMPLEMENTED {
+        let all = image(&scene, method, |_, _| true);
+        let few = image(&scene, method, |frame, may_skip| !may_skip || frame == LAST);
+        assert!(all == few, "{}", method.name());
+    }
+}
+
+#[test]
+fn a_rebuilt_tree_is_a_new_tree_and_a_refitted_one_is_not() {
+    let scene = Scene::open("street").expect("a scene");
+    let arrays = arrays_at(&scene, LAST, SHOT.width, SHOT.height).expect("a frame");
+    let bvh = build(&arrays.lights, Sampler::SingleLevel, &BuildParams::default());
+    let mut cpu = CpuBackend::new(bvh, arrays.lights.clone());
+    let params = SHOT.params(scene.data().background);
+    let new = cpu
+        .render(&arrays, &params, Sampler::SingleLevel)
+        .expect("an image")
+        .value;
+    assert!(image(&scene, Method::SingleLevelRebuilt, |_, _| true) == new);
+    assert!(image(&scene, Method::SingleLevelRefit, |_, _| true) != new);
+}
