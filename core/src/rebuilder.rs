@@ -236,4 +236,3 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
         });
     }
 }
-

@@ -90,7 +90,9 @@ fn a_result_not_waited_for_is_there_later() {
     checked(|handover, alive| {
         let thread = worker(handover, alive);
         handover.submit(Counted::new(1, alive)).expect("idle");
-        let refused = handover.submit(Counted::new(2, alive)).expect_err("one at a time");
+        let refused = handover
+            .submit(Counted::new(2, alive))
+            .expect_err("one at a time");
         assert_eq!(refused.number, 2);
         drop(refused);
         let found = match handover.try_take() {
