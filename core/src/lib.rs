@@ -24,6 +24,7 @@
 //! | [`reservoir`] | resampling of light samples, over candidates and over other reservoirs (ReSTIR) |
 //! | `lights`, `build`, `bvh`, `validate` (feature `alloc`) | checked input, builders, owned trees, invariants |
 //! | `scene`, `transform` (feature `alloc`) | moving lights: edits, instances, refit of what changed, rebuilds |
+//! | `rebuilder` (feature `std`) | rebuilds on a thread beside the frame |
 //!
 #![cfg_attr(
     feature = "alloc",
@@ -104,12 +105,17 @@ pub mod transform;
 #[cfg(feature = "alloc")]
 pub mod validate;
 
+#[cfg(feature = "std")]
+pub mod rebuilder;
+
 #[cfg(feature = "alloc")]
 pub use build::{BuildParams, Heuristic};
 #[cfg(feature = "alloc")]
 pub use bvh::LightBvh;
 #[cfg(feature = "alloc")]
 pub use lights::{Lights, LightsError};
+#[cfg(feature = "std")]
+pub use rebuilder::{RebuildError, Rebuilder, RebuilderParams};
 #[cfg(feature = "alloc")]
 pub use scene::{Edit, InstanceId, MeshId, Scene};
 #[cfg(feature = "alloc")]

@@ -2,9 +2,11 @@
 
 pub mod devices;
 pub mod direct;
+pub mod edits;
 pub mod generate;
 pub mod gltf_files;
 pub mod oracle;
 pub mod placing;
+pub mod slowed;
 pub mod soup;
 pub mod statistics;

@@ -80,6 +80,12 @@ impl<N: LightNode<W>, const W: usize> Rebuild<N, W> {
         self.top.is_none() && self.bottoms.is_empty()
     }
 
+    /// The bottom levels to build.
+    #[cfg(feature = "std")]
+    pub(crate) fn bottoms(&self) -> impl Iterator<Item = u32> + '_ {
+        self.bottoms.iter().map(|bottom| bottom.blas)
+    }
+
     /// Builds. The result depends on nothing but `self`: not on the thread, nor on when it runs.
     #[must_use]
     pub fn run(self) -> Rebuilt<N, W> {
@@ -138,6 +144,16 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     /// Takes a copy of what `params` wants built anew, as it stands after a [`refit`](Self::refit).
     #[must_use]
     pub fn rebuild(&self, params: &RebuildParams) -> Rebuild<N, W> {
+        self.rebuild_among(params, self.work.roots.iter().copied())
+    }
+
+    /// As [`rebuild`](Self::rebuild), but looks for lost quality among these bottom levels instead of those of the last
+    /// refit; one that is no more is passed over.
+    pub(crate) fn rebuild_among(
+        &self,
+        params: &RebuildParams,
+        refitted: impl IntoIterator<Item = u32>,
+    ) -> Rebuild<N, W> {
         let top = params.top.then(|| {
             let mut nodes = Vec::with_capacity(self.top.leaves.len());
             let mut leaves = Vec::with_capacity(self.instances.len());
@@ -152,15 +168,14 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             }
             TopLeaves { nodes, leaves }
         });
-        let drifted = self.work.roots.iter().filter(|&&blas| {
+        let drifted = refitted.into_iter().filter(|&blas| {
             let own = &self.blases[blas as usize];
-            // A refit that follows a build has nothing to compare.
             let nodes = &self.nodes[own.nodes.start as usize..own.nodes.end as usize];
             params.drift.is_finite()
                 && !nodes.is_empty()
                 && drift(nodes, &self.roots[blas as usize].bounds()) > params.drift * own.cost
         });
-        let bottoms = drifted.map(|&blas| {
+        let bottoms = drifted.map(|blas| {
             let own = &self.blases[blas as usize];
             let range = own.triangles.clone();
             Bottom {

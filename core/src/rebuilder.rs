@@ -1,0 +1,238 @@
+//! Rebuilds on a thread beside the frame (paper section 3.5).
+//!
+//! The paper starts a rebuild right after the top level's refit and lets the next frame wait for it if it must. So does
+//! [`Rebuilder`]: [`end_frame`](Rebuilder::end_frame) takes a copy of what is to be built and hands it to a worker thread,
+//! [`begin_frame`](Rebuilder::begin_frame) swaps the result in. In between the scene is free: it may be sampled, edited
+//! and refitted as ever.
+//!
+//! ```
+//! # use lightbvh::{CompactNode, Edit, EmissiveTriangle, Rebuilder, RebuilderParams, Scene, Transform};
+//! # let lamp = EmissiveTriangle { p: [[0.0, 3.0, 0.0], [0.1, 3.0, 0.0], [0.0, 3.0, 0.1]], radiance: [1.0; 3], mesh: 0, flags: 0 };
+//! let mut scene = Scene::<CompactNode<4>, 4>::default();
+//! let mesh = scene.update(vec![Edit::AddMesh { triangles: vec![lamp] }])?.meshes[0];
+//! let mut rebuilder = Rebuilder::new(RebuilderParams::default());
+//! for frame in 0..3 {
+//!     let start = rebuilder.begin_frame(&mut scene)?;
+//!     assert_eq!(start.swapped, frame > 0);
+//!     let transform = Transform::at([frame as f32, 0.0, 0.0]);
+//!     scene.update(vec![Edit::AddInstance { mesh, transform, radiance: 1.0 }])?;
+//!     scene.refit();
+//!     rebuilder.end_frame(&scene);
+//!     // Sample the scene here, while the next top level is built.
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod handover;
+mod worker;
+
+use alloc::collections::BTreeSet;
+use alloc::string::String;
+use core::fmt;
+use core::time::Duration;
+use std::time::Instant;
+
+use self::handover::Outcome;
+use self::worker::{Built, Worker, build};
+use crate::node::LightNode;
+use crate::scene::{RebuildParams, Scene};
+
+/// When results are swapped in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Swap {
+    /// In the very frame that is due, waiting for the worker if it is not done: trees depend on the edits alone, never on
+    /// how fast the worker was, so that runs and devices can be compared word for word.
+    #[default]
+    Deterministic,
+    /// In the frame that is due or the first one after it that finds the worker done; never waits.
+    WhenReady,
+}
+
+/// How a [`Rebuilder`] works.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RebuilderParams {
+    /// Frames from the end of the one that starts a rebuild to the start of the one in which it is due, at least 1; 0 is
+    /// taken as 1.
+    pub after: u32,
+    /// What happens when it is due and not done.
+    pub swap: Swap,
+    /// What is built anew.
+    pub rebuild: RebuildParams,
+}
+
+impl Default for RebuilderParams {
+    /// As the paper: due at the start of the next frame, which waits if it must.
+    fn default() -> Self {
+        Self {
+            after: 1,
+            swap: Swap::Deterministic,
+            rebuild: RebuildParams::default(),
+        }
+    }
+}
+
+/// What the start of a frame did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FrameStart {
+    /// Whether a rebuild was swapped in.
+    pub swapped: bool,
+    /// How long the frame waited for the worker.
+    pub waited: Duration,
+    /// How long the worker took for what was swapped in; zero if nothing was.
+    pub built: Duration,
+    /// Whether it was built at the end of its frame on the frame's own thread, since no other could be started.
+    pub inline: bool,
+}
+
+/// Why a rebuild came to nothing. The scene goes on with the tree that it has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RebuildError {
+    /// Building panicked.
+    Panicked {
+        /// What the panic said.
+        message: String,
+    },
+}
+
+impl fmt::Display for RebuildError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Panicked { message } => write!(
+                f,
+                "the rebuild panicked: {message}; the scene keeps its refitted tree and the next rebuild is tried anew"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for RebuildError {}
+
+/// Runs the rebuilds of one [`Scene`] beside its frames, one at a time.
+///
+/// Dropping it waits for the worker to end the rebuild that it runs, if any. Where no thread can be started (a limit of
+/// the system, or a platform without threads) rebuilds run at the end of their frame, with the same results.
+#[derive(Debug)]
+pub struct Rebuilder<N, const W: usize> {
+    params: RebuilderParams,
+    worker: Option<Worker<N, W>>,
+    flight: Option<Flight<N, W>>,
+    /// Bottom levels refitted since their cost was looked at last.
+    watched: BTreeSet<u32>,
+    /// Whether the scene changed since the last rebuild was taken from it.
+    changed: bool,
+    /// How a worker is started.
+    start: fn() -> std::io::Result<Worker<N, W>>,
+}
+
+/// A rebuild under way.
+#[derive(Debug)]
+struct Flight<N, const W: usize> {
+    /// Frames begun since it started.
+    frames: u32,
+    /// The bottom levels in it.
+    bottoms: BTreeSet<u32>,
+    /// The result, where it was built at once.
+    inline: Option<Built<N, W>>,
+}
+
+impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
+    /// A rebuilder that has nothing under way; its thread starts with the first rebuild.
+    #[must_use]
+    pub fn new(params: RebuilderParams) -> Self {
+        Self {
+            params,
+            worker: None,
+            flight: None,
+            watched: BTreeSet::new(),
+            changed: true,
+            start: Worker::start,
+        }
+    }
+
+    /// Whether a rebuild is under way, or its result waits to be swapped in.
+    #[must_use]
+    pub fn is_busy(&self) -> bool {
+        self.flight.is_some()
+    }
+
+    /// Swaps in what is due. Comes before the frame's [`Scene::update`] or after it, but before its [`Scene::refit`], with
+    /// the scene that [`end_frame`](Self::end_frame) gets.
+    ///
+    /// # Errors
+    /// [`RebuildError`], once, if the rebuild that was due came to nothing. The frame can go on as if nothing had been due.
+    pub fn begin_frame(&mut self, scene: &mut Scene<N, W>) -> Result<FrameStart, RebuildError> {
+        let mut start = FrameStart::default();
+        let Some(flight) = &mut self.flight else {
+            return Ok(start);
+        };
+        flight.frames = flight.frames.saturating_add(1);
+        if flight.frames < self.params.after {
+            return Ok(start);
+        }
+        let built = if let Some(built) = flight.inline.take() {
+            start.inline = true;
+            Some(built)
+        } else {
+            let began = Instant::now();
+            let outcome = self.worker.as_ref().and_then(|worker| match self.params.swap {
+                Swap::Deterministic => worker.handover().take(),
+                Swap::WhenReady => worker.handover().try_take(),
+            });
+            start.waited = began.elapsed();
+            outcome.map(|outcome| match outcome {
+                Outcome::Done(built) => built,
+                Outcome::Lost => Err(String::from("the worker ended without a result")),
+            })
+        };
+        let Some(built) = built else {
+            return Ok(start);
+        };
+        let flight = self.flight.take();
+        match built {
+            Ok((rebuilt, time)) => {
+                scene.adopt(rebuilt);
+                start.swapped = true;
+                start.built = time;
+                Ok(start)
+            }
+            Err(message) => {
+                // What it would have built is still to be built, by a worker that has seen no panic.
+                self.watched
+                    .extend(flight.into_iter().flat_map(|flight| flight.bottoms));
+                self.changed = true;
+                self.worker = None;
+                Err(RebuildError::Panicked { message })
+            }
+        }
+    }
+
+    /// Starts the next rebuild, unless one is under way or there is nothing to build. Comes after the frame's
+    /// [`Scene::refit`], every frame: it also notes which bottom levels may have lost quality while one is under way.
+    pub fn end_frame(&mut self, scene: &Scene<N, W>) {
+        let work = scene.work();
+        self.changed |= work.computed() > 0;
+        self.watched.extend(&work.roots);
+        if self.flight.is_some() || !self.changed {
+            return;
+        }
+        let watched = core::mem::take(&mut self.watched);
+        self.changed = false;
+        let job = scene.rebuild_among(&self.params.rebuild, watched);
+        if job.is_empty() {
+            return;
+        }
+        let bottoms = job.bottoms().collect();
+        if self.worker.is_none() {
+            self.worker = (self.start)().ok();
+        }
+        let refused = match &self.worker {
+            Some(worker) => worker.handover().submit(job).err(),
+            None => Some(job),
+        };
+        self.flight = Some(Flight {
+            frames: 0,
+            bottoms,
+            inline: refused.map(build),
+        });
+    }
+}

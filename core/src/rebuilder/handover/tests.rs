@@ -1,0 +1,154 @@
+//! Every interleaving of a frame and its worker, by loom: no job and no result is lost or dropped twice, and nobody waits
+//! for ever (loom reports a deadlock when all threads wait). Jobs and results are counted while they live.
+//!
+//! `RUSTFLAGS="--cfg loom" cargo test -p lightbvh --features std --release --lib handover --target-dir target/loom`
+
+extern crate std;
+
+use loom::model;
+use loom::sync::Arc;
+use loom::sync::atomic::{AtomicUsize, Ordering};
+use loom::thread;
+use std::vec::Vec;
+
+use super::{Handover, Outcome};
+
+/// A value whose life is counted.
+#[derive(Debug)]
+struct Counted {
+    number: usize,
+    alive: Arc<AtomicUsize>,
+}
+
+impl Counted {
+    fn new(number: usize, alive: &Arc<AtomicUsize>) -> Self {
+        alive.fetch_add(1, Ordering::Relaxed);
+        Self {
+            number,
+            alive: alive.clone(),
+        }
+    }
+}
+
+impl Drop for Counted {
+    fn drop(&mut self) {
+        self.alive.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+type Shared = Arc<Handover<Counted, Counted>>;
+
+/// A worker that answers 10 times the job's number, and lets go of job number 0.
+fn worker(handover: &Shared, alive: &Arc<AtomicUsize>) -> thread::JoinHandle<Vec<usize>> {
+    let (handover, alive) = (handover.clone(), alive.clone());
+    thread::spawn(move || {
+        let mut seen = Vec::new();
+        while let Some(task) = handover.next() {
+            let number = task.job.as_ref().expect("a task has its job").number;
+            seen.push(number);
+            if number > 0 {
+                task.run(|job| Counted::new(10 * job.number, &alive));
+            }
+        }
+        seen
+    })
+}
+
+fn checked(body: impl Fn(&Shared, &Arc<AtomicUsize>) + Send + Sync + 'static) {
+    model(move || {
+        let handover = Arc::new(Handover::new());
+        let alive = Arc::new(AtomicUsize::new(0));
+        body(&handover, &alive);
+        drop(handover);
+        assert_eq!(alive.load(Ordering::Relaxed), 0, "all jobs and results are gone");
+    });
+}
+
+fn number(outcome: Option<Outcome<Counted>>) -> Option<Outcome<usize>> {
+    outcome.map(|outcome| match outcome {
+        Outcome::Done(result) => Outcome::Done(result.number),
+        Outcome::Lost => Outcome::Lost,
+    })
+}
+
+#[test]
+fn each_job_gets_its_result() {
+    checked(|handover, alive| {
+        let thread = worker(handover, alive);
+        assert!(handover.take().is_none(), "nothing to wait for");
+        for k in 1..=2 {
+            handover.submit(Counted::new(k, alive)).expect("idle");
+            assert_eq!(number(handover.take()), Some(Outcome::Done(10 * k)));
+        }
+        handover.close();
+        assert_eq!(thread.join().expect("the worker ends"), [1, 2]);
+    });
+}
+
+#[test]
+fn a_result_not_waited_for_is_there_later() {
+    checked(|handover, alive| {
+        let thread = worker(handover, alive);
+        handover.submit(Counted::new(1, alive)).expect("idle");
+        let refused = handover
+            .submit(Counted::new(2, alive))
+            .expect_err("one at a time");
+        assert_eq!(refused.number, 2);
+        drop(refused);
+        let found = match handover.try_take() {
+            Some(early) => Some(early),
+            None => handover.take(),
+        };
+        assert_eq!(number(found), Some(Outcome::Done(10)));
+        assert!(handover.try_take().is_none(), "results come once");
+        handover.close();
+        assert_eq!(thread.join().expect("the worker ends"), [1]);
+    });
+}
+
+#[test]
+fn a_job_let_go_of_is_told_once_and_another_may_follow() {
+    checked(|handover, alive| {
+        let thread = worker(handover, alive);
+        handover.submit(Counted::new(0, alive)).expect("idle");
+        assert_eq!(number(handover.take()), Some(Outcome::Lost));
+        assert!(handover.try_take().is_none(), "told once");
+        handover.submit(Counted::new(1, alive)).expect("idle");
+        assert_eq!(number(handover.take()), Some(Outcome::Done(10)));
+        handover.close();
+        assert_eq!(thread.join().expect("the worker ends"), [0, 1]);
+    });
+}
+
+#[test]
+fn closing_at_any_moment_ends_the_worker() {
+    for job in 0..=1 {
+        checked(move |handover, alive| {
+            let thread = worker(handover, alive);
+            handover.submit(Counted::new(job, alive)).expect("idle");
+            handover.close();
+            let late = handover.submit(Counted::new(2, alive)).expect_err("closed");
+            assert_eq!(late.number, 2);
+            assert!(number(handover.take()).is_none(), "nothing comes after the end");
+            let seen = thread.join().expect("the worker ends");
+            assert!(seen.is_empty() || seen == [job]);
+        });
+    }
+}
+
+/// A frame may wait on one thread while another closes.
+#[test]
+fn closing_wakes_who_waits() {
+    checked(|handover, alive| {
+        let thread = worker(handover, alive);
+        handover.submit(Counted::new(1, alive)).expect("idle");
+        let waiting = {
+            let handover = handover.clone();
+            thread::spawn(move || number(handover.take()))
+        };
+        handover.close();
+        let found = waiting.join().expect("it ends");
+        assert!(found.is_none() || found == Some(Outcome::Done(10)));
+        thread.join().expect("the worker ends");
+    });
+}
