@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use lightbvh::LightsError;
+use lightbvh::scene::EditError;
+use lightbvh::{LightsError, RebuildError};
 
 use crate::compare::CompareError;
 use crate::metrics::MetricError;
@@ -61,9 +62,19 @@ pub enum HostError {
     /// Two images that cannot be measured.
     #[error(transparent)]
     Metric(#[from] MetricError),
-    /// A method without an implementation.
-    #[error("the method `{0}` is not implemented yet; leave it out")]
-    Method(&'static str),
+    /// Moving lights that cannot be followed.
+    #[error("scene `{scene}`, frame {frame}: {source}")]
+    Edit {
+        /// Name of the scene.
+        scene: String,
+        /// Number of the frame.
+        frame: u32,
+        /// What is wrong.
+        source: EditError,
+    },
+    /// A rebuild beside the frame.
+    #[error(transparent)]
+    Rebuild(#[from] RebuildError),
     /// A result that cannot be kept.
     #[error(
         "cannot write {path}: {source}; free space or choose another folder with --out, and run again to go on"

@@ -2,16 +2,19 @@
 //!
 //! A method is one file with one [`Runner`]; [`runner`] is the only place that knows them all.
 
+mod moving;
 mod no_tree;
+mod restir;
 mod single_level;
 mod two_level;
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use lightbvh::{Heuristic, Lights};
 use serde::{Deserialize, Serialize};
 
-use crate::backend::{Backend, Bvh, CpuBackend, DeviceBackend, SceneArrays, Timed};
+use crate::backend::{Backend, Bvh, CandidateSource, CpuBackend, DeviceBackend, SceneArrays, Timed};
 use crate::error::HostError;
 use crate::scene::Scene;
 use crate::vulkan::{Device, VulkanError};
@@ -36,22 +39,22 @@ pub enum Method {
     /// The paper's two levels, split by the surface area orientation heuristic.
     TwoLevelSaoh,
     /// Spatiotemporal reservoirs (Bitterli et al. 2020).
-    #[value(skip)]
     Restir,
     /// The same with the two-level light BVH as the source of candidates.
-    #[value(skip)]
     TwoLevelRestir,
 }
 
 impl Method {
-    /// The methods that have a [`Runner`], in the order of tables.
-    pub const IMPLEMENTED: [Self; 6] = [
+    /// All methods, in the order of tables.
+    pub const ALL: [Self; 8] = [
         Self::Uniform,
         Self::Power,
         Self::SingleLevelRefit,
         Self::SingleLevelRebuilt,
         Self::TwoLevelSah,
         Self::TwoLevelSaoh,
+        Self::Restir,
+        Self::TwoLevelRestir,
     ];
 
     /// As on the command line.
@@ -122,7 +125,7 @@ pub trait Runner {
     fn image(
         &mut self,
         step: &Step<'_>,
-        arrays: &SceneArrays,
+        arrays: &Arc<SceneArrays>,
         shot: &Shot,
         chain: Chain,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError>;
@@ -172,7 +175,7 @@ impl<'d> Target<'d> {
 /// Builds what `method` needs at its first frame.
 ///
 /// # Errors
-/// [`HostError::Method`] for a method without a runner; else from a device.
+/// [`HostError`] from a device, or for a scene that the method cannot take.
 pub fn runner<'d>(
     method: Method,
     first: &Step<'_>,
@@ -185,7 +188,10 @@ pub fn runner<'d>(
         Method::SingleLevelRebuilt => Box::new(single_level::SingleLevel::rebuilt(first, target)?),
         Method::TwoLevelSah => Box::new(two_level::TwoLevel::new(first, target, Heuristic::Sah)?),
         Method::TwoLevelSaoh => Box::new(two_level::TwoLevel::new(first, target, Heuristic::Saoh)?),
-        Method::Restir | Method::TwoLevelRestir => return Err(HostError::Method(method.name())),
+        Method::Restir => Box::new(restir::Reservoirs::new(first, target, CandidateSource::Power)?),
+        Method::TwoLevelRestir => {
+            Box::new(restir::Reservoirs::new(first, target, CandidateSource::LightBvh)?)
+        }
     })
 }
 
@@ -207,7 +213,7 @@ mod tests {
 
     #[test]
     fn names_are_those_of_the_command_line_and_of_results() {
-        for method in Method::IMPLEMENTED {
+        for method in Method::ALL {
             let parsed = <Method as clap::ValueEnum>::from_str(method.name(), false);
             assert_eq!(parsed, Ok(method));
             assert_eq!(serde_json::to_value(method).expect("a name"), method.name());

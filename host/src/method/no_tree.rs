@@ -1,6 +1,7 @@
 //! The baselines without a tree: uniform, and in proportion to power.
 
 use std::hint::black_box;
+use std::sync::Arc;
 use std::time::Instant;
 
 use lightbvh::BuildParams;
@@ -50,7 +51,7 @@ impl Runner for NoTree<'_> {
     fn image(
         &mut self,
         step: &Step<'_>,
-        arrays: &SceneArrays,
+        arrays: &Arc<SceneArrays>,
         shot: &Shot,
         _chain: Chain,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {

@@ -1,6 +1,7 @@
 //! One light BVH over all triangles: refitted only, as in Mogwai, the paper's baseline; or built anew every frame, the best
 //! that a single level can do.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use lightbvh::BuildParams;
@@ -54,7 +55,7 @@ impl Runner for SingleLevel<'_> {
     fn image(
         &mut self,
         step: &Step<'_>,
-        arrays: &SceneArrays,
+        arrays: &Arc<SceneArrays>,
         shot: &Shot,
         _chain: Chain,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {

@@ -1,20 +1,18 @@
-//! The paper's two levels: a light BVH over mesh lights, over one over the triangles of each.
-//!
-//! Both levels are built anew each frame, before it is rendered: the frame waits for all of it.
+//! The paper's two levels: a light BVH over instances of mesh lights, over one over the triangles of each mesh.
 
-use std::time::Instant;
+use std::sync::Arc;
 
 use lightbvh::{BuildParams, Heuristic};
 
+use super::moving::Moving;
 use super::{Chain, Runner, Step, Target, UpdateTimes, render};
-use crate::backend::{Backend, Sampler, SceneArrays, Timed};
+use crate::backend::{Backend, CpuBackend, DeviceBackend, Sampler, SceneArrays, Timed};
 use crate::error::HostError;
-use crate::workload::{Shot, build};
+use crate::workload::Shot;
 
 /// A two-level light BVH.
 pub(super) struct TwoLevel<'d> {
-    params: BuildParams,
-    target: Target<'d>,
+    moving: Moving,
     backend: Box<dyn Backend + 'd>,
 }
 
@@ -24,39 +22,29 @@ impl<'d> TwoLevel<'d> {
             heuristic,
             ..BuildParams::default()
         };
-        let bvh = build(first.lights, Sampler::TwoLevel, &params);
-        Ok(Self {
-            params,
-            target,
-            backend: target.backend(bvh, first.lights)?,
-        })
+        let moving = Moving::new(first, params)?;
+        let backend: Box<dyn Backend + 'd> = match target {
+            Target::Cpu => Box::new(CpuBackend::new(moving.scene().clone(), first.lights.clone())),
+            Target::Device(device) => {
+                Box::new(DeviceBackend::of_scene(device, moving.scene(), first.lights)?)
+            }
+        };
+        Ok(Self { moving, backend })
     }
 }
 
 impl Runner for TwoLevel<'_> {
     fn advance(&mut self, step: &Step<'_>) -> Result<UpdateTimes, HostError> {
-        let start = Instant::now();
-        let bvh = build(step.lights, Sampler::TwoLevel, &self.params);
-        let rebuild = start.elapsed();
-        self.backend = self.target.backend(bvh, step.lights)?;
-        Ok(UpdateTimes {
-            rebuild,
-            wait: rebuild,
-            ..UpdateTimes::default()
-        })
+        self.moving.advance(step, Some(&mut *self.backend))
     }
 
     fn image(
         &mut self,
         step: &Step<'_>,
-        arrays: &SceneArrays,
+        arrays: &Arc<SceneArrays>,
         shot: &Shot,
         _chain: Chain,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
         render(&mut *self.backend, step, arrays, shot, Sampler::TwoLevel)
-    }
-
-    fn may_skip(&self) -> bool {
-        true
     }
 }

@@ -1,6 +1,7 @@
 //! Frames of a scene, each made once for all who ask.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use bytemuck::cast_slice;
 use lightbvh::Lights;
@@ -17,7 +18,7 @@ pub(super) struct Frames<'a> {
     scene: &'a Scene,
     size: (u32, u32),
     lights: BTreeMap<u32, Lights>,
-    arrays: BTreeMap<u32, SceneArrays>,
+    arrays: BTreeMap<u32, Arc<SceneArrays>>,
     prints: BTreeMap<u32, String>,
 }
 
@@ -43,7 +44,7 @@ impl<'a> Frames<'a> {
         }
         if to_render && !self.arrays.contains_key(&frame) {
             let arrays = arrays_at(self.scene, frame, self.size.0, self.size.1)?;
-            self.arrays.insert(frame, arrays);
+            self.arrays.insert(frame, Arc::new(arrays));
         }
         Ok(())
     }
@@ -58,7 +59,7 @@ impl<'a> Frames<'a> {
     }
 
     /// The arrays of a frame, once prepared to render.
-    pub fn arrays(&self, frame: u32) -> &SceneArrays {
+    pub fn arrays(&self, frame: u32) -> &Arc<SceneArrays> {
         &self.arrays[&frame]
     }
 

@@ -19,7 +19,7 @@ pub(in crate::cli) struct Args {
     /// Frames to measure; the animation runs from frame 0 to the last of them [default: 0,50,100,150].
     #[arg(long, value_delimiter = ',', value_name = "N,N,...")]
     frames: Vec<u32>,
-    /// Shadow rays per pixel of every method [default: 4].
+    /// Shadow rays per pixel of every method; ReSTIR takes as many histories of six as that allows [default: 6].
     #[arg(long)]
     samples: Option<u32>,
     /// Images of each frame, each with its own random numbers [default: 8].
@@ -97,7 +97,7 @@ impl Args {
         frames.dedup();
         let mut methods = self.method.clone();
         if methods.is_empty() {
-            methods = Method::IMPLEMENTED.to_vec();
+            methods = Method::ALL.to_vec();
         }
         methods.sort_unstable();
         methods.dedup();
@@ -112,7 +112,7 @@ impl Args {
         }
         let plan = Plan {
             scenes,
-            samples: choose(self.samples, 4, 4),
+            samples: choose(self.samples, 6, 6),
             seeds: choose(self.seeds, 8, 3),
             width: choose(self.width, 320, 96),
             height: choose(self.height, 180, 54),

@@ -1,0 +1,81 @@
+//! The lights of a scene kept in a two-level light BVH from frame to frame: instances moved, changed bounds refitted, the
+//! top level rebuilt beside the frame and swapped in at the start of the next (paper sections 3.4 and 3.5).
+
+use std::time::Instant;
+
+use lightbvh::{BuildParams, Rebuilder, RebuilderParams};
+
+use super::{Step, UpdateTimes};
+use crate::backend::{Backend, LightScene};
+use crate::error::HostError;
+use crate::scene::Instances;
+
+/// Moving lights, their rebuilder, and where they stand.
+pub(super) struct Moving {
+    scene: LightScene,
+    instances: Instances,
+    rebuilder: Rebuilder<lightbvh_kernels::bvh::Node, { lightbvh_kernels::bvh::WIDTH }>,
+}
+
+impl Moving {
+    /// The lights at the first frame, built.
+    pub fn new(first: &Step<'_>, params: BuildParams) -> Result<Self, HostError> {
+        let (scene, instances) =
+            Instances::new(first.scene, first.frame, params).map_err(|source| HostError::Edit {
+                scene: first.scene.name().to_owned(),
+                frame: first.frame,
+                source,
+            })?;
+        let mut rebuilder = Rebuilder::new(RebuilderParams::default());
+        rebuilder.end_frame(&scene);
+        Ok(Self {
+            scene,
+            instances,
+            rebuilder,
+        })
+    }
+
+    /// The lights as last advanced to.
+    pub fn scene(&self) -> &LightScene {
+        &self.scene
+    }
+
+    /// Brings the lights to the next frame, and `backend`, if any, after them. Refit is all that the frame's thread does for
+    /// it: swapping in the rebuilt tree, noting what moved, and new bounds (those of `backend`, where there is one).
+    pub fn advance(
+        &mut self,
+        step: &Step<'_>,
+        backend: Option<&mut (dyn Backend + '_)>,
+    ) -> Result<UpdateTimes, HostError> {
+        // Following the animation is the scene's business, whichever method renders it.
+        let edits = self.instances.edits(step.scene, step.frame);
+        let began = Instant::now();
+        let start = self.rebuilder.begin_frame(&mut self.scene)?;
+        self.scene.update(edits).map_err(|source| HostError::Edit {
+            scene: step.scene.name().to_owned(),
+            frame: step.frame,
+            source,
+        })?;
+        self.scene.plan();
+        let mut refit = began.elapsed().saturating_sub(start.waited);
+        let own = |scene: &mut LightScene| {
+            let began = Instant::now();
+            scene.refit();
+            began.elapsed()
+        };
+        refit += match backend {
+            Some(backend) => {
+                let time = backend.follow(&self.scene, step.lights)?.time;
+                own(&mut self.scene);
+                time
+            }
+            None => own(&mut self.scene),
+        };
+        self.rebuilder.end_frame(&self.scene);
+        Ok(UpdateTimes {
+            refit,
+            rebuild: start.built,
+            wait: start.waited,
+        })
+    }
+}
