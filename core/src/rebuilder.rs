@@ -127,8 +127,8 @@ pub struct Rebuilder<N, const W: usize> {
 /// A rebuild under way.
 #[derive(Debug)]
 struct Flight<N, const W: usize> {
-    /// Frames begun since it started.
-    frames: u32,
+    /// Frames to begin until it is due; at 1 or below, the next one.
+    left: u32,
     /// The bottom levels in it.
     bottoms: BTreeSet<u32>,
     /// The result, where it was built at once.
@@ -165,8 +165,8 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
         let Some(flight) = &mut self.flight else {
             return Ok(start);
         };
-        flight.frames = flight.frames.saturating_add(1);
-        if flight.frames < self.params.after {
+        if flight.left > 1 {
+            flight.left -= 1;
             return Ok(start);
         }
         let built = if let Some(built) = flight.inline.take() {
@@ -230,9 +230,58 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
             None => Some(job),
         };
         self.flight = Some(Flight {
-            frames: 0,
+            left: self.params.after,
             bottoms,
             inline: refused.map(build),
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{CompactNode, Edit, EmissiveTriangle, Transform};
+    use alloc::vec;
+
+    #[test]
+    fn without_threads_the_same_trees_come_at_the_same_frames() {
+        let triangle = EmissiveTriangle {
+            p: [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            radiance: [1.0; 3],
+            mesh: 0,
+            flags: 0,
+        };
+        let run = |threads: bool| {
+            let mut scene = Scene::<CompactNode<4>, 4>::default();
+            let triangles = vec![triangle];
+            let mesh = scene
+                .update(vec![Edit::AddMesh { triangles }])
+                .expect("a mesh")
+                .meshes[0];
+            let mut rebuilder = Rebuilder::new(RebuilderParams {
+                after: 2,
+                ..RebuilderParams::default()
+            });
+            if !threads {
+                rebuilder.start = || Err(std::io::Error::other("no more threads"));
+            }
+            let frames = (0..20u16).map(|frame| {
+                let start = rebuilder.begin_frame(&mut scene).expect("no panic");
+                assert_eq!(start.swapped, frame >= 2 && frame % 2 == 0);
+                assert_eq!(start.inline, start.swapped && !threads);
+                let add = |k: u16| Edit::AddInstance {
+                    mesh,
+                    transform: Transform::at([f32::from(frame * k % 7), f32::from(k), f32::from(frame)]),
+                    radiance: 1.0,
+                };
+                scene.update((0..5).map(add).collect()).expect("instances");
+                scene.refit();
+                scene.validate().expect("valid");
+                rebuilder.end_frame(&scene);
+                scene.nodes().to_vec()
+            });
+            frames.collect::<alloc::vec::Vec<_>>()
+        };
+        assert!(run(true) == run(false));
     }
 }

@@ -8,7 +8,8 @@
 //! 2. [`refit`](Scene::refit), which computes just the nodes that this touches (paper section 3.4), or the same on a device
 //!    by the lists of [`plan`](Scene::plan);
 //! 3. [`rebuild`](Scene::rebuild) for the next frame: a [`Rebuild`] is self-contained work for any thread, whose result
-//!    [`adopt`](Scene::adopt) swaps in (paper section 3.5).
+//!    [`adopt`](Scene::adopt) swaps in (paper section 3.5). With the feature `std` a `Rebuilder` does so on a thread beside
+//!    the frame.
 //!
 //! | change | costs |
 //! |---|---|

@@ -4,12 +4,14 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::Scene;
-use super::blas::{build_over, inner_nodes};
+use super::blas::{Blas, build_over, inner_nodes};
+use super::top::TopTree;
 use crate::build::{BuildParams, Primitive, Topology, build, drift};
 use crate::levels::Levels;
 use crate::light::EmissiveTriangle;
 use crate::node::{LightNode, kind};
 use crate::refit;
+use crate::tree::INVALID;
 
 /// When trees are built anew.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,8 +70,8 @@ struct Bottom {
 #[derive(Debug)]
 pub struct Rebuilt<N, const W: usize> {
     taken: Taken,
-    /// Nodes of the top level, refitted.
-    top: Option<Vec<N>>,
+    /// The top level, refitted.
+    top: Option<TopTree<N>>,
     bottoms: Vec<(Bottom, Topology<N>)>,
 }
 
@@ -115,14 +117,14 @@ impl<N: LightNode<W>, const W: usize> Rebuild<N, W> {
     }
 }
 
-/// The nodes of a tree over the leaves, refitted.
-fn build_top<N: LightNode<W>, const W: usize>(old: &TopLeaves<N>, params: &BuildParams) -> Vec<N> {
+/// A tree over the leaves, refitted.
+fn build_top<N: LightNode<W>, const W: usize>(old: &TopLeaves<N>, params: &BuildParams) -> TopTree<N> {
     let mut primitives: Vec<Primitive> = (0..)
         .zip(&old.leaves)
         .map(|(i, &(_, node, slot))| Primitive::new(i, &old.nodes[node as usize].bounds(slot as usize)))
         .collect();
     if primitives.is_empty() {
-        return alloc::vec![N::EMPTY];
+        return TopTree::empty::<W>();
     }
     let mut topology: Topology<N> = build::<N, W>(&mut primitives, kind::MESH, params);
     for node in &mut topology.nodes {
@@ -137,7 +139,7 @@ fn build_top<N: LightNode<W>, const W: usize>(old: &TopLeaves<N>, params: &Build
     for &node in levels.nodes() {
         topology.nodes[node as usize] = refit::level(&topology.nodes, node);
     }
-    topology.nodes
+    TopTree::new::<W>(topology, levels, |leaf| old.leaves[leaf as usize].0)
 }
 
 impl<N: LightNode<W>, const W: usize> Scene<N, W> {
@@ -200,30 +202,18 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         // Words copied from the leaves of then are those of now unless something came between.
         let stale = rebuilt.taken != self.now();
         for (bottom, topology) in &rebuilt.bottoms {
-            let own = &self.blases[bottom.blas as usize];
-            if own.born == bottom.born && own.triangles == bottom.range {
+            let same = |own: &Blas| own.born == bottom.born && own.triangles == bottom.range;
+            if self.blases.get(bottom.blas as usize).is_some_and(same) {
                 self.place_blas(bottom.blas, topology);
                 self.reroot(bottom.blas);
             }
         }
-        if let Some(mut nodes) = rebuilt.top {
-            let since = rebuilt.taken.clock;
-            for node in &mut nodes {
-                for slot in 0..W {
-                    if node.kind(slot) == kind::MESH {
-                        let placed = &self.placed[node.link(slot) as usize];
-                        if !placed.live || placed.born > since {
-                            node.set_child(slot, kind::EMPTY, 0);
-                        }
-                    }
-                }
-            }
-            self.replace_top(&nodes);
-            let added: Vec<u32> = (0..self.placed.len() as u32)
-                .filter(|&i| {
-                    let placed = &self.placed[i as usize];
-                    placed.live && placed.born > since
-                })
+        if let Some(top) = rebuilt.top {
+            self.replace_top_by(top, rebuilt.taken.clock);
+            let added: Vec<u32> = (0..)
+                .zip(&self.placed)
+                .filter(|(_, placed)| placed.live && placed.node == INVALID)
+                .map(|(index, _)| index)
                 .collect();
             self.graft(&added);
             self.pending.whole_top |= stale;

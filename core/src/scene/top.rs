@@ -29,6 +29,84 @@ pub(super) struct Top {
     pub mark: u32,
 }
 
+/// A top level with all that [`Top`] wants to know of it, made beside the frame. Nodes count from the first, the root.
+#[derive(Debug)]
+pub(super) struct TopTree<N> {
+    nodes: Vec<N>,
+    node_levels: Vec<u32>,
+    levels: Levels,
+    leaves: Vec<u32>,
+    depth: u32,
+    /// In the order of instances, so that putting them in place goes through memory in order.
+    places: Vec<Place>,
+}
+
+/// Where an instance is a leaf.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    instance: u32,
+    node: u32,
+    slot: u32,
+    trail: BitTrail,
+}
+
+impl<N> TopTree<N> {
+    /// The tree of `topology`, whose leaves link to instances, in bounds. Its trails are of the leaves in any order of
+    /// their own; `instances` says which of them is which instance.
+    pub fn new<const W: usize>(topology: Topology<N>, levels: Levels, instances: impl Fn(u32) -> u32) -> Self
+    where
+        N: LightNode<W>,
+    {
+        let trails = topology.trails.iter();
+        let mut places: Vec<Place> = trails
+            .map(|&(leaf, trail)| Place {
+                instance: instances(leaf),
+                node: INVALID,
+                slot: 0,
+                trail,
+            })
+            .collect();
+        places.sort_unstable_by_key(|place| place.instance);
+        let mut leaves = Vec::new();
+        for (index, node) in (0..).zip(&topology.nodes) {
+            let mut leaf = false;
+            for slot in (0..W).filter(|&slot| node.kind(slot) == kind::MESH) {
+                leaf = true;
+                if let Ok(at) = places.binary_search_by_key(&node.link(slot), |place| place.instance) {
+                    places[at].node = index;
+                    places[at].slot = slot as u32;
+                }
+            }
+            if leaf {
+                leaves.push(index);
+            }
+        }
+        Self {
+            nodes: topology.nodes,
+            node_levels: topology.levels,
+            levels,
+            leaves,
+            depth: topology.depth,
+            places,
+        }
+    }
+
+    /// A tree without instances.
+    pub fn empty<const W: usize>() -> Self
+    where
+        N: LightNode<W>,
+    {
+        Self {
+            nodes: alloc::vec![N::EMPTY],
+            node_levels: alloc::vec![0],
+            levels: Levels::default(),
+            leaves: Vec::new(),
+            depth: 1,
+            places: Vec::new(),
+        }
+    }
+}
+
 impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     /// A top level without instances: one empty node.
     pub(super) fn empty_top(&mut self) {
@@ -38,14 +116,73 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     /// Puts `nodes`, links counting from the first, which is the root, in place of the top level. Bounds of instances that
     /// changed meanwhile are marked by the caller.
     pub(super) fn replace_top(&mut self, nodes: &[N]) {
+        self.place_top(nodes);
+        self.index_top();
+    }
+
+    /// As [`replace_top`](Self::replace_top), with a tree that knows where everything in it is, but not what became of its
+    /// instances since the scene's clock stood at `since`: those gone leave empty slots.
+    pub(super) fn replace_top_by(&mut self, tree: TopTree<N>, since: u64) {
+        let range = self.place_top(&tree.nodes);
+        if !self.place_instances(&tree.places, range.start, since) {
+            for node in range {
+                for slot in 0..W {
+                    let own = &mut self.nodes[node as usize];
+                    if own.kind(slot) == kind::MESH {
+                        let placed = self.placed.get(own.link(slot) as usize);
+                        if !placed.is_some_and(|placed| placed.live && placed.born <= since) {
+                            own.set_child(slot, kind::EMPTY, 0);
+                        }
+                    }
+                }
+            }
+            self.index_top();
+            return;
+        }
+        let first = range.start;
+        self.top.node_levels.resize(self.nodes.len(), 0);
+        self.top.marks.resize(self.nodes.len(), 0);
+        self.top.node_levels[first as usize..range.end as usize].copy_from_slice(&tree.node_levels);
+        self.top.depth = tree.depth;
+        self.top.levels = tree.levels;
+        self.top.leaves = tree.leaves;
+        for node in self.top.levels.nodes.iter_mut().chain(&mut self.top.leaves) {
+            *node += first;
+        }
+    }
+
+    /// Notes for every instance where it is a leaf, the nodes of `places` counting from `first`; false where one of them is
+    /// no instance, or not the one that was there when the clock stood at `since`.
+    fn place_instances(&mut self, places: &[Place], first: u32, since: u64) -> bool {
+        let mut places = places.iter().peekable();
+        for (index, (placed, instance)) in (0..).zip(self.placed.iter_mut().zip(&mut self.instances)) {
+            let Some(place) = places.next_if(|place| place.instance == index) else {
+                placed.node = INVALID;
+                continue;
+            };
+            if !placed.live || placed.born > since {
+                return false;
+            }
+            placed.node = first + place.node;
+            placed.slot = place.slot;
+            if instance.trail() != place.trail {
+                instance.set_trail(place.trail);
+                self.pending.written_instances.push(index);
+            }
+        }
+        places.peek().is_none()
+    }
+
+    /// Puts nodes in place of those of the top level.
+    fn place_top(&mut self, nodes: &[N]) -> Range<u32> {
         for range in core::mem::take(&mut self.top.ranges) {
             self.node_ranges.give(range);
         }
         self.pending.top_nodes.clear();
         let range = self.place_nodes(nodes);
         self.top.root = range.start;
-        self.top.ranges.push(range);
-        self.index_top();
+        self.top.ranges.push(range.clone());
+        range
     }
 
     /// Builds the top level over all instances, here and now.
@@ -156,5 +293,60 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             }
         }
         self.top.levels = Levels::gather(pairs);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::RebuildParams;
+    use crate::{CompactNode, Edit, EmissiveTriangle, Transform};
+    use alloc::vec;
+
+    /// What a rebuild knows of its tree is what walking it finds.
+    #[test]
+    fn rebuilt_trees_are_noted_as_walked_ones() {
+        let triangle = EmissiveTriangle {
+            p: [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            radiance: [1.0; 3],
+            mesh: 0,
+            flags: 0,
+        };
+        let mut scene = Scene::<CompactNode<4>, 4>::default();
+        let triangles = vec![triangle];
+        let mesh = scene
+            .update(vec![Edit::AddMesh { triangles }])
+            .expect("a mesh")
+            .meshes[0];
+        for count in [0u16, 1, 2, 3, 50, 300] {
+            let add = (0..count).map(|k| Edit::AddInstance {
+                mesh,
+                transform: Transform::at([f32::from(k * 37 % 97), f32::from(k % 7), f32::from(k)]),
+                radiance: 1.0,
+            });
+            let added = scene.update(add.collect()).expect("instances").instances;
+            // Gaps among the indices.
+            let gone = added
+                .iter()
+                .skip(1)
+                .step_by(3)
+                .map(|&id| Edit::RemoveInstance(id));
+            scene.update(gone.collect()).expect("they are there");
+            scene.refit();
+            let rebuilt = scene.rebuild(&RebuildParams::default()).run();
+            scene.adopt(rebuilt);
+            let (noted, instances) = (
+                alloc::format!("{:?}{:?}", scene.top, scene.placed),
+                scene.instances.clone(),
+            );
+            scene.index_top();
+            assert!(
+                noted == alloc::format!("{:?}{:?}", scene.top, scene.placed),
+                "{count}"
+            );
+            assert_eq!(instances, scene.instances, "{count}");
+            scene.refit();
+            scene.validate().expect("valid");
+        }
     }
 }
