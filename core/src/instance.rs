@@ -2,7 +2,7 @@
 //!
 //! An instance moves, turns, mirrors and scales evenly: its map is `x ↦ A x + t` with `A = s Q`, Q orthogonal. Distances
 //! then keep their proportions and angles stay, so importance may be reckoned in the mesh's space, at the point brought
-//! there by `Aᵀ(x − t)/s²`; moving an instance changes one leaf of the top level and nothing below. [`Transform`] tells
+//! there by `Aᵀ(x − t)/s²`; moving an instance changes one leaf of the top level and nothing below. [`Scene`](crate::scene::Scene) tells
 //! which maps are of that kind; others get a bottom level of their own.
 //!
 //! What rounding on that way may do is bounded and allowed for (see [`Receiver`]): a light that can contribute never loses
@@ -39,8 +39,7 @@ const MAX_SUM: f32 = pow2(126);
 /// A leaf of the top level: where a mesh stands, and which lights its triangles are there.
 ///
 /// Plain words, as the device reads them. [`Instance::inside`](MeshLeaf::inside) and
-/// [`to_world`](MeshLeaf::to_world) are the maps; everything is derived from the transform by
-/// [`Transform::similarity`] and the mesh's extent, on the CPU.
+/// [`to_world`](MeshLeaf::to_world) are the maps; everything is derived on the CPU, from the transform and the mesh's extent.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Instance {

@@ -5,7 +5,7 @@
 //! Here a dead child's probability passes to its sibling: to the nearest light of the sibling that can be reached.
 //! [`sample`](fn@sample) then returns a light whenever one can be reached, and the returned `pmf` is still exact, because the
 //! probability that a light takes over from dead neighbours is found again by looking at just those neighbours
-//! ([`dead`]). No light loses probability by this, so the variance is never above that of losing the sample.
+//! (`dead.rs`). No light loses probability by this, so the variance is never above that of losing the sample.
 
 mod dead;
 mod descend;
