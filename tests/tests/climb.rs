@@ -1,6 +1,6 @@
 //! Refit without levels: the words of the level-by-level passes, whoever comes last, and an end whatever the steps say.
 
-use lightbvh::climb::{self, Step};
+use lightbvh::climb::{self, Plan, Start, Step};
 use lightbvh::scene::RebuildParams;
 use lightbvh::{
     BuildParams, CompactNode, Edit, EmissiveTriangle, FullNode, Heuristic, INVALID, InstanceId, LightBvh,
@@ -88,7 +88,7 @@ fn trees() -> Vec<(&'static str, Bvh, Lights)> {
     trees
 }
 
-/// A refit of the whole tree with the nodes climbed in a random interleaving of all invocations.
+/// A refit of the whole tree, all invocations interleaved at random.
 fn interleaved<N: LightNode<W>, const W: usize>(
     bvh: &LightBvh<N, W>,
     lights: &Lights,
@@ -100,45 +100,61 @@ fn interleaved<N: LightNode<W>, const W: usize>(
     let split = if bvh.is_two_level() { tree.root } else { end };
     let parents = climb::parents::<N, W>(&nodes);
     let mut roots = bvh.roots().to_vec();
-    for range in [0..split, split..end] {
-        let (is_top, count) = (range.start > 0, range.len());
+    for (range, levels) in [(0..split, bvh.bottom_levels()), (split..end, bvh.top_levels())] {
+        let is_top = range.start > 0;
+        let (mut leaves, mut inner): (Vec<u32>, _) = (range.collect(), levels.nodes().to_vec());
+        let (leaf_count, inner_count) = (leaves.len(), inner.len());
         // In any order, and some twice.
-        let mut listed: Vec<u32> = range.collect();
-        listed.extend_from_within(..count / 3);
-        for i in (1..listed.len()).rev() {
-            listed.swap(i, random.below(i as u32 + 1) as usize);
+        for list in [&mut leaves, &mut inner] {
+            list.extend_from_within(..list.len() / 3);
+            for i in (1..list.len()).rev() {
+                list.swap(i, random.below(i as u32 + 1) as usize);
+            }
         }
-        let mut steps = Vec::new();
-        let starts = climb::plan(&parents, listed, &mut steps);
-        assert_eq!(steps.len(), count);
+        let mut plan = Plan::default();
+        let starts = plan.add(&parents, leaves, inner);
+        assert_eq!(starts as usize, plan.starts.len());
+        assert_eq!((plan.leaves.len(), plan.steps.len()), (leaf_count, inner_count));
         if is_top {
             for root in &mut roots {
                 *root = lightbvh::refit::root(&nodes, root.node);
             }
         }
-        let mut arrived = vec![0; steps.len()];
-        let mut climbers: Vec<u32> = (0..starts).collect();
-        let mut computed = 0;
+        let mut arrived = vec![0; plan.steps.len()];
+        let mut climbers = plan.starts.clone();
+        let (mut refitted, mut merged) = (0, 0);
         while !climbers.is_empty() {
             let who = random.below(climbers.len() as u32) as usize;
-            let step = steps[climbers[who] as usize];
-            nodes[step.node as usize] = if is_top {
-                climb::top(&nodes, tree.meshes, &roots, step.node)
-            } else {
-                climb::bottom(&nodes, lights.triangles(), step.node)
-            };
-            computed += 1;
-            let last = step.parent != INVALID && {
-                arrived[step.parent as usize] += 1;
-                arrived[step.parent as usize] == steps[step.parent as usize].children
-            };
-            if last {
-                climbers[who] = step.parent;
-            } else {
+            let at = climbers[who];
+            if at.first < at.end {
+                let node = plan.leaves[at.first as usize];
+                nodes[node as usize] = if is_top {
+                    lightbvh::refit::mesh_leaves(&nodes, tree.meshes, &roots, node)
+                } else {
+                    lightbvh::refit::leaves(&nodes, lights.triangles(), node)
+                };
+                refitted += 1;
+                climbers[who].first += 1;
+                continue;
+            }
+            let mut next = INVALID;
+            if at.step != INVALID {
+                let step = plan.steps[at.step as usize];
+                nodes[step.node as usize] = lightbvh::refit::level(&nodes, step.node);
+                merged += 1;
+                if step.parent != INVALID {
+                    arrived[step.parent as usize] += 1;
+                    if arrived[step.parent as usize] == plan.steps[step.parent as usize].children {
+                        next = step.parent;
+                    }
+                }
+            }
+            climbers[who].step = next;
+            if next == INVALID {
                 climbers.swap_remove(who);
             }
         }
-        assert_eq!(computed, count, "every node once");
+        assert_eq!((refitted, merged), (leaf_count, inner_count), "every node once");
     }
     nodes
 }
@@ -169,27 +185,42 @@ proptest! {
         check::<FullNode<8>, 8>(&lights, two, random);
     }
 
-    /// A plan for a part of a tree: nothing above is missing, or what is missing ends the way.
+    /// Any lists over any forest: each task once, each step waits for those that come, and each leaf's climb passes its node.
     #[test]
-    fn steps_wait_for_those_that_come(parents in prop::collection::vec(0..40u32, 1..40), listed in prop::collection::vec(0..60u32, 0..60)) {
-        let mut steps = vec![Step { node: 7, parent: 8, children: 9 }; 3];
-        let starts = climb::plan(&parents, listed.clone(), &mut steps) as usize;
-        let mut expected = listed;
-        expected.sort_unstable();
-        expected.dedup();
-        let mut nodes: Vec<u32> = steps[3..].iter().map(|step| step.node).collect();
-        nodes.sort_unstable();
-        prop_assert_eq!(nodes, expected);
-        for (i, step) in (0u32..).zip(&steps).skip(3) {
-            let above = parents.get(step.node as usize);
-            let planned = above.is_some_and(|node| steps[3..].iter().any(|other| other.node == *node));
-            prop_assert_eq!(step.parent != INVALID, planned);
-            if planned {
-                prop_assert_eq!(Some(&steps[step.parent as usize].node), above);
-            }
-            let children = steps[3..].iter().filter(|other| other.parent == i).count();
+    fn plans_hold_what_is_listed(above in prop::collection::vec(any::<u32>(), 1..60), leaves in prop::collection::vec(0..70u32, 0..60), inner in prop::collection::vec(0..60u32, 0..60)) {
+        let parents: Vec<u32> = (0..).zip(&above).map(|(i, up)| if i == 0 || up % 7 == 0 { INVALID } else { up % i }).collect();
+        let mut plan = Plan::default();
+        plan.add(&[INVALID], vec![0], vec![0]);
+        let before = plan.clone();
+        let starts = plan.add(&parents, leaves.clone(), inner.clone()) as usize;
+        prop_assert_eq!(plan.starts.len(), 1 + starts);
+        prop_assert_eq!((&plan.starts[..1], &plan.leaves[..1], &plan.steps[..1]), (&before.starts[..], &before.leaves[..], &before.steps[..]));
+        let sorted = |mut list: Vec<u32>| { list.sort_unstable(); list.dedup(); list };
+        prop_assert_eq!(plan.leaves.len(), 1 + sorted(leaves.clone()).len());
+        prop_assert_eq!(sorted(plan.leaves[1..].to_vec()), sorted(leaves));
+        let steps: Vec<u32> = plan.steps[1..].iter().map(|step| step.node).collect();
+        prop_assert_eq!(&steps, &sorted(inner));
+        for (i, step) in (1u32..).zip(&plan.steps[1..]) {
+            let up = parents.get(step.node as usize).and_then(|up| steps.binary_search(up).ok());
+            prop_assert_eq!(step.parent, up.map_or(INVALID, |up| up as u32 + 1));
+            let children = plan.steps[1..].iter().filter(|other| other.parent == i).count();
             prop_assert_eq!(step.children as usize, children);
-            prop_assert_eq!((i as usize) < 3 + starts, children == 0, "those that wait for none come first");
+            let begin = plan.starts[1..].iter().filter(|start| start.step == i).count();
+            prop_assert_eq!(begin, usize::from(children == 0), "a climb from each that waits for none");
+        }
+        for start in &plan.starts[1..] {
+            let mut way = Vec::new();
+            let mut at = start.step;
+            while at != INVALID {
+                way.push(plan.steps[at as usize].node);
+                at = plan.steps[at as usize].parent;
+            }
+            for &node in &plan.leaves[start.first as usize..start.end as usize] {
+                let up = parents.get(node as usize).copied().unwrap_or(INVALID);
+                let meets = steps.binary_search(&node).is_ok() || steps.binary_search(&up).is_ok();
+                prop_assert_eq!(meets, way.contains(&node) || way.contains(&up));
+                prop_assert!(meets || start.step == INVALID);
+            }
         }
     }
 }
@@ -360,23 +391,66 @@ fn hostile_steps_end() {
     let lights = Lights::new(generate::small_triangles(60, 5, 10.0, 1.0, true, 8)).expect("lights");
     let bvh = build(&lights, Sampler::TwoLevel, &BuildParams::default());
     let random = &mut Random::new(3);
-    let cases: Vec<(Vec<Step>, RefitPush)> = (0..200)
+    let cases: Vec<(Plan, RefitPush)> = (0..200)
         .map(|_| {
             let steps = hostile_steps(random, bvh.nodes().len() as u32);
             let first = [0, random.below(9), random.bits()][random.below(3) as usize];
             let count = steps.len() as u32 + 70;
-            (steps, RefitPush { first, count })
+            let mut index = |end: u32| match random.below(8) {
+                0 => random.bits(),
+                _ => random.below(end + 1),
+            };
+            let starts = (0..count - 20).map(|_| Start {
+                first: index(30),
+                end: index(40),
+                step: index(count),
+            });
+            let starts = starts.collect();
+            let leaves = (0..30).map(|_| index(bvh.nodes().len() as u32)).collect();
+            let plan = Plan {
+                starts,
+                leaves,
+                steps,
+            };
+            (plan, RefitPush { first, count })
         })
         .collect();
-    for (steps, push) in &cases {
+    for (
+        Plan {
+            starts,
+            leaves,
+            steps,
+        },
+        push,
+    ) in &cases
+    {
         let mut nodes = bvh.nodes().to_vec();
         // Too few counters are no way out of the array either.
         let mut arrivals = vec![0; steps.len() - steps.len() / 3];
         for i in 0..push.count {
             let id = glam::UVec3::new(i, 0, 0);
             let (triangles, meshes) = (lights.triangles(), bvh.tree().meshes);
-            refit_climb(id, push, steps, &mut arrivals, triangles, &mut nodes);
-            refit_climb_top(id, push, steps, &mut arrivals, meshes, bvh.roots(), &mut nodes);
+            refit_climb(
+                id,
+                push,
+                starts,
+                leaves,
+                steps,
+                &mut arrivals,
+                triangles,
+                &mut nodes,
+            );
+            refit_climb_top(
+                id,
+                push,
+                starts,
+                leaves,
+                steps,
+                &mut arrivals,
+                meshes,
+                bvh.roots(),
+                &mut nodes,
+            );
         }
     }
     let limit = Options {
@@ -392,15 +466,31 @@ fn hostile_steps_end() {
         let triangles = device.upload(lights.triangles()).expect("an upload");
         let meshes = device.upload(bvh.tree().meshes).expect("an upload");
         let roots = device.upload(bvh.roots()).expect("an upload");
-        for (steps, push) in &cases {
+        for (
+            Plan {
+                starts,
+                leaves,
+                steps,
+            },
+            push,
+        ) in &cases
+        {
             let arrivals = vec![0_u32; steps.len() - steps.len() / 3];
             let (steps, arrivals) = (device.upload(steps), device.upload(&arrivals));
             let (steps, arrivals) = (steps.expect("an upload"), arrivals.expect("an upload"));
             let (s, a, n) = (steps.bind(), arrivals.bind(), nodes.bind());
+            let (starts, leaves) = (device.upload(starts), device.upload(leaves));
+            let (starts, leaves) = (starts.expect("an upload"), leaves.expect("an upload"));
+            let (b, l) = (starts.bind(), leaves.bind());
             let mut pass = Pass::new();
             let push_words = bytemuck::bytes_of(push);
-            pass.dispatch(&bottom, &[s, a, triangles.bind(), n], push_words, push.count);
-            let by_instance = [s, a, meshes.bind(), roots.bind(), n];
+            pass.dispatch(
+                &bottom,
+                &[b, l, s, a, triangles.bind(), n],
+                push_words,
+                push.count,
+            );
+            let by_instance = [b, l, s, a, meshes.bind(), roots.bind(), n];
             pass.dispatch(&top, &by_instance, push_words, push.count);
             device.run(&pass).expect("an end");
         }

@@ -2,8 +2,8 @@
 //! bottom levels and one for the top level ([`lightbvh::climb`]).
 
 use glam::UVec3;
-use lightbvh::climb::{self, Step};
-use lightbvh::refit::BlasRoot;
+use lightbvh::climb::{Start, Step};
+use lightbvh::refit::{self, BlasRoot};
 use lightbvh::trail::max_levels;
 use lightbvh::{EmissiveTriangle, INVALID, Instance};
 use spirv_std::spirv;
@@ -13,30 +13,31 @@ use crate::arrival::arrive;
 use crate::bvh::{Node, WIDTH};
 use crate::invocation;
 
-/// More nodes than a way up has: steps that lead in a circle (hostile words) end here.
+/// As many nodes as a way up has: steps that lead in a circle (hostile words) end here.
 const MOST_STEPS: u32 = max_levels(WIDTH);
 
-/// Bottom levels, from each of the steps `push.first..push.first + push.count` upward, which are those that wait for none.
-/// `arrivals` has a counter for each step, zero before and after.
+/// Bottom levels, by the climbs `starts[push.first + i]`. `arrivals` has a counter for each step, zero before and after.
 #[spirv(compute(threads(64), entry_point_name = "refit_climb"))]
 pub fn refit_climb(
     #[spirv(global_invocation_id)] id: UVec3,
     #[spirv(push_constant)] push: &RefitPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] steps: &[Step],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] arrivals: &mut [u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] triangles: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] nodes: &mut [Node],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] starts: &[Start],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] list: &[u32],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] steps: &[Step],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] arrivals: &mut [u32],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] triangles: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] nodes: &mut [Node],
 ) {
-    let mut at = start(id, push);
-    let mut left = MOST_STEPS;
-    while at < steps.len() as u32 && left > 0 {
-        left -= 1;
-        let node = steps[at as usize].node;
+    let start = start(id, push, starts);
+    let mut entry = start.first;
+    while entry < start.end && entry < list.len() as u32 {
+        let node = list[entry as usize];
         if node < nodes.len() as u32 {
-            nodes[node as usize] = climb::bottom::<Node, WIDTH>(nodes, triangles, node);
+            nodes[node as usize] = refit::leaves::<Node, WIDTH>(nodes, triangles, node);
         }
-        at = next(steps, arrivals, at);
+        entry += 1;
     }
+    climb(start.step, steps, arrivals, nodes);
 }
 
 /// The top level, in the same way; the roots of the bottom levels are refitted before.
@@ -44,32 +45,54 @@ pub fn refit_climb(
 pub fn refit_climb_top(
     #[spirv(global_invocation_id)] id: UVec3,
     #[spirv(push_constant)] push: &RefitPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] steps: &[Step],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] arrivals: &mut [u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] instances: &[Instance],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] roots: &[BlasRoot],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] nodes: &mut [Node],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] starts: &[Start],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] list: &[u32],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] steps: &[Step],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] arrivals: &mut [u32],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] roots: &[BlasRoot],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] nodes: &mut [Node],
 ) {
-    let mut at = start(id, push);
+    let start = start(id, push, starts);
+    let mut entry = start.first;
+    while entry < start.end && entry < list.len() as u32 {
+        let node = list[entry as usize];
+        if node < nodes.len() as u32 {
+            nodes[node as usize] = refit::mesh_leaves::<Node, Instance, WIDTH>(nodes, instances, roots, node);
+        }
+        entry += 1;
+    }
+    climb(start.step, steps, arrivals, nodes);
+}
+
+/// What an invocation begins with; nothing for those beyond the list.
+#[inline(always)]
+fn start(id: UVec3, push: &RefitPush, starts: &[Start]) -> Start {
+    let i = invocation(id);
+    let entry = push.first.wrapping_add(i);
+    let mut start = Start {
+        first: 0,
+        end: 0,
+        step: INVALID,
+    };
+    if i < push.count && entry < starts.len() as u32 {
+        start = starts[entry as usize];
+    }
+    start
+}
+
+/// Merges children from step `from` upward, as long as this invocation is the last to come to a node.
+#[inline(always)]
+fn climb(from: u32, steps: &[Step], arrivals: &mut [u32], nodes: &mut [Node]) {
+    let mut at = from;
     let mut left = MOST_STEPS;
     while at < steps.len() as u32 && left > 0 {
         left -= 1;
         let node = steps[at as usize].node;
         if node < nodes.len() as u32 {
-            nodes[node as usize] = climb::top::<Node, Instance, WIDTH>(nodes, instances, roots, node);
+            nodes[node as usize] = refit::level::<Node, WIDTH>(nodes, node);
         }
         at = next(steps, arrivals, at);
-    }
-}
-
-/// The step that an invocation starts from.
-#[inline(always)]
-fn start(id: UVec3, push: &RefitPush) -> u32 {
-    let i = invocation(id);
-    if i < push.count {
-        push.first.wrapping_add(i)
-    } else {
-        INVALID
     }
 }
 
