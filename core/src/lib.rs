@@ -76,6 +76,7 @@ extern crate alloc;
 extern crate std;
 
 pub mod bounds;
+pub mod climb;
 pub mod cone;
 pub mod exact;
 pub mod importance;

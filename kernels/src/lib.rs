@@ -13,6 +13,7 @@
 // A kernel has as many parameters as bindings.
 #![allow(clippy::too_many_arguments)]
 
+mod arrival;
 pub mod bvh;
 pub mod path;
 pub mod query;

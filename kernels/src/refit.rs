@@ -2,6 +2,10 @@
 //! section 3.4) of the nodes listed, so that only what changed costs anything. One invocation writes one node or root; a
 //! barrier stands between dispatches.
 
+mod climb;
+
+pub use climb::{refit_climb, refit_climb_top};
+
 use bytemuck::{Pod, Zeroable};
 use glam::UVec3;
 use lightbvh::refit::{self, BlasRoot};

@@ -1,6 +1,6 @@
 //! The passes on the CPU, over all cores of the current rayon pool.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use lightbvh::{INVALID, Lights, refit, traverse};
 use lightbvh_kernels::bvh::{Importance, Node, WIDTH};
@@ -9,7 +9,7 @@ use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use rayon::prelude::*;
 
-use super::{Backend, Bvh, LightScene, Sampler, SceneArrays, Structure, Timed};
+use super::{Backend, Bvh, LightScene, Sampler, SceneArrays, Structure, Timed, climb};
 use crate::render::{render, render_path};
 use crate::vulkan::VulkanError;
 
@@ -58,6 +58,18 @@ impl Backend for CpuBackend {
         }
         Ok(Timed {
             time: start.elapsed(),
+            value: self.structure.tree().nodes.to_vec(),
+        })
+    }
+
+    fn refit_once(&mut self, lights: &Lights) -> Result<Timed<Vec<Node>>, VulkanError> {
+        self.lights = lights.clone();
+        let time = match &mut self.structure {
+            Structure::Bvh(bvh) => climb::refit_once(bvh, lights),
+            Structure::Scene(_) => Duration::ZERO,
+        };
+        Ok(Timed {
+            time,
             value: self.structure.tree().nodes.to_vec(),
         })
     }

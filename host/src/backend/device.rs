@@ -13,6 +13,7 @@ use lightbvh_kernels::refit::RefitPush;
 use lightbvh_kernels::render::{RenderParams, RenderPush};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
+use super::climb::Climb;
 use super::{Backend, Bvh, LightScene, Sampler, SceneArrays, Timed};
 use crate::vulkan::{Binding, Buffer, Device, Pass, Timings, VulkanError};
 
@@ -43,6 +44,8 @@ pub struct DeviceBackend<'d> {
     /// Nodes of the top level, then those with inner children level by level.
     top_nodes: RefitPush,
     top: Vec<RefitPush>,
+    /// The plan of refits with one dispatch, made by the first of them.
+    pub(super) climb: Option<Climb>,
     pub(super) tree: TreePush,
 }
 
@@ -89,6 +92,7 @@ impl<'d> DeviceBackend<'d> {
             bottom_roots,
             top_nodes,
             top,
+            climb: None,
             tree: TreePush {
                 root: tree.root,
                 trail_words: tree.trail_words,
@@ -118,6 +122,7 @@ impl<'d> DeviceBackend<'d> {
             bottom_roots: none,
             top_nodes: none,
             top: Vec::new(),
+            climb: None,
             tree: TreePush {
                 root: tree.root,
                 trail_words: tree.trail_words,
@@ -131,6 +136,7 @@ impl<'d> DeviceBackend<'d> {
     /// # Errors
     /// [`VulkanError`] from the device.
     pub fn write_nodes(&mut self, nodes: &[Node]) -> Result<(), VulkanError> {
+        self.climb = None;
         self.nodes.write(nodes)
     }
 
@@ -199,6 +205,10 @@ impl Backend for DeviceBackend<'_> {
             value: self.nodes.read()?,
             time,
         })
+    }
+
+    fn refit_once(&mut self, lights: &Lights) -> Result<Timed<Vec<Node>>, VulkanError> {
+        self.refit_bvh_once(lights)
     }
 
     fn follow(&mut self, scene: &LightScene, lights: &Lights) -> Result<Timed<()>, VulkanError> {

@@ -78,7 +78,7 @@ impl DeviceBackend<'_> {
     }
 
     /// Makes the device's arrays those of `scene`, but for the bounds that are refitted.
-    fn copy_changes(&mut self, scene: &LightScene, lights: &Lights) -> Result<(), VulkanError> {
+    pub(super) fn copy_changes(&mut self, scene: &LightScene, lights: &Lights) -> Result<(), VulkanError> {
         let (device, tree, work) = (self.device, scene.tree(), scene.work());
         let words = tree.trail_words as usize;
         let trails: Vec<_> = work

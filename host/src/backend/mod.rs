@@ -1,6 +1,7 @@
 //! What runs the passes: the CPU over all its cores, or a Vulkan device. Both run the same functions on the same arrays,
 //! so [`compare`](crate::compare) may ask for equal words.
 
+mod climb;
 mod cpu;
 mod device;
 mod follow;
@@ -53,6 +54,14 @@ pub trait Backend {
     /// # Errors
     /// [`VulkanError`] from a device.
     fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<Node>>, VulkanError>;
+
+    /// As [`refit`](Self::refit), to the same words, but with one dispatch for all bottom levels and one for the top level:
+    /// each invocation goes up from a lowest node, and on from each node only if all below it is done. The CPU does this
+    /// with one thread.
+    ///
+    /// # Errors
+    /// [`VulkanError`] from a device.
+    fn refit_once(&mut self, lights: &Lights) -> Result<Timed<Vec<Node>>, VulkanError>;
 
     /// Takes over what [`plan`](lightbvh::Scene::plan) says has changed in `scene`, and refits it here. Planned frames must
     /// be followed without gaps, each before it is refitted in `scene` itself; `lights` are its lights in the world.

@@ -42,6 +42,8 @@ pub(super) struct Args {
 #[derive(Clone, Debug, Serialize)]
 struct Case {
     what: &'static str,
+    /// Of a refit: `levels`, with one dispatch after the other, or `single`, with one for each level of a two-level BVH.
+    passes: Option<&'static str>,
     structure: &'static str,
     lights: u32,
     backend: String,
@@ -87,10 +89,11 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         let copy = median(&measure(|| target.copy_from_slice(black_box(words))));
         let copy = copy.as_secs_f64() * bvh.bytes() as f64 / size_of_val(words) as f64;
 
-        let mut push = |what, backend: &str, threads, times: &[Duration], items: u32| {
+        let mut push = |(what, passes), backend: &str, threads, times: &[Duration], items: u32| {
             let ns = |time: Duration| time.as_nanos() as f64 / f64::from(items);
             cases.push(Case {
                 what,
+                passes,
                 structure: structure.name(),
                 lights: args.lights,
                 backend: backend.to_owned(),
@@ -102,9 +105,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                 copies: median(times).as_secs_f64() / copy,
             });
         };
-        push("build", "cpu", 1, &build_times, args.lights);
+        push(("build", None), "cpu", 1, &build_times, args.lights);
         if all > 1 {
-            push("build", "cpu", all, &build_times_all, args.lights);
+            push(("build", None), "cpu", all, &build_times_all, args.lights);
         }
         // One thread as an engine embeds the library, whose mesh lights lie in world space; all threads through the backend.
         let single = library_passes(structure, &lights, &queries);
@@ -114,16 +117,19 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             results.push((all, passes(&mut cpu, &lights, &queries)?));
         }
         for (threads, times) in &results {
-            push("refit", "cpu", *threads, &times.refit, args.lights);
-            push("sample", "cpu", *threads, &times.sample, QUERIES);
-            push("pmf", "cpu", *threads, &times.pmf, QUERIES);
+            push(LEVELS, "cpu", *threads, &times.refit, args.lights);
+            push(("sample", None), "cpu", *threads, &times.sample, QUERIES);
+            push(("pmf", None), "cpu", *threads, &times.pmf, QUERIES);
         }
+        let once = one.install(|| passes(&mut cpu, &lights, &queries))?.refit_once;
+        push(SINGLE, "cpu", 1, &once, args.lights);
         for o in &opened {
             let mut device = DeviceBackend::new(&o.device, &bvh, &lights)?;
             let times = passes(&mut device, &lights, &queries)?;
-            push("refit", o.device.name(), 0, &times.refit, args.lights);
-            push("sample", o.device.name(), 0, &times.sample, QUERIES);
-            push("pmf", o.device.name(), 0, &times.pmf, QUERIES);
+            push(LEVELS, o.device.name(), 0, &times.refit, args.lights);
+            push(SINGLE, o.device.name(), 0, &times.refit_once, args.lights);
+            push(("sample", None), o.device.name(), 0, &times.sample, QUERIES);
+            push(("pmf", None), o.device.name(), 0, &times.pmf, QUERIES);
         }
     }
     devices::close(opened)?;
@@ -132,9 +138,14 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     Ok(Outcome::Good)
 }
 
+/// The two ways to refit. On the CPU the second takes one thread.
+const LEVELS: (&str, Option<&str>) = ("refit", Some("levels"));
+const SINGLE: (&str, Option<&str>) = ("refit", Some("single"));
+
 /// Times of several runs of each pass.
 struct Times {
     refit: Vec<Duration>,
+    refit_once: Vec<Duration>,
     sample: Vec<Duration>,
     pmf: Vec<Duration>,
 }
@@ -142,12 +153,14 @@ struct Times {
 fn passes(backend: &mut dyn Backend, lights: &Lights, queries: &[Query]) -> Result<Times, HostError> {
     let mut times = Times {
         refit: Vec::new(),
+        refit_once: Vec::new(),
         sample: Vec::new(),
         pmf: Vec::new(),
     };
     // A device compiles at the first dispatch; that run is not counted.
     for run in 0..=RUNS {
         let refit = backend.refit(lights)?.time;
+        let refit_once = backend.refit_once(lights)?.time;
         let sampled = backend.sample(queries)?;
         let asked: Vec<Query> = queries
             .iter()
@@ -160,6 +173,7 @@ fn passes(backend: &mut dyn Backend, lights: &Lights, queries: &[Query]) -> Resu
         let pmf = backend.pmf(&asked)?.time;
         if run > 0 {
             times.refit.push(refit);
+            times.refit_once.push(refit_once);
             times.sample.push(sampled.time);
             times.pmf.push(pmf);
         }
@@ -188,7 +202,12 @@ fn library_passes(structure: Sampler, lights: &Lights, queries: &[Query]) -> Tim
         }
     });
     black_box((&sampled, &pmfs));
-    Times { refit, sample, pmf }
+    Times {
+        refit,
+        refit_once: Vec::new(),
+        sample,
+        pmf,
+    }
 }
 
 fn measure(mut work: impl FnMut()) -> Vec<Duration> {
@@ -267,6 +286,7 @@ fn print(context: &Context, cases: &[Case], trade: &[trade::Row]) -> Result<(), 
     }
     let header = [
         "what",
+        "passes",
         "structure",
         "lights",
         "backend",
@@ -282,6 +302,7 @@ fn print(context: &Context, cases: &[Case], trade: &[trade::Row]) -> Result<(), 
         .map(|c| {
             vec![
                 c.what.to_owned(),
+                c.passes.unwrap_or("-").to_owned(),
                 c.structure.to_owned(),
                 c.lights.to_string(),
                 c.backend.clone(),

@@ -22,6 +22,8 @@ pub(crate) const MODULES: &[Module] = &[
     module!("refit_level"),
     module!("refit_roots"),
     module!("refit_instances"),
+    module!("refit_climb"),
+    module!("refit_climb_top"),
     module!("sample"),
     module!("pmf"),
     module!("render_uniform"),

@@ -1,6 +1,7 @@
 //! What a module may contain, and what to write instead of the rest.
 
 use super::Refusal;
+use crate::publish::is_atomic;
 use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Capability, GlslStd450Op as GLOp, Op};
 
@@ -37,6 +38,14 @@ pub(super) fn operation(op: Op) -> Result<(), Refusal> {
         Op::AtomicFAddEXT | Op::AtomicFMinEXT | Op::AtomicFMaxEXT => refuse(
             "float atomics depend on the order of arrival",
             "let one invocation compute in a fixed order",
+        ),
+        _ if is_atomic(op) => refuse(
+            "what atomics give depends on the order of arrival",
+            "count arrivals with `arrive` (kernels/src/arrival.rs), and let the last one compute",
+        ),
+        Op::ControlBarrier | Op::MemoryBarrier => refuse(
+            "no kernel waits for other invocations, and arrivals order memory by themselves",
+            "use one dispatch after the other",
         ),
         _ => refuse(
             "not among the operations known to be exact and everywhere",
@@ -135,12 +144,10 @@ fn is_structure(op: Op) -> bool {
             | Op::VectorInsertDynamic
             | Op::Select
             | Op::Bitcast
-            | Op::ControlBarrier
-            | Op::MemoryBarrier
     )
 }
 
-/// Integer and boolean operations, atomics among them.
+/// Integer and boolean operations, the counting of arrivals among them.
 fn is_integer(op: Op) -> bool {
     matches!(
         op,
@@ -186,21 +193,8 @@ fn is_integer(op: Op) -> bool {
             | Op::LogicalNotEqual
             | Op::Any
             | Op::All
-            | Op::AtomicLoad
-            | Op::AtomicStore
-            | Op::AtomicExchange
-            | Op::AtomicCompareExchange
-            | Op::AtomicIIncrement
-            | Op::AtomicIDecrement
+            // Further conditions in `arrivals`.
             | Op::AtomicIAdd
-            | Op::AtomicISub
-            | Op::AtomicSMin
-            | Op::AtomicUMin
-            | Op::AtomicSMax
-            | Op::AtomicUMax
-            | Op::AtomicAnd
-            | Op::AtomicOr
-            | Op::AtomicXor
     )
 }
 
