@@ -7,8 +7,8 @@ use lightbvh::exact::hash;
 use serde_json::{Value, json};
 
 use crate::backend::{
-    Backend, Bvh, CandidateSource, CpuBackend, CpuRestir, DeviceBackend, DeviceRestir, Restir, RestirFrame,
-    RestirOptions, Sampler, SceneArrays, picker,
+    Backend, Bvh, CandidateSource, CpuBackend, CpuRestir, DeviceBackend, DeviceRestir,
+    MAX_SAMPLES_PER_INVOCATION, Restir, RestirFrame, RestirOptions, Sampler, SceneArrays, picker,
 };
 use crate::render::Film;
 use crate::vulkan::{Device, VulkanError};
@@ -16,10 +16,6 @@ use crate::workload::{Shot, build};
 
 /// Number of camera rays per pixel that makes edges smooth; the light samples of a pixel are shared out among them.
 const MAX_CAMERA_RAYS: u32 = 8;
-/// Most light samples that one invocation takes: llvmpipe leaves all loops of an invocation after some 65,000 iterations,
-/// silently.
-const MAX_SAMPLES_PER_PART: u32 = 8;
-
 /// What light is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Integrator {
@@ -36,7 +32,8 @@ impl Integrator {
     /// Into how many parts the samples of a pixel are shared out, each with a camera ray of its own: of light samples, as
     /// few as make edges smooth; of paths, one part each. A part is one invocation on a device.
     fn parts(self, samples: u32) -> u32 {
-        let fits = |&parts: &u32| samples.is_multiple_of(parts) && samples / parts <= MAX_SAMPLES_PER_PART;
+        let fits =
+            |&parts: &u32| samples.is_multiple_of(parts) && samples / parts <= MAX_SAMPLES_PER_INVOCATION;
         match self {
             Self::Direct if samples <= MAX_CAMERA_RAYS => samples,
             Self::Direct => (MAX_CAMERA_RAYS..=samples).find(fits).unwrap_or(samples),
