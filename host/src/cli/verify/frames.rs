@@ -59,10 +59,7 @@ pub(super) fn compare(
             lanes = start(&step, &arrays, targets)?;
         } else {
             for lane in &mut lanes {
-                lane.cpu.advance(&step)?;
-                for device in &mut lane.devices {
-                    device.advance(&step)?;
-                }
+                lane.advance(&step)?;
             }
         }
         for lane in &mut lanes {
@@ -98,6 +95,14 @@ fn start<'d>(
 }
 
 impl Lane<'_> {
+    fn advance(&mut self, step: &Step<'_>) -> Result<(), HostError> {
+        self.cpu.advance(step)?;
+        for device in &mut self.devices {
+            device.advance(step)?;
+        }
+        Ok(())
+    }
+
     /// Everything that the method has at the frame last advanced to.
     fn compare(
         &mut self,
