@@ -73,14 +73,30 @@ fn verify_compares_words_on_every_device() {
         "street",
         "--seed",
         "7",
+        "--frames",
+        "0..3",
+        "--frame-queries",
+        "64",
+        "--refits",
+        "2",
     ]);
     assert_eq!(report["different"], 0);
     assert_eq!(report["cpu_different"], 0);
+    assert_eq!(report["frames"], serde_json::json!({ "start": 0, "end": 3 }));
     for device in report["devices"].as_array().expect("devices") {
         assert_eq!(device["different"], 0, "{device}");
         assert_eq!(device["exact"], true, "{device}");
-        assert!(device["samples"].as_u64() >= Some(3000));
-        assert!(device["pmfs"].as_u64() >= Some(3000));
+        // Four methods with a light BVH over three frames.
+        let queries = 3000 + 4 * 3 * 64;
+        assert!(device["samples"].as_u64() >= Some(queries));
+        assert!(device["pmfs"].as_u64() >= Some(queries));
+        let words = device["words"].as_object().expect("words by kind");
+        for kind in ["nodes", "samples", "pmfs", "pixels", "surfaces", "reservoirs"] {
+            assert!(words[kind]["compared"].as_u64() > Some(0), "{kind}: {device}");
+            assert_eq!(words[kind]["different"], 0, "{kind}: {device}");
+        }
+        let all: u64 = words.values().filter_map(|kind| kind["compared"].as_u64()).sum();
+        assert_eq!(device["compared"], all);
         assert!(device["nodes"].as_u64() > Some(0));
         assert!(device["pixels"].as_u64() > Some(0));
         assert!(device["name"].is_string() && device["driver"].is_string());
@@ -164,6 +180,7 @@ fn every_sampler_and_heuristic_renders() {
         "uniform",
         "power",
         "single-level",
+        "single-level-rebuilt",
         "two-level",
         "restir",
         "bvh-restir",
@@ -268,7 +285,7 @@ fn sequences_are_numbered_and_hold_what_single_frames_do() {
         "cpu",
         "--json",
     ];
-    for sampler in ["power", "two-level", "bvh-restir"] {
+    for sampler in ["power", "single-level-rebuilt", "two-level", "bvh-restir"] {
         let out = folder.file(&format!("{sampler}.exr"));
         let args = [
             "render",
@@ -292,7 +309,7 @@ fn sequences_are_numbered_and_hold_what_single_frames_do() {
             assert!(Path::new(frame["output"].as_str().expect("a path")).exists());
         }
         assert!(!Path::new(&out).exists());
-        // Nothing is carried from frame to frame without a tree, and the same history where it starts at frame 0.
+        // Nothing is carried from frame to frame without a tree or with a new one, and the same history where it starts at frame 0.
         if sampler != "two-level" {
             let single = folder.file("single.exr");
             let args = [
@@ -338,6 +355,58 @@ fn sequences_are_numbered_and_hold_what_single_frames_do() {
         &image,
     ]);
     assert!(said.contains("--spp 65"), "{said}");
+}
+
+#[test]
+fn animations_of_moving_lights_give_the_same_files_on_both_processors() {
+    let folder = Folder::new("moving");
+    let device = has_device();
+    // 17 samples are more than one invocation takes, and not a multiple of what it takes.
+    for (sampler, spp) in [
+        ("single-level-rebuilt", "17"),
+        ("two-level", "17"),
+        ("bvh-restir", "1"),
+    ] {
+        let mut files = Vec::new();
+        for backend in ["cpu", "vulkan"] {
+            if backend == "vulkan" && !device {
+                continue;
+            }
+            let out = folder.file(&format!("{sampler}-{backend}.exr"));
+            json(&[
+                "render",
+                "square",
+                "--sampler",
+                sampler,
+                "--animate",
+                "8..11",
+                "--width",
+                "16",
+                "--height",
+                "9",
+                "--spp",
+                spp,
+                "--backend",
+                backend,
+                "-o",
+                &out,
+                "--json",
+            ]);
+            let frames = (8..11).map(|n| {
+                let file = folder.file(&format!("{sampler}-{backend}-{n:04}.exr"));
+                std::fs::read(file).expect("an image")
+            });
+            files.push(frames.collect::<Vec<_>>());
+        }
+        assert!(
+            files[0][0] != files[0][1] && files[0][1] != files[0][2],
+            "{sampler}: nothing moves"
+        );
+        assert!(
+            files.windows(2).all(|pair| pair[0] == pair[1]),
+            "{sampler}: the images differ"
+        );
+    }
 }
 
 #[test]

@@ -6,9 +6,11 @@ use lightbvh::{INVALID, Lights, refit, traverse};
 use lightbvh_kernels::bvh::{Importance, Node, WIDTH};
 use lightbvh_kernels::query::{Query, Sampled};
 use lightbvh_kernels::render::RenderParams;
+use lightbvh_kernels::shading::path::MAX_BOUNCES;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use rayon::prelude::*;
 
+use super::parts::{MAX_SAMPLES_PER_INVOCATION, in_parts, paths_per_invocation};
 use super::{Backend, Bvh, LightScene, Sampler, SceneArrays, Structure, Timed, climb};
 use crate::render::{render, render_path};
 use crate::vulkan::VulkanError;
@@ -140,7 +142,9 @@ impl Backend for CpuBackend {
         params: &RenderParams,
         sampler: Sampler,
     ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
-        Ok(self.shade(scene, sampler, Direct(params)))
+        in_parts(params, MAX_SAMPLES_PER_INVOCATION, |params| {
+            Ok(self.shade(scene, sampler, Direct(params)))
+        })
     }
 
     fn render_path(
@@ -150,7 +154,9 @@ impl Backend for CpuBackend {
         bounces: u32,
         sampler: Sampler,
     ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
-        Ok(self.shade(scene, sampler, Paths(params, bounces)))
+        in_parts(params, paths_per_invocation(bounces.min(MAX_BOUNCES)), |params| {
+            Ok(self.shade(scene, sampler, Paths(params, bounces)))
+        })
     }
 }
 

@@ -14,6 +14,7 @@ use lightbvh_kernels::render::{RenderParams, RenderPush};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
 use super::climb::Climb;
+use super::parts::{MAX_SAMPLES_PER_INVOCATION, in_parts, paths_per_invocation};
 use super::{Backend, Bvh, LightScene, Sampler, SceneArrays, Timed};
 use crate::vulkan::{Binding, Buffer, Device, Pass, Timings, VulkanError};
 
@@ -249,14 +250,16 @@ impl Backend for DeviceBackend<'_> {
             Sampler::SingleLevel | Sampler::TwoLevel => "render_bvh",
         };
         let tree = self.tree;
-        let per_pass = SAMPLES_PER_PASS / usize::max(params.samples as usize, 1);
-        self.shade(scene, params, sampler, kernel, per_pass, |first, count| {
-            RenderPush {
-                params: *params,
-                first,
-                count,
-                tree,
-            }
+        let per_pass = SAMPLES_PER_PASS / params.samples.clamp(1, MAX_SAMPLES_PER_INVOCATION) as usize;
+        in_parts(params, MAX_SAMPLES_PER_INVOCATION, |params| {
+            self.shade(scene, params, sampler, kernel, per_pass, |first, count| {
+                RenderPush {
+                    params: *params,
+                    first,
+                    count,
+                    tree,
+                }
+            })
         })
     }
 
@@ -273,16 +276,19 @@ impl Backend for DeviceBackend<'_> {
             Sampler::SingleLevel | Sampler::TwoLevel => "path_bvh",
         };
         let tree = self.tree;
-        let surfaces = (params.samples as usize).saturating_mul(bounces.min(MAX_BOUNCES) as usize + 1);
-        let per_pass = SURFACES_PER_PASS / usize::max(surfaces, 1);
-        self.shade(scene, params, sampler, kernel, per_pass, |first, count| {
-            PathPush {
-                params: *params,
-                bounces,
-                first,
-                count,
-                tree,
-            }
+        let bounces = bounces.min(MAX_BOUNCES);
+        let most = paths_per_invocation(bounces);
+        let per_pass = SURFACES_PER_PASS / (params.samples.clamp(1, most) * (bounces + 1)) as usize;
+        in_parts(params, most, |params| {
+            self.shade(scene, params, sampler, kernel, per_pass, |first, count| {
+                PathPush {
+                    params: *params,
+                    bounces,
+                    first,
+                    count,
+                    tree,
+                }
+            })
         })
     }
 }

@@ -5,12 +5,14 @@ mod climb;
 mod cpu;
 mod device;
 mod follow;
+mod parts;
 mod restir;
 mod scene;
 mod structure;
 
 pub use cpu::CpuBackend;
 pub use device::DeviceBackend;
+pub use parts::MAX_SAMPLES_PER_INVOCATION;
 pub use restir::{
     CandidateSource, Combination, CpuRestir, DeviceRestir, LightRemap, RESERVOIR_RECORD, Restir, RestirFrame,
     RestirOptions, SURFACE_RECORD,
@@ -88,7 +90,8 @@ pub trait Backend {
     /// [`VulkanError`] from a device.
     fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, VulkanError>;
 
-    /// Renders direct lighting with lights chosen by `sampler`; the light BVH's samplers use this backend's BVH.
+    /// Renders direct lighting with lights chosen by `sampler`; the light BVH's samplers use this backend's BVH. More than
+    /// [`MAX_SAMPLES_PER_INVOCATION`] samples are the mean of several images, the same ones on every backend.
     ///
     /// # Errors
     /// [`VulkanError`] from a device.
@@ -101,8 +104,7 @@ pub trait Backend {
 
     /// Renders light along paths of up to `bounces` reflections, at most
     /// [`MAX_BOUNCES`](lightbvh_kernels::shading::path::MAX_BOUNCES), with lights chosen as by [`render`](Self::render);
-    /// [`RenderParams::samples`] counts paths: few, since one invocation follows them all, and llvmpipe silently leaves the
-    /// loops of an invocation after some 65,000 iterations. More are better asked for in several calls with other seeds.
+    /// [`RenderParams::samples`] counts paths, which are shared out over several images where they are many or long.
     ///
     /// # Errors
     /// [`VulkanError`] from a device.

@@ -6,6 +6,7 @@ mod compare;
 mod demo;
 mod devices;
 mod export;
+mod frames;
 mod info;
 mod render;
 mod table;

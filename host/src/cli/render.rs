@@ -11,14 +11,15 @@ use lightbvh::{BuildParams, Heuristic};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 use serde_json::{Value, json};
 
-use super::{Context, Outcome, devices, table};
+use super::{Context, Outcome, devices, frames, table};
 use crate::backend::{Combination, SceneArrays};
 use crate::error::HostError;
+use crate::method::{Step, Target};
 use crate::scene::Scene;
 use crate::vulkan::{Device, VulkanError};
 use crate::workload::{Shot, arrays_at};
-use images::{Integrator, Method, images};
-use options::{IntegratorName, SamplerName, frames, numbered};
+use images::{Images, Integrator, Method};
+use options::{IntegratorName, SamplerName, numbered};
 
 /// Frames that ReSTIR runs through before the first one shown, where there are as many before it.
 const WARM_UP: u32 = 8;
@@ -32,9 +33,10 @@ pub(super) struct Args {
     /// Frame of the animation, 25 per second.
     #[arg(long, default_value_t = 0)]
     frame: u32,
-    /// Render frames A to B (B left out) into files numbered by frame: FILE-0000.png and so on. The light BVH is built for
-    /// the first frame and refitted for each other.
-    #[arg(long, value_name = "A..B", value_parser = frames, conflicts_with = "frame")]
+    /// Render frames A to B (B left out) into files numbered by frame: FILE-0000.png and so on. A light BVH is built for
+    /// the first frame and follows the lights from there on: a single level is refitted, of two levels the upper one is
+    /// also rebuilt beside each frame and swapped in at the next.
+    #[arg(long, value_name = "A..B", value_parser = frames::parse, conflicts_with = "frame")]
     animate: Option<Range<u32>>,
     /// Columns, 1 to 16384.
     #[arg(long, default_value_t = 640)]
@@ -200,8 +202,9 @@ impl Sequence<'_> {
         };
         let start = shown.start.saturating_sub(warm_up);
         let first = self.arrays(start)?;
-        let heuristic = args.heuristic.params();
-        let mut images = images(self.method, &heuristic, device, &first, self.samples)?;
+        let step = self.step(start, &first);
+        let target = device.map_or(Target::Cpu, Target::Device);
+        let mut images = Images::new(self.method, args.heuristic.params(), target, &step)?;
         let mut exposure = args.exposure;
         let mut reports = Vec::new();
         let mut arrays = Some(first);
@@ -217,7 +220,7 @@ impl Sequence<'_> {
                 samples: self.samples,
                 seed: args.seed,
             };
-            let image = images.next(&arrays, &shot, self.scene.frame(frame).background)?;
+            let image = images.next(&self.step(frame, &arrays), &arrays, &shot)?;
             if frame < shown.start {
                 continue;
             }
@@ -242,6 +245,14 @@ impl Sequence<'_> {
             reports.push(report);
         }
         Ok(reports)
+    }
+
+    fn step<'b>(&'b self, frame: u32, arrays: &'b SceneArrays) -> Step<'b> {
+        Step {
+            scene: self.scene,
+            frame,
+            lights: &arrays.lights,
+        }
     }
 
     fn arrays(&self, frame: u32) -> Result<Arc<SceneArrays>, HostError> {

@@ -1,32 +1,27 @@
-//! `lightbvh verify`: refit, sample, pmf, images by every integrator on every device against the CPU, word for word.
+//! `lightbvh verify`: refit, sample, pmf, images by every integrator, and every method over frames of an animation, on every
+//! device against the CPU, word for word.
 
+mod frames;
+mod queries;
+mod refits;
 mod restir;
+mod structures;
+mod tally;
 
-use bytemuck::cast_slice;
+use std::ops::Range;
+use std::time::Duration;
+
 use indicatif::{ProgressBar, ProgressStyle};
-use lightbvh::BuildParams;
-use lightbvh::exact::hash;
-use lightbvh_kernels::query::{Query, Sampled};
 use serde::Serialize;
 
-use super::devices::{self, Opened};
+use super::devices;
 use super::{Context, Outcome, table};
-use crate::backend::{
-    Backend, Bvh, CpuBackend, DeviceBackend, NODE_RECORD, PIXEL_RECORD, PMF_RECORD, SAMPLED_RECORD, Sampler,
-    SceneArrays,
-};
-use crate::compare::{Record, compare_words};
+use crate::backend::Sampler;
 use crate::error::HostError;
+use crate::method::Target;
 use crate::scene::{BUILT_IN, Scene};
-use crate::workload::{Shot, arrays_at, build, lights_at, queries};
-
-/// Queries answered at a time.
-const BATCH: u32 = 1 << 19;
-/// Frame at which the trees are built, and the frames that they are refitted to.
-const BUILD_FRAME: u32 = 0;
-const REFIT_FRAMES: [u32; 2] = [40, 110];
-/// Most reflections of the paths that are compared: enough for some to end by chance.
-const BOUNCES: u32 = 5;
+use structures::Structures;
+use tally::Tally;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -36,33 +31,19 @@ pub(super) struct Args {
     /// Seed of the queries.
     #[arg(long, default_value_t = 1)]
     seed: u32,
+    /// Frames A to B (B left out) that every method is brought through in order on the CPU and each device, rebuilds
+    /// included, comparing nodes, samples, pmfs, images and ReSTIR's reservoirs in each; 0..150 is the paper's animation.
+    #[arg(long, value_name = "A..B", value_parser = super::frames::parse, default_value = "0..3")]
+    frames: Range<u32>,
+    /// Lights to sample and pmfs to evaluate per method and frame of --frames.
+    #[arg(long, default_value_t = 256)]
+    frame_queries: u32,
+    /// Refit that many more frames of every scene by either structure: the cheapest way to compare many words.
+    #[arg(long, default_value_t = 0)]
+    refits: u32,
     /// Scenes, built-in or files; all built-in ones by default. May be repeated.
     #[arg(long)]
     scene: Vec<String>,
-}
-
-/// What was compared with one device.
-#[derive(Clone, Debug, Default, Serialize)]
-struct Tally {
-    compared: u64,
-    different: u64,
-    nodes: u64,
-    samples: u64,
-    pmfs: u64,
-    pixels: u64,
-    first_difference: Option<String>,
-}
-
-impl Tally {
-    fn take(&mut self, what: &str, record: &Record, cpu: &[u32], device: &[u32]) -> Result<(), HostError> {
-        let comparison = compare_words(record, cpu, device)?;
-        self.compared += comparison.compared;
-        self.different += comparison.different;
-        if let (None, Some(first)) = (&self.first_difference, comparison.first) {
-            self.first_difference = Some(format!("{what}: {first}"));
-        }
-        Ok(())
-    }
 }
 
 #[derive(Serialize)]
@@ -81,6 +62,9 @@ struct Report {
     queries: u64,
     seed: u32,
     scenes: Vec<String>,
+    frames: Range<u32>,
+    frame_queries: u32,
+    refits: u32,
     /// Words that the CPU came by in two ways (sampled pmfs evaluated again, nodes refitted in one go), and those that came
     /// out otherwise.
     cpu_compared: u64,
@@ -99,10 +83,10 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         .map(|name| Scene::open(name))
         .collect::<Result<Vec<_>, _>>()?;
     let opened = devices::open(context)?;
-    let mut run = Run {
+    let mut run = Structures {
         tallies: vec![Tally::default(); opened.len()],
         cpu: Tally::default(),
-        progress: progress(args.queries, context.json),
+        progress: progress(args.queries, "queries", context.json),
     };
     let shares = scenes.len() as u64 * 2;
     for scene in &scenes {
@@ -111,7 +95,32 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         }
     }
     run.progress.finish_and_clear();
-    let Run { tallies, cpu, .. } = run;
+    let Structures {
+        mut tallies, mut cpu, ..
+    } = run;
+
+    let plan = frames::Plan {
+        frames: args.frames.clone(),
+        queries: args.frame_queries,
+        seed: args.seed,
+    };
+    let targets: Vec<_> = opened.iter().map(|o| Target::Device(&o.device)).collect();
+    let bar = progress((args.frames.len() * scenes.len()) as u64, "frames", context.json);
+    for scene in &scenes {
+        frames::compare(scene, &plan, &targets, &mut tallies, &mut cpu, &bar)?;
+    }
+    bar.finish_and_clear();
+    if args.refits > 0 {
+        let bar = progress(
+            u64::from(args.refits) * scenes.len() as u64,
+            "refits",
+            context.json,
+        );
+        for scene in &scenes {
+            refits::compare(scene, args.refits, &opened, &mut tallies, &bar)?;
+        }
+        bar.finish_and_clear();
+    }
 
     let report = Report {
         compared: tallies.iter().map(|tally| tally.compared).sum(),
@@ -119,6 +128,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         queries: args.queries,
         seed: args.seed,
         scenes: names,
+        frames: args.frames.clone(),
+        frame_queries: args.frame_queries,
+        refits: args.refits,
         cpu_compared: cpu.compared,
         cpu_different: cpu.different,
         devices: opened
@@ -145,175 +157,15 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     })
 }
 
-struct Run {
-    tallies: Vec<Tally>,
-    cpu: Tally,
-    progress: ProgressBar,
-}
-
-impl Run {
-    /// Everything about one structure over one scene.
-    fn structure(
-        &mut self,
-        scene: &Scene,
-        sampler: Sampler,
-        opened: &[Opened],
-        count: u64,
-        seed: u32,
-    ) -> Result<(), HostError> {
-        let what = |kernel: &str| format!("{} {} {kernel}", scene.name(), sampler.name());
-        let lights = lights_at(scene, BUILD_FRAME)?;
-        let bvh: Bvh = build(&lights, sampler, &BuildParams::default());
-        let mut cpu = CpuBackend::new(bvh.clone(), lights.clone());
-        let mut devices = opened
-            .iter()
-            .map(|o| DeviceBackend::new(&o.device, &bvh, &lights))
-            .collect::<Result<Vec<_>, _>>()?;
-
-        for frame in REFIT_FRAMES {
-            let lights = lights_at(scene, frame)?;
-            let expected = cpu.refit(&lights)?.value;
-            for (device, tally) in devices.iter_mut().zip(&mut self.tallies) {
-                let found = device.refit(&lights)?.value;
-                tally.nodes += expected.len() as u64;
-                tally.take(
-                    &what("refit"),
-                    &NODE_RECORD,
-                    cast_slice(&expected),
-                    cast_slice(&found),
-                )?;
-            }
-        }
-        self.single_dispatch(scene, &what("refit with one dispatch"), &mut cpu, &mut devices)?;
-
-        let shot = Shot {
-            frame: REFIT_FRAMES[REFIT_FRAMES.len() - 1],
-            width: 96,
-            height: 54,
-            samples: 2,
-            seed,
-        };
-        let arrays = arrays_at(scene, shot.frame, shot.width, shot.height)?;
-        let mut first = 0;
-        while first < count {
-            let batch = u64::min(count - first, BATCH.into()) as u32;
-            let asked = queries(&arrays, hash(seed), first as u32, batch);
-            self.batch(&what, &mut cpu, &mut devices, asked)?;
-            first += u64::from(batch);
-        }
-        self.images(scene, sampler, &arrays, &shot, &mut cpu, &mut devices)?;
-        restir::compare(scene, sampler, &shot, opened, &mut self.tallies)
-    }
-
-    /// The refits again, each level in one dispatch; to the last frame at the end, as before.
-    fn single_dispatch(
-        &mut self,
-        scene: &Scene,
-        what: &str,
-        cpu: &mut CpuBackend,
-        devices: &mut [DeviceBackend<'_>],
-    ) -> Result<(), HostError> {
-        for frame in REFIT_FRAMES {
-            let lights = lights_at(scene, frame)?;
-            // From the nodes of another frame, as on the devices: none is as it should be already.
-            let climbed = cpu.refit_once(&lights)?.value;
-            let expected = cpu.refit(&lights)?.value;
-            self.cpu
-                .take(what, &NODE_RECORD, cast_slice(&expected), cast_slice(&climbed))?;
-            for (device, tally) in devices.iter_mut().zip(&mut self.tallies) {
-                let found = device.refit_once(&lights)?.value;
-                tally.nodes += expected.len() as u64;
-                tally.take(what, &NODE_RECORD, cast_slice(&expected), cast_slice(&found))?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Sample, then pmf: of the light sampled for every query but each eighth, which asks for some light.
-    fn batch(
-        &mut self,
-        what: &impl Fn(&str) -> String,
-        cpu: &mut CpuBackend,
-        devices: &mut [DeviceBackend<'_>],
-        mut asked: Vec<Query>,
-    ) -> Result<(), HostError> {
-        let sampled: Vec<Sampled> = cpu.sample(&asked)?.value;
-        for (device, tally) in devices.iter_mut().zip(&mut self.tallies) {
-            let found = device.sample(&asked)?.value;
-            tally.samples += found.len() as u64;
-            tally.take(
-                &what("sample"),
-                &SAMPLED_RECORD,
-                cast_slice(&sampled),
-                cast_slice(&found),
-            )?;
-        }
-        let lights = cpu.lights().triangles().len() as u32;
-        for (i, (query, sampled)) in asked.iter_mut().zip(&sampled).enumerate() {
-            query.random_or_light = if i % 8 == 7 {
-                hash(i as u32) % lights
-            } else {
-                sampled.light
-            };
-        }
-        let pmfs = cpu.pmf(&asked)?.value;
-        let again: (Vec<u32>, Vec<u32>) = asked
-            .iter()
-            .zip(sampled.iter().zip(&pmfs))
-            .filter(|(query, (sampled, _))| query.random_or_light == sampled.light)
-            .map(|(_, (sampled, pmf))| (sampled.pmf.to_bits(), pmf.to_bits()))
-            .unzip();
-        self.cpu
-            .take(&what("sample against pmf"), &PMF_RECORD, &again.0, &again.1)?;
-        for (device, tally) in devices.iter_mut().zip(&mut self.tallies) {
-            let found = device.pmf(&asked)?.value;
-            tally.pmfs += found.len() as u64;
-            tally.take(&what("pmf"), &PMF_RECORD, cast_slice(&pmfs), cast_slice(&found))?;
-        }
-        self.progress.inc(asked.len() as u64);
-        Ok(())
-    }
-
-    /// Small images, of light reflected once and of paths; those of the samplers without a tree once per scene only.
-    fn images(
-        &mut self,
-        scene: &Scene,
-        structure: Sampler,
-        arrays: &SceneArrays,
-        shot: &Shot,
-        cpu: &mut CpuBackend,
-        devices: &mut [DeviceBackend<'_>],
-    ) -> Result<(), HostError> {
-        let params = shot.params(scene.frame(shot.frame).background);
-        let others = [Sampler::Uniform, Sampler::Power].into_iter().filter(|&s| {
-            structure == Sampler::SingleLevel && (s != Sampler::Power || !arrays.thresholds.is_empty())
-        });
-        for sampler in others.chain([structure]) {
-            let expected = cpu.render(arrays, &params, sampler)?.value;
-            for (device, tally) in devices.iter_mut().zip(&mut self.tallies) {
-                let found = device.render(arrays, &params, sampler)?.value;
-                tally.pixels += found.len() as u64;
-                let what = format!("{} render {}", scene.name(), sampler.name());
-                tally.take(&what, &PIXEL_RECORD, cast_slice(&expected), cast_slice(&found))?;
-            }
-            let expected = cpu.render_path(arrays, &params, BOUNCES, sampler)?.value;
-            for (device, tally) in devices.iter_mut().zip(&mut self.tallies) {
-                let found = device.render_path(arrays, &params, BOUNCES, sampler)?.value;
-                tally.pixels += found.len() as u64;
-                let what = format!("{} path {}", scene.name(), sampler.name());
-                tally.take(&what, &PIXEL_RECORD, cast_slice(&expected), cast_slice(&found))?;
-            }
-        }
-        Ok(())
-    }
-}
-
-fn progress(queries: u64, hidden: bool) -> ProgressBar {
+fn progress(length: u64, of: &str, hidden: bool) -> ProgressBar {
     if hidden {
         return ProgressBar::hidden();
     }
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} queries, {eta} left");
-    ProgressBar::new(queries).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+    let template = format!("{{bar:40}} {{pos}}/{{len}} {of}, {{eta}} left  {{wide_msg}}");
+    let style = ProgressStyle::with_template(&template);
+    let bar = ProgressBar::new(length).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar.enable_steady_tick(Duration::from_millis(500));
+    bar
 }
 
 fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Result<(), HostError> {
@@ -348,6 +200,15 @@ fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Re
         table::print(&header, &rows)?;
     }
     for device in &report.devices {
+        for (kind, words) in &device.tally.words {
+            println!(
+                "{}: {} words of {}, {} different",
+                device.name,
+                words.compared,
+                kind.name(),
+                words.different
+            );
+        }
         if let Some(first) = &device.tally.first_difference {
             println!("{}: first difference: {first}", device.name);
         }

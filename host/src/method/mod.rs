@@ -1,6 +1,6 @@
 //! The methods that are compared: each a way to choose lights, and what it does from frame to frame to keep choosing well.
 //!
-//! A method is one file with one [`Runner`]; [`runner`] is the only place that knows them all.
+//! A method is one file with one [`Runner`]; [`runner`] makes each as the comparison has it.
 
 mod moving;
 mod no_tree;
@@ -8,13 +8,22 @@ mod restir;
 mod single_level;
 mod two_level;
 
+pub use no_tree::NoTree;
+pub use restir::{Count, Reservoirs};
+pub use single_level::SingleLevel;
+pub use two_level::TwoLevel;
+
 use std::sync::Arc;
 use std::time::Duration;
 
-use lightbvh::{Heuristic, Lights};
+use lightbvh::{BuildParams, Heuristic, Lights};
+use lightbvh_kernels::shading::restir::PixelReservoir;
+use lightbvh_kernels::shading::restir::surface::Surface;
 use serde::{Deserialize, Serialize};
 
-use crate::backend::{Backend, Bvh, CandidateSource, CpuBackend, DeviceBackend, SceneArrays, Timed};
+use crate::backend::{
+    Backend, Bvh, CandidateSource, Combination, CpuBackend, DeviceBackend, RestirOptions, SceneArrays, Timed,
+};
 use crate::error::HostError;
 use crate::scene::Scene;
 use crate::vulkan::{Device, VulkanError};
@@ -107,6 +116,9 @@ pub struct UpdateTimes {
 /// Names a sequence of images of consecutive frames.
 pub type Chain = u64;
 
+/// What a history of ReSTIR keeps from frame to frame: its G-buffer and reservoirs.
+pub type History = (Vec<Surface>, Vec<PixelReservoir>);
+
 /// A method over one scene on one backend.
 pub trait Runner {
     /// Brings the structures to the next frame. Frames come in ascending order; only methods that say so in
@@ -132,6 +144,24 @@ pub trait Runner {
 
     /// Drops what a chain left behind.
     fn end(&mut self, _chain: Chain) {}
+
+    /// What renders single images, where one does: of the frame last advanced to.
+    fn backend(&mut self) -> Option<&mut dyn Backend> {
+        None
+    }
+
+    /// What the last image of a chain left behind, history by history; nothing but of ReSTIR.
+    ///
+    /// # Errors
+    /// [`HostError`] from a device.
+    fn histories(&self, _chain: Chain) -> Result<Vec<History>, HostError> {
+        Ok(Vec::new())
+    }
+
+    /// Shadow rays that the last image of a chain traced, where they are counted.
+    fn shadow_rays(&self, _chain: Chain) -> Option<u64> {
+        None
+    }
 
     /// Whether a frame depends on the first frame and itself alone, so that those between may be left out.
     fn may_skip(&self) -> bool {
@@ -181,17 +211,24 @@ pub fn runner<'d>(
     first: &Step<'_>,
     target: Target<'d>,
 ) -> Result<Box<dyn Runner + 'd>, HostError> {
+    let params = |heuristic| BuildParams {
+        heuristic,
+        ..BuildParams::default()
+    };
+    let usual = BuildParams::default();
+    let reservoirs = |source| {
+        let options = RestirOptions::new(source, Combination::Unbiased);
+        Reservoirs::new(first, target, options, usual, Count::ShadowRays)
+    };
     Ok(match method {
-        Method::Uniform => Box::new(no_tree::NoTree::uniform(first, target)?),
-        Method::Power => Box::new(no_tree::NoTree::power(first, target)?),
-        Method::SingleLevelRefit => Box::new(single_level::SingleLevel::refitted(first, target)?),
-        Method::SingleLevelRebuilt => Box::new(single_level::SingleLevel::rebuilt(first, target)?),
-        Method::TwoLevelSah => Box::new(two_level::TwoLevel::new(first, target, Heuristic::Sah)?),
-        Method::TwoLevelSaoh => Box::new(two_level::TwoLevel::new(first, target, Heuristic::Saoh)?),
-        Method::Restir => Box::new(restir::Reservoirs::new(first, target, CandidateSource::Power)?),
-        Method::TwoLevelRestir => {
-            Box::new(restir::Reservoirs::new(first, target, CandidateSource::LightBvh)?)
-        }
+        Method::Uniform => Box::new(NoTree::uniform(first, target)?),
+        Method::Power => Box::new(NoTree::power(first, target)?),
+        Method::SingleLevelRefit => Box::new(SingleLevel::refitted(first, target, usual)?),
+        Method::SingleLevelRebuilt => Box::new(SingleLevel::rebuilt(first, target, usual)?),
+        Method::TwoLevelSah => Box::new(TwoLevel::new(first, target, params(Heuristic::Sah))?),
+        Method::TwoLevelSaoh => Box::new(TwoLevel::new(first, target, params(Heuristic::Saoh))?),
+        Method::Restir => Box::new(reservoirs(CandidateSource::Power)?),
+        Method::TwoLevelRestir => Box::new(reservoirs(CandidateSource::LightBvh)?),
     })
 }
 

@@ -13,17 +13,25 @@ use crate::render::power_thresholds;
 use crate::workload::{Shot, build};
 
 /// Lights chosen without a tree.
-pub(super) struct NoTree<'d> {
+pub struct NoTree<'d> {
     sampler: Sampler,
     backend: Box<dyn Backend + 'd>,
 }
 
 impl<'d> NoTree<'d> {
-    pub(super) fn uniform(first: &Step<'_>, target: Target<'d>) -> Result<Self, HostError> {
+    /// Every light alike.
+    ///
+    /// # Errors
+    /// [`HostError`] from a device.
+    pub fn uniform(first: &Step<'_>, target: Target<'d>) -> Result<Self, HostError> {
         Self::new(first, target, Sampler::Uniform)
     }
 
-    pub(super) fn power(first: &Step<'_>, target: Target<'d>) -> Result<Self, HostError> {
+    /// In proportion to power.
+    ///
+    /// # Errors
+    /// [`HostError`] from a device.
+    pub fn power(first: &Step<'_>, target: Target<'d>) -> Result<Self, HostError> {
         Self::new(first, target, Sampler::Power)
     }
 
@@ -63,6 +71,10 @@ impl Runner for NoTree<'_> {
             });
         }
         render(&mut *self.backend, step, arrays, shot, self.sampler)
+    }
+
+    fn backend(&mut self) -> Option<&mut dyn Backend> {
+        Some(&mut *self.backend)
     }
 
     fn may_skip(&self) -> bool {

@@ -1,4 +1,4 @@
-//! ReSTIR (Bitterli et al. 2020) without bias: candidates by power, as in its paper, or from the two-level light BVH.
+//! ReSTIR (Bitterli et al. 2020): candidates by power, as in its paper, or from the two-level light BVH.
 
 use std::collections::BTreeMap;
 use std::hint::black_box;
@@ -10,10 +10,9 @@ use lightbvh::exact::hash;
 use lightbvh_kernels::bvh::BvhPicker;
 
 use super::moving::Moving;
-use super::{Chain, Runner, Step, Target, UpdateTimes};
+use super::{Chain, History, Runner, Step, Target, UpdateTimes};
 use crate::backend::{
-    CandidateSource, Combination, CpuRestir, DeviceRestir, Restir, RestirFrame, RestirOptions, SceneArrays,
-    Timed,
+    CandidateSource, CpuRestir, DeviceRestir, Restir, RestirFrame, RestirOptions, SceneArrays, Timed,
 };
 use crate::error::HostError;
 use crate::render::power_thresholds;
@@ -22,24 +21,42 @@ use crate::workload::Shot;
 /// Frames that a history runs through before the image that counts.
 const HISTORY: u32 = 8;
 
-/// ReSTIR with as many histories per pixel as the shadow rays asked for allow.
-pub(super) struct Reservoirs<'d> {
+/// What [`Shot::samples`] counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Count {
+    /// Shadow rays per pixel, so that methods can be compared at equal cost: as many histories as cost no more, but one at
+    /// least. All look at the same points in the pixels, as the images of other methods do.
+    ShadowRays,
+    /// Histories per pixel, each with points of its own in the pixels, the same in every frame: edges become smooth.
+    Histories,
+}
+
+/// ReSTIR with one history per pixel or several that know nothing of each other.
+pub struct Reservoirs<'d> {
     options: RestirOptions,
+    count: Count,
     target: Target<'d>,
     moving: Moving,
     chains: BTreeMap<Chain, Vec<Box<dyn Restir + 'd>>>,
 }
 
 impl<'d> Reservoirs<'d> {
-    pub(super) fn new(
+    /// Before the first image; a light BVH is built as `params` say.
+    ///
+    /// # Errors
+    /// [`HostError`] for lights outside the domain.
+    pub fn new(
         first: &Step<'_>,
         target: Target<'d>,
-        source: CandidateSource,
+        options: RestirOptions,
+        params: BuildParams,
+        count: Count,
     ) -> Result<Self, HostError> {
         Ok(Self {
-            options: RestirOptions::new(source, Combination::Unbiased),
+            options,
+            count,
             target,
-            moving: Moving::new(first, BuildParams::default())?,
+            moving: Moving::new(first, params)?,
             chains: BTreeMap::new(),
         })
     }
@@ -70,7 +87,7 @@ impl Runner for Reservoirs<'_> {
         shot: &Shot,
         chain: Chain,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
-        let (options, target) = (self.options, self.target);
+        let (options, count, target) = (self.options, self.count, self.target);
         if options.source == CandidateSource::Power && arrays.thresholds.is_empty() {
             return Err(HostError::Sampler {
                 scene: step.scene.name().to_owned(),
@@ -79,7 +96,7 @@ impl Runner for Reservoirs<'_> {
             });
         }
         let histories = self.chains.entry(chain).or_insert_with(|| {
-            (0..histories(&options, shot.samples))
+            (0..count.histories(&options, shot.samples))
                 .map(|_| -> Box<dyn Restir> {
                     match target {
                         Target::Cpu => Box::new(CpuRestir::new(options)),
@@ -103,7 +120,10 @@ impl Runner for Reservoirs<'_> {
                 width: shot.width,
                 height: shot.height,
                 seed: hash(hash(shot.seed).wrapping_add(number)).wrapping_add(step.frame),
-                jitter: 0,
+                jitter: match count {
+                    Count::ShadowRays => 0,
+                    Count::Histories => number,
+                },
                 background: step.scene.data().background,
                 remap: None,
             })?;
@@ -121,6 +141,18 @@ impl Runner for Reservoirs<'_> {
         self.chains.remove(&chain);
     }
 
+    fn histories(&self, chain: Chain) -> Result<Vec<History>, HostError> {
+        let histories = self.chains.get(&chain).into_iter().flatten();
+        Ok(histories
+            .map(|history| history.state())
+            .collect::<Result<_, _>>()?)
+    }
+
+    fn shadow_rays(&self, chain: Chain) -> Option<u64> {
+        let histories = self.chains.get(&chain)?;
+        Some(histories.iter().map(|history| history.shadow_rays()).sum())
+    }
+
     fn may_skip(&self) -> bool {
         self.options.source == CandidateSource::Power
     }
@@ -130,7 +162,11 @@ impl Runner for Reservoirs<'_> {
     }
 }
 
-/// As many as cost no more than `shadow_rays` per pixel, but one at least.
-fn histories(options: &RestirOptions, shadow_rays: u32) -> u32 {
-    (shadow_rays / options.most_shadow_rays()).max(1)
+impl Count {
+    fn histories(self, options: &RestirOptions, samples: u32) -> u32 {
+        match self {
+            Self::ShadowRays => (samples / options.most_shadow_rays()).max(1),
+            Self::Histories => samples,
+        }
+    }
 }

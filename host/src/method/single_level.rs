@@ -12,24 +12,39 @@ use crate::error::HostError;
 use crate::workload::{Shot, build};
 
 /// A single-level light BVH.
-pub(super) struct SingleLevel<'d> {
+pub struct SingleLevel<'d> {
+    params: BuildParams,
     rebuilds: bool,
     target: Target<'d>,
     backend: Box<dyn Backend + 'd>,
 }
 
 impl<'d> SingleLevel<'d> {
-    pub(super) fn refitted(first: &Step<'_>, target: Target<'d>) -> Result<Self, HostError> {
-        Self::new(first, target, false)
+    /// Built as `params` say at the first frame and refitted ever after.
+    ///
+    /// # Errors
+    /// [`HostError`] from a device.
+    pub fn refitted(first: &Step<'_>, target: Target<'d>, params: BuildParams) -> Result<Self, HostError> {
+        Self::new(first, target, params, false)
     }
 
-    pub(super) fn rebuilt(first: &Step<'_>, target: Target<'d>) -> Result<Self, HostError> {
-        Self::new(first, target, true)
+    /// Built anew every frame.
+    ///
+    /// # Errors
+    /// [`HostError`] from a device.
+    pub fn rebuilt(first: &Step<'_>, target: Target<'d>, params: BuildParams) -> Result<Self, HostError> {
+        Self::new(first, target, params, true)
     }
 
-    fn new(first: &Step<'_>, target: Target<'d>, rebuilds: bool) -> Result<Self, HostError> {
-        let bvh = build(first.lights, Sampler::SingleLevel, &BuildParams::default());
+    fn new(
+        first: &Step<'_>,
+        target: Target<'d>,
+        params: BuildParams,
+        rebuilds: bool,
+    ) -> Result<Self, HostError> {
+        let bvh = build(first.lights, Sampler::SingleLevel, &params);
         Ok(Self {
+            params,
             rebuilds,
             target,
             backend: target.backend(bvh, first.lights)?,
@@ -42,7 +57,7 @@ impl Runner for SingleLevel<'_> {
         let mut times = UpdateTimes::default();
         if self.rebuilds {
             let start = Instant::now();
-            let bvh = build(step.lights, Sampler::SingleLevel, &BuildParams::default());
+            let bvh = build(step.lights, Sampler::SingleLevel, &self.params);
             times.rebuild = start.elapsed();
             times.wait = times.rebuild;
             self.backend = self.target.backend(bvh, step.lights)?;
@@ -60,6 +75,10 @@ impl Runner for SingleLevel<'_> {
         _chain: Chain,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
         render(&mut *self.backend, step, arrays, shot, Sampler::SingleLevel)
+    }
+
+    fn backend(&mut self) -> Option<&mut dyn Backend> {
+        Some(&mut *self.backend)
     }
 
     /// The tree's shape is that of the first frame or of this one.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lightbvh::{BuildParams, Heuristic};
+use lightbvh::BuildParams;
 
 use super::moving::Moving;
 use super::{Chain, Runner, Step, Target, UpdateTimes, render};
@@ -11,17 +11,17 @@ use crate::error::HostError;
 use crate::workload::Shot;
 
 /// A two-level light BVH.
-pub(super) struct TwoLevel<'d> {
+pub struct TwoLevel<'d> {
     moving: Moving,
     backend: Box<dyn Backend + 'd>,
 }
 
 impl<'d> TwoLevel<'d> {
-    pub(super) fn new(first: &Step<'_>, target: Target<'d>, heuristic: Heuristic) -> Result<Self, HostError> {
-        let params = BuildParams {
-            heuristic,
-            ..BuildParams::default()
-        };
+    /// Built as `params` say at the first frame.
+    ///
+    /// # Errors
+    /// [`HostError`] from a device, or for lights outside the domain.
+    pub fn new(first: &Step<'_>, target: Target<'d>, params: BuildParams) -> Result<Self, HostError> {
         let moving = Moving::new(first, params)?;
         let backend: Box<dyn Backend + 'd> = match target {
             Target::Cpu => Box::new(CpuBackend::new(moving.scene().clone(), first.lights.clone())),
@@ -46,5 +46,9 @@ impl Runner for TwoLevel<'_> {
         _chain: Chain,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
         render(&mut *self.backend, step, arrays, shot, Sampler::TwoLevel)
+    }
+
+    fn backend(&mut self) -> Option<&mut dyn Backend> {
+        Some(&mut *self.backend)
     }
 }

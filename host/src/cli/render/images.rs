@@ -6,20 +6,14 @@ use lightbvh::BuildParams;
 use lightbvh::exact::hash;
 use serde_json::{Value, json};
 
-use crate::backend::{
-    Backend, Bvh, CandidateSource, CpuBackend, CpuRestir, DeviceBackend, DeviceRestir, Restir, RestirFrame,
-    RestirOptions, Sampler, SceneArrays, picker,
-};
+use crate::backend::{CandidateSource, MAX_SAMPLES_PER_INVOCATION, RestirOptions, Sampler, SceneArrays};
+use crate::error::HostError;
+use crate::method::{Chain, Count, NoTree, Reservoirs, Runner, SingleLevel, Step, Target, TwoLevel};
 use crate::render::Film;
-use crate::vulkan::{Device, VulkanError};
-use crate::workload::{Shot, build};
+use crate::workload::Shot;
 
 /// Number of camera rays per pixel that makes edges smooth; the light samples of a pixel are shared out among them.
 const MAX_CAMERA_RAYS: u32 = 8;
-/// Most light samples that one invocation takes: llvmpipe leaves all loops of an invocation after some 65,000 iterations,
-/// silently.
-const MAX_SAMPLES_PER_PART: u32 = 8;
-
 /// What light is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Integrator {
@@ -36,7 +30,8 @@ impl Integrator {
     /// Into how many parts the samples of a pixel are shared out, each with a camera ray of its own: of light samples, as
     /// few as make edges smooth; of paths, one part each. A part is one invocation on a device.
     fn parts(self, samples: u32) -> u32 {
-        let fits = |&parts: &u32| samples.is_multiple_of(parts) && samples / parts <= MAX_SAMPLES_PER_PART;
+        let fits =
+            |&parts: &u32| samples.is_multiple_of(parts) && samples / parts <= MAX_SAMPLES_PER_INVOCATION;
         match self {
             Self::Direct if samples <= MAX_CAMERA_RAYS => samples,
             Self::Direct => (MAX_CAMERA_RAYS..=samples).find(fits).unwrap_or(samples),
@@ -52,6 +47,8 @@ pub(super) enum Method {
     Independent {
         /// How lights are chosen.
         sampler: Sampler,
+        /// Whether a single level is built anew in every frame.
+        rebuilt: bool,
         /// What light is followed.
         integrator: Integrator,
     },
@@ -90,130 +87,84 @@ pub(super) struct Image {
     pub shadow_rays: Option<f64>,
 }
 
+/// All images are of one sequence.
+const CHAIN: Chain = 0;
+
 /// Renders a scene frame after frame.
-pub(super) trait Images {
-    /// The next frame.
-    fn next(
-        &mut self,
-        arrays: &Arc<SceneArrays>,
-        shot: &Shot,
-        background: [f32; 3],
-    ) -> Result<Image, VulkanError>;
+pub(super) struct Images<'d> {
+    runner: Box<dyn Runner + 'd>,
+    /// Of single images; `None` for ReSTIR.
+    independent: Option<(Sampler, Integrator)>,
+    started: bool,
 }
 
-/// The images of `method`, on `device` or, without one, on the CPU, from a frame with the lights of `first` on.
-pub(super) fn images<'d>(
-    method: Method,
-    heuristic: &BuildParams,
-    device: Option<&'d Device>,
-    first: &SceneArrays,
-    samples: u32,
-) -> Result<Box<dyn Images + 'd>, VulkanError> {
-    let sampler = match method {
-        Method::Independent { sampler, .. } => sampler,
-        Method::Restir(_) => Sampler::TwoLevel,
-    };
-    let bvh = build(&first.lights, sampler, heuristic);
-    Ok(match method {
-        Method::Independent { sampler, integrator } => Box::new(Independent {
-            sampler,
-            integrator,
-            backend: match device {
-                Some(device) => Box::new(DeviceBackend::new(device, &bvh, &first.lights)?),
-                None => Box::new(CpuBackend::new(bvh, first.lights.clone())),
+impl<'d> Images<'d> {
+    /// The images of `method` on `target` from the frame `first` on.
+    pub fn new(
+        method: Method,
+        params: BuildParams,
+        target: Target<'d>,
+        first: &Step<'_>,
+    ) -> Result<Self, HostError> {
+        let runner: Box<dyn Runner + 'd> = match method {
+            Method::Independent { sampler, rebuilt, .. } => match sampler {
+                Sampler::Uniform => Box::new(NoTree::uniform(first, target)?),
+                Sampler::Power => Box::new(NoTree::power(first, target)?),
+                Sampler::SingleLevel if rebuilt => Box::new(SingleLevel::rebuilt(first, target, params)?),
+                Sampler::SingleLevel => Box::new(SingleLevel::refitted(first, target, params)?),
+                Sampler::TwoLevel => Box::new(TwoLevel::new(first, target, params)?),
             },
+            Method::Restir(options) => {
+                Box::new(Reservoirs::new(first, target, options, params, Count::Histories)?)
+            }
+        };
+        let independent = match method {
+            Method::Independent {
+                sampler, integrator, ..
+            } => Some((sampler, integrator)),
+            Method::Restir(_) => None,
+        };
+        Ok(Self {
+            runner,
+            independent,
             started: false,
-        }),
-        Method::Restir(options) => Box::new(Histories {
-            bvh,
-            histories: (0..samples)
-                .map(|_| -> Box<dyn Restir + 'd> {
-                    match device {
-                        Some(device) => Box::new(DeviceRestir::new(device, options)),
-                        None => Box::new(CpuRestir::new(options)),
-                    }
-                })
-                .collect(),
-            started: false,
-        }),
-    })
-}
-
-/// Images by a backend; its light BVH is refitted from frame to frame.
-struct Independent<'d> {
-    sampler: Sampler,
-    integrator: Integrator,
-    backend: Box<dyn Backend + 'd>,
-    started: bool,
-}
-
-impl Images for Independent<'_> {
-    fn next(
-        &mut self,
-        arrays: &Arc<SceneArrays>,
-        shot: &Shot,
-        background: [f32; 3],
-    ) -> Result<Image, VulkanError> {
-        if self.started {
-            self.backend.refit(&arrays.lights)?;
-        }
-        self.started = true;
-        let parts = self.integrator.parts(shot.samples);
-        let mut sum = Sum::new(shot, parts);
-        for part in 0..parts {
-            let mut params = shot.params(background);
-            params.samples = shot.samples / parts;
-            params.seed = hash(shot.seed).wrapping_add(part);
-            params.jitter = part;
-            let image = match self.integrator {
-                Integrator::Direct => self.backend.render(arrays, &params, self.sampler)?,
-                Integrator::Path { bounces } => {
-                    self.backend.render_path(arrays, &params, bounces, self.sampler)?
-                }
-            };
-            sum.add(&image.value, image.time.as_secs_f64());
-        }
-        Ok(sum.image(None))
+        })
     }
-}
 
-/// As many histories of ReSTIR as samples are wanted, independent of each other; each looks at its own points in the
-/// pixels, the same in every frame.
-struct Histories<'d> {
-    bvh: Bvh,
-    histories: Vec<Box<dyn Restir + 'd>>,
-    started: bool,
-}
-
-impl Images for Histories<'_> {
-    fn next(
+    /// The image of the first frame, then of each next one.
+    pub fn next(
         &mut self,
+        step: &Step<'_>,
         arrays: &Arc<SceneArrays>,
         shot: &Shot,
-        background: [f32; 3],
-    ) -> Result<Image, VulkanError> {
+    ) -> Result<Image, HostError> {
         if self.started {
-            self.bvh.refit(&arrays.lights);
+            self.runner.advance(step)?;
         }
         self.started = true;
-        let mut sum = Sum::new(shot, self.histories.len() as u32);
-        let mut shadow_rays = 0;
-        for (number, history) in (0..).zip(&mut self.histories) {
-            let part = history.frame(&RestirFrame {
-                scene: arrays,
-                bvh: picker(&self.bvh),
-                width: shot.width,
-                height: shot.height,
-                seed: hash(hash(shot.seed).wrapping_add(number)).wrapping_add(shot.frame),
-                jitter: number,
-                background,
-                remap: None,
-            })?;
-            shadow_rays += history.shadow_rays();
-            sum.add(&part.value, part.time.as_secs_f64());
+        if let (Some((sampler, integrator)), Some(backend)) = (self.independent, self.runner.backend()) {
+            let parts = integrator.parts(shot.samples);
+            let mut sum = Sum::new(shot, parts);
+            for part in 0..parts {
+                let mut params = shot.params(step.scene.data().background);
+                params.samples = shot.samples / parts;
+                params.seed = hash(shot.seed).wrapping_add(part);
+                params.jitter = part;
+                let image = match integrator {
+                    Integrator::Direct => backend.render(arrays, &params, sampler)?,
+                    Integrator::Path { bounces } => backend.render_path(arrays, &params, bounces, sampler)?,
+                };
+                sum.add(&image.value, image.time.as_secs_f64());
+            }
+            return sum.image();
         }
+        let image = self.runner.image(step, arrays, shot, CHAIN)?;
         let pixels = f64::from(shot.width) * f64::from(shot.height);
-        Ok(sum.image(Some(shadow_rays as f64 / pixels)))
+        Ok(Image {
+            film: Film::new(shot.width, shot.height, image.value)?,
+            seconds: image.time.as_secs_f64(),
+            shadow_rays: self.runner.shadow_rays(CHAIN).map(|rays| rays as f64 / pixels),
+        })
     }
 }
 
@@ -244,11 +195,11 @@ impl Sum {
         }
     }
 
-    fn image(self, shadow_rays: Option<f64>) -> Image {
-        Image {
-            film: Film::new(self.size.0, self.size.1, self.pixels).expect("as many pixels as the image has"),
+    fn image(self) -> Result<Image, HostError> {
+        Ok(Image {
+            film: Film::new(self.size.0, self.size.1, self.pixels)?,
             seconds: self.seconds,
-            shadow_rays,
-        }
+            shadow_rays: None,
+        })
     }
 }

@@ -1,15 +1,11 @@
 //! Values of `lightbvh render`'s options.
 
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use crate::backend::{CandidateSource, Combination, RestirOptions, Sampler};
 
 use super::images::{Integrator, Method};
 use crate::error::HostError;
-
-/// Most frames of one animation.
-const MAX_FRAMES: u32 = 100_000;
 
 /// An integrator on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
@@ -29,8 +25,10 @@ pub(super) enum SamplerName {
     Uniform,
     /// In proportion to flux.
     Power,
-    /// A light BVH over all triangles.
+    /// A light BVH over all triangles, refitted from frame to frame.
     SingleLevel,
+    /// A light BVH over all triangles, built anew every frame.
+    SingleLevelRebuilt,
     /// A light BVH over mesh lights over one over the triangles of each.
     TwoLevel,
     /// ReSTIR with candidates in proportion to flux.
@@ -50,7 +48,11 @@ impl SamplerName {
         integrator: Integrator,
     ) -> Result<Method, HostError> {
         let independent = |sampler| match combination {
-            None => Ok(Method::Independent { sampler, integrator }),
+            None => Ok(Method::Independent {
+                sampler,
+                rebuilt: self == Self::SingleLevelRebuilt,
+                integrator,
+            }),
             Some(_) => Err(HostError::Usage {
                 option: "--restir-mode",
                 needs: "--sampler restir or --sampler bvh-restir",
@@ -62,14 +64,14 @@ impl SamplerName {
                 Integrator::Direct => Ok(Method::Restir(RestirOptions::new(source, combination))),
                 Integrator::Path { .. } => Err(HostError::Usage {
                     option: "--integrator path",
-                    needs: "--sampler uniform, power, single-level or two-level",
+                    needs: "--sampler uniform, power, single-level, single-level-rebuilt or two-level",
                 }),
             }
         };
         match self {
             Self::Uniform => independent(Sampler::Uniform),
             Self::Power => independent(Sampler::Power),
-            Self::SingleLevel => independent(Sampler::SingleLevel),
+            Self::SingleLevel | Self::SingleLevelRebuilt => independent(Sampler::SingleLevel),
             Self::TwoLevel => independent(Sampler::TwoLevel),
             Self::Restir => restir(CandidateSource::Power),
             Self::BvhRestir => restir(CandidateSource::LightBvh),
@@ -82,25 +84,11 @@ impl SamplerName {
             Self::Uniform => Sampler::Uniform.name(),
             Self::Power => Sampler::Power.name(),
             Self::SingleLevel => Sampler::SingleLevel.name(),
+            Self::SingleLevelRebuilt => "single-level-rebuilt",
             Self::TwoLevel => Sampler::TwoLevel.name(),
             Self::Restir => "restir",
             Self::BvhRestir => "bvh-restir",
         }
-    }
-}
-
-/// Frames `A..B`, B left out.
-pub(super) fn frames(text: &str) -> Result<Range<u32>, String> {
-    let parsed = text
-        .split_once("..")
-        .and_then(|(a, b)| Some(a.parse().ok()?..b.parse().ok()?));
-    match parsed {
-        Some(range) if range.is_empty() => {
-            Err("the last frame must come after the first: A..B without B".to_owned())
-        }
-        Some(range) if range.len() > MAX_FRAMES as usize => Err(format!("more than {MAX_FRAMES} frames")),
-        Some(range) => Ok(range),
-        None => Err("expected two frame numbers as A..B, for example 0..150".to_owned()),
     }
 }
 
@@ -118,26 +106,6 @@ pub(super) fn numbered(path: &Path, frame: u32) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn ranges_of_frames() {
-        assert_eq!(frames("0..150"), Ok(0..150));
-        assert_eq!(frames("7..8"), Ok(7..8));
-        for wrong in [
-            "",
-            "5",
-            "5..",
-            "..5",
-            "5..5",
-            "6..5",
-            "-1..5",
-            "a..b",
-            "0..=5",
-            "0..100001",
-        ] {
-            assert!(frames(wrong).is_err(), "{wrong}");
-        }
-    }
 
     #[test]
     fn files_are_numbered_before_their_extension() {

@@ -6,7 +6,7 @@ use bytemuck::cast_slice;
 use lightbvh::BuildParams;
 use lightbvh::exact::hash;
 
-use super::Tally;
+use super::tally::{Kind, Tally};
 use crate::backend::{
     CandidateSource, Combination, CpuRestir, DeviceRestir, PIXEL_RECORD, RESERVOIR_RECORD, Restir,
     RestirFrame, RestirOptions, SURFACE_RECORD, Sampler, picker,
@@ -64,13 +64,27 @@ pub(super) fn compare(
                 for (device, tally) in devices.iter_mut().zip(tallies.iter_mut()) {
                     let found = device.frame(&frame)?.value;
                     let state = device.state()?;
-                    tally.pixels += found.len() as u64;
-                    for (record, cpu, device) in [
-                        (&PIXEL_RECORD, cast_slice(&expected), cast_slice(&found)),
-                        (&SURFACE_RECORD, cast_slice(&surfaces), cast_slice(&state.0)),
-                        (&RESERVOIR_RECORD, cast_slice(&reservoirs), cast_slice(&state.1)),
+                    for (kind, record, cpu, device) in [
+                        (
+                            Kind::Pixels,
+                            &PIXEL_RECORD,
+                            cast_slice(&expected),
+                            cast_slice(&found),
+                        ),
+                        (
+                            Kind::Surfaces,
+                            &SURFACE_RECORD,
+                            cast_slice(&surfaces),
+                            cast_slice(&state.0),
+                        ),
+                        (
+                            Kind::Reservoirs,
+                            &RESERVOIR_RECORD,
+                            cast_slice(&reservoirs),
+                            cast_slice(&state.1),
+                        ),
                     ] {
-                        tally.take(&what, record, cpu, device)?;
+                        tally.take(kind, &what, record, cpu, device)?;
                     }
                 }
             }

@@ -1,0 +1,118 @@
+//! Images of many samples as the mean of images of few.
+//!
+//! One invocation takes all samples of its pixel, and llvmpipe leaves the loops of an invocation after 65,536 turns in all,
+//! silently: a device would return an image of fewer samples than were asked for. Both processors therefore share samples
+//! out alike, so that images of any number of samples keep equal words.
+
+use std::time::Duration;
+
+use lightbvh::exact::hash;
+use lightbvh_kernels::render::RenderParams;
+
+use super::Timed;
+
+/// Most light samples of a pixel in one invocation. A sample walks a light BVH and a ray BVH: some hundred turns each.
+pub const MAX_SAMPLES_PER_INVOCATION: u32 = 8;
+/// Most surfaces that the paths of a pixel meet in one invocation, but always one path: each surface costs two rays, a
+/// sampled light and a pmf.
+const MAX_SURFACES_PER_INVOCATION: u32 = 16;
+
+/// Most paths of up to `bounces` reflections in one invocation.
+pub(super) fn paths_per_invocation(bounces: u32) -> u32 {
+    (MAX_SURFACES_PER_INVOCATION / bounces.saturating_add(1)).max(1)
+}
+
+/// The image of `params` from images of at most `most` samples each, which differ in their seed. Up to `most` samples it is
+/// `image` itself; beyond, the mean over all samples, added in order in `f64` and rounded once.
+pub(super) fn in_parts<E>(
+    params: &RenderParams,
+    most: u32,
+    mut image: impl FnMut(&RenderParams) -> Result<Timed<Vec<[f32; 3]>>, E>,
+) -> Result<Timed<Vec<[f32; 3]>>, E> {
+    if params.samples <= most {
+        return image(params);
+    }
+    let parts = params.samples.div_ceil(most);
+    let mut sum = vec![[0.0f64; 3]; params.width as usize * params.height as usize];
+    let mut time = Duration::ZERO;
+    for part in 0..parts {
+        let samples = params.samples / parts + u32::from(part < params.samples % parts);
+        let part = image(&RenderParams {
+            samples,
+            seed: hash(hash(params.seed).wrapping_add(part)),
+            ..*params
+        })?;
+        time += part.time;
+        for (sum, pixel) in sum.iter_mut().flatten().zip(part.value.iter().flatten()) {
+            *sum += f64::from(*pixel) * f64::from(samples);
+        }
+    }
+    let all = f64::from(params.samples);
+    Ok(Timed {
+        value: sum
+            .iter()
+            .map(|pixel| pixel.map(|sum| (sum / all) as f32))
+            .collect(),
+        time,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    fn params(samples: u32) -> RenderParams {
+        RenderParams {
+            width: 1,
+            height: 1,
+            samples,
+            seed: 5,
+            jitter: 3,
+            background: [0.0; 3],
+        }
+    }
+
+    /// What is asked of an image of `samples` samples in parts of 8, each of which returns its share as its pixel.
+    fn asked(samples: u32) -> (Vec<RenderParams>, [f32; 3]) {
+        let mut asked = Vec::new();
+        let image = in_parts(&params(samples), 8, |part| {
+            asked.push(*part);
+            Ok::<_, ()>(Timed {
+                value: vec![[1.0, part.samples as f32, asked.len() as f32]],
+                time: Duration::ZERO,
+            })
+        });
+        (asked, image.expect("no error").value[0])
+    }
+
+    #[test]
+    fn few_samples_are_left_alone() {
+        for samples in [0, 1, 8] {
+            assert_eq!(asked(samples).0, [params(samples)]);
+        }
+    }
+
+    #[test]
+    fn all_samples_are_taken_and_count_alike() {
+        for samples in [9, 16, 17, 1000, 4099] {
+            let (asked, pixel) = asked(samples);
+            assert!(asked.iter().all(|part| (1..=8).contains(&part.samples)));
+            assert_eq!(asked.iter().map(|part| part.samples).sum::<u32>(), samples);
+            let seeds: BTreeSet<u32> = asked.iter().map(|part| part.seed).collect();
+            assert_eq!(seeds.len(), asked.len(), "no sample is taken twice");
+            assert!(asked.iter().all(|part| part.jitter == 3));
+            assert_eq!(pixel[0], 1.0);
+            let squares: u32 = asked.iter().map(|part| part.samples * part.samples).sum();
+            assert_eq!(pixel[1], (f64::from(squares) / f64::from(samples)) as f32);
+        }
+    }
+
+    #[test]
+    fn long_paths_go_alone() {
+        assert_eq!(
+            [0, 1, 5, 7, 15, 64, u32::MAX].map(paths_per_invocation),
+            [16, 8, 2, 2, 1, 1, 1]
+        );
+    }
+}

@@ -1,0 +1,207 @@
+//! That a wrong word is found and named, whatever it is of: the CPU stands in for a device, with one bit of it turned.
+
+use lightbvh::{BuildParams, Lights};
+use lightbvh_kernels::bvh::Node;
+use lightbvh_kernels::query::Sampled;
+use lightbvh_kernels::render::RenderParams;
+
+use super::*;
+use crate::backend::{CpuBackend, LightScene, Sampler, Timed};
+use crate::method::{History, UpdateTimes};
+use crate::vulkan::VulkanError;
+use crate::workload::build;
+
+/// A method whose results are right at its first frame, and then but for one bit of the middle word of what is `wrong`.
+struct Corrupt {
+    inner: Box<dyn Runner>,
+    /// What `inner` has, but corrupt; for light BVHs that are refitted.
+    backend: CorruptBackend,
+    then: Option<Kind>,
+    wrong: Option<Kind>,
+}
+
+struct CorruptBackend {
+    inner: CpuBackend,
+    wrong: Option<Kind>,
+}
+
+/// Turns a bit, if what the records are of is wrong.
+fn turn<T: bytemuck::Pod>(kind: Kind, wrong: Option<Kind>, records: &mut [T]) {
+    if wrong == Some(kind) {
+        let words: &mut [u32] = bytemuck::cast_slice_mut(records);
+        words[words.len() / 2] ^= 1;
+    }
+}
+
+impl Runner for Corrupt {
+    fn advance(&mut self, step: &Step<'_>) -> Result<UpdateTimes, HostError> {
+        self.wrong = self.then;
+        self.backend.wrong = self.then;
+        self.backend.inner.refit(step.lights)?;
+        self.inner.advance(step)
+    }
+
+    fn image(
+        &mut self,
+        step: &Step<'_>,
+        arrays: &Arc<SceneArrays>,
+        shot: &Shot,
+        chain: Chain,
+    ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
+        let mut image = self.inner.image(step, arrays, shot, chain)?;
+        turn(Kind::Pixels, self.wrong, &mut image.value);
+        Ok(image)
+    }
+
+    fn backend(&mut self) -> Option<&mut dyn Backend> {
+        Some(&mut self.backend)
+    }
+
+    fn histories(&self, chain: Chain) -> Result<Vec<History>, HostError> {
+        let mut histories = self.inner.histories(chain)?;
+        for (surfaces, reservoirs) in &mut histories {
+            turn(Kind::Surfaces, self.wrong, surfaces);
+            turn(Kind::Reservoirs, self.wrong, reservoirs);
+        }
+        Ok(histories)
+    }
+}
+
+impl Backend for CorruptBackend {
+    fn name(&self) -> &str {
+        "corrupt"
+    }
+
+    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<Node>>, VulkanError> {
+        self.inner.refit(lights)
+    }
+
+    fn follow(&mut self, scene: &LightScene, lights: &Lights) -> Result<Timed<()>, VulkanError> {
+        self.inner.follow(scene, lights)
+    }
+
+    fn nodes(&mut self) -> Result<Vec<Node>, VulkanError> {
+        let mut nodes = self.inner.nodes()?;
+        turn(Kind::Nodes, self.wrong, &mut nodes);
+        Ok(nodes)
+    }
+
+    fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<Sampled>>, VulkanError> {
+        let mut sampled = self.inner.sample(queries)?;
+        turn(Kind::Samples, self.wrong, &mut sampled.value);
+        Ok(sampled)
+    }
+
+    fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, VulkanError> {
+        let mut pmfs = self.inner.pmf(queries)?;
+        turn(Kind::Pmfs, self.wrong, &mut pmfs.value);
+        Ok(pmfs)
+    }
+
+    fn render(
+        &mut self,
+        scene: &SceneArrays,
+        params: &RenderParams,
+        sampler: Sampler,
+    ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
+        self.inner.render(scene, params, sampler)
+    }
+
+    fn render_path(
+        &mut self,
+        scene: &SceneArrays,
+        params: &RenderParams,
+        bounces: u32,
+        sampler: Sampler,
+    ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
+        self.inner.render_path(scene, params, bounces, sampler)
+    }
+}
+
+/// What is found in two frames of `method`, the second of which is corrupt where `wrong` says.
+fn found(method: Method, wrong: Option<Kind>) -> Tally {
+    let scene = Scene::open("street").expect("built in");
+    let mut tally = [Tally::default()];
+    let mut own = Tally::default();
+    let mut lane = None;
+    for frame in [0, 1] {
+        let arrays = Arc::new(arrays_at(&scene, frame, SIZE.0, SIZE.1).expect("a frame"));
+        let step = Step {
+            scene: &scene,
+            frame,
+            lights: &arrays.lights,
+        };
+        let lane = match &mut lane {
+            None => {
+                let bvh = build(step.lights, Sampler::SingleLevel, &BuildParams::default());
+                let corrupt = Corrupt {
+                    inner: runner(method, &step, Target::Cpu).expect("a runner"),
+                    backend: CorruptBackend {
+                        inner: CpuBackend::new(bvh, step.lights.clone()),
+                        wrong: None,
+                    },
+                    then: wrong,
+                    wrong: None,
+                };
+                lane.insert(Lane {
+                    method,
+                    cpu: runner(method, &step, Target::Cpu).expect("a runner"),
+                    devices: vec![Box::new(corrupt)],
+                })
+            }
+            Some(lane) => {
+                lane.advance(&step).expect("an update");
+                lane
+            }
+        };
+        let asked = queries(&arrays, 1, 0, 64);
+        lane.compare(&step, &arrays, &asked, 1, &mut tally, &mut own)
+            .expect("words that can be compared");
+    }
+    assert_eq!(own.different, 0);
+    let [tally] = tally;
+    tally
+}
+
+#[test]
+fn equal_results_are_equal() {
+    for method in [Method::SingleLevelRefit, Method::Restir] {
+        let tally = found(method, None);
+        assert_eq!(tally.different, 0, "{:?}", tally.first_difference);
+        let words: u64 = tally.words.values().map(|words| words.compared).sum();
+        assert_eq!(words, tally.compared);
+        assert!(tally.pixels >= 2 * u64::from(SIZE.0 * SIZE.1));
+    }
+}
+
+#[test]
+fn a_wrong_bit_of_anything_is_found_and_named() {
+    use Method::{Restir, SingleLevelRefit};
+    for (method, kind, said) in [
+        (SingleLevelRefit, Kind::Nodes, "refit: node "),
+        (
+            SingleLevelRefit,
+            Kind::Samples,
+            "sample: sampled light 32, light: ",
+        ),
+        (SingleLevelRefit, Kind::Pmfs, "pmf: pmf 32, pmf: "),
+        (SingleLevelRefit, Kind::Pixels, "render: pixel 72, radiance[0]: "),
+        (Restir, Kind::Pixels, "render: pixel 72, radiance[0]: "),
+        (Restir, Kind::Surfaces, "restir_initial: surface 72, p[0]: "),
+        (Restir, Kind::Reservoirs, "restir: reservoir 72, light: "),
+    ] {
+        let tally = found(method, Some(kind));
+        assert_eq!(
+            (tally.different, tally.words[&kind].different),
+            (1, 1),
+            "{kind:?}"
+        );
+        let first = tally.first_difference.expect("a difference");
+        let begins = format!("street {} frame 1 {said}", method.name());
+        assert!(first.starts_with(&begins), "{first}");
+        assert!(
+            first.contains("expected 0x") && first.contains("got 0x"),
+            "{first}"
+        );
+    }
+}
