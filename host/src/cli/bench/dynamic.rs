@@ -1,20 +1,20 @@
 //! `lightbvh bench --dynamic`: what a frame of moving lights costs, and that it follows what changed.
 
+mod report;
 mod world;
 
 use std::hint::black_box;
-use std::io;
 use std::time::{Duration, Instant};
 
 use lightbvh::scene::RebuildParams;
 use lightbvh::{BuildParams, Edit, Instance, LightBvh};
 use lightbvh_kernels::bvh::{Node, WIDTH};
-use serde::Serialize;
 
+pub(super) use self::report::print;
+use self::report::{Report, Row, Spread};
 use self::world::{Change, World};
 use crate::backend::{Backend, DeviceBackend};
 use crate::cli::devices::Opened;
-use crate::cli::table;
 use crate::error::HostError;
 
 /// Frames that count, and those before them that do not.
@@ -24,63 +24,6 @@ const WARM: usize = 2;
 const DEVICE_FRAMES: usize = 3;
 /// Refits of the single-level tree.
 const SINGLE_LEVEL: usize = 5;
-
-/// Least, greatest and median of the frames, milliseconds.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
-struct Spread {
-    median: f64,
-    least: f64,
-    most: f64,
-}
-
-impl Spread {
-    fn of(mut times: Vec<Duration>) -> Self {
-        times.sort_unstable();
-        let ms = |time: Option<&Duration>| time.map_or(0.0, |time| time.as_secs_f64() * 1e3);
-        Self {
-            median: ms(times.get(times.len() / 2)),
-            least: ms(times.first()),
-            most: ms(times.last()),
-        }
-    }
-}
-
-/// A kind of frame.
-#[derive(Clone, Debug, Serialize)]
-struct Row {
-    change: &'static str,
-    instances: u32,
-    triangles: u64,
-    /// Instances, or triangles of the deformed mesh, that change in each frame.
-    changed: u32,
-    backend: String,
-    threads: usize,
-    frames: usize,
-    /// [`lightbvh::Scene::update`]: the edits, checked and done.
-    update_ms: Spread,
-    /// [`lightbvh::Scene::refit`], or the passes on a device.
-    refit_ms: Spread,
-    /// The top level's rebuild, which runs beside the frame, and its swap-in at the start of the next.
-    rebuild_ms: Option<Spread>,
-    swap_ms: Option<Spread>,
-    /// Nodes and roots that the refit computes.
-    nodes: usize,
-    /// The refit's median over the time of copying the top level's nodes and instances once.
-    copies: f64,
-    /// The refit's median over that of a single-level refit of all triangles by one thread.
-    of_single_level: f64,
-}
-
-/// All measurements.
-#[derive(Clone, Debug, Serialize)]
-pub(super) struct Report {
-    /// Copying the top level's nodes and instances.
-    copy_ms: Spread,
-    top_level_bytes: usize,
-    /// Refit of a single-level tree of all triangles in the world, one thread.
-    single_level_refit_ms: Spread,
-    rows: Vec<Row>,
-}
 
 /// What the refits are compared with.
 struct Scale {
@@ -145,39 +88,24 @@ pub(super) fn report(instances: u32, mesh_triangles: u32, opened: &[Opened]) -> 
 
 /// Frames on the CPU, by the threads of the current pool.
 fn cpu(world: &mut World, change: Change, changed: u32, threads: usize, scale: &Scale) -> Row {
-    let (mut update, mut refit, mut rebuild, mut swap) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let params = RebuildParams {
-        top: true,
-        drift: f64::INFINITY,
-    };
-    let rebuilt = change != Change::Deform;
+    let (mut update, mut refit) = (Vec::new(), Vec::new());
     let mut nodes = 0;
     for frame in 0..WARM + FRAMES {
         let edits = world.edits(change, changed, frame as u32);
-        let scene = &mut world.scene;
-        let update_time = timed(|| {
-            scene.update(edits).expect("the edits are within the domain");
-        });
-        let refit_time = timed(|| scene.refit());
-        nodes = scene.work().computed();
-        let (mut rebuild_time, mut swap_time) = (Duration::ZERO, Duration::ZERO);
-        if rebuilt {
-            let mut built = None;
-            rebuild_time = timed(|| built = Some(scene.rebuild(&params).run()));
-            swap_time = timed(|| built.into_iter().for_each(|built| scene.adopt(built)));
-        }
+        let times = frame_of(world, edits);
+        nodes = world.scene.work().computed();
         if frame >= WARM {
-            update.push(update_time);
-            refit.push(refit_time);
-            rebuild.push(rebuild_time);
-            swap.push(swap_time);
+            update.push(times.0);
+            refit.push(times.1);
         }
     }
     let refit_ms = Spread::of(refit);
+    let swapped = (change != Change::Deform).then(|| swapping(world, change, changed));
     Row {
         update_ms: Spread::of(update),
-        rebuild_ms: rebuilt.then(|| Spread::of(rebuild)),
-        swap_ms: rebuilt.then(|| Spread::of(swap)),
+        rebuild_ms: swapped.map(|[rebuild, _, _]| rebuild),
+        swap_ms: swapped.map(|[_, swap, _]| swap),
+        refit_after_swap_ms: swapped.map(|[_, _, refit]| refit),
         ..row(
             world,
             change,
@@ -188,6 +116,34 @@ fn cpu(world: &mut World, change: Change, changed: u32, threads: usize, scale: &
             scale,
         )
     }
+}
+
+/// Frames that each swap in the top level rebuilt beside the one before: its rebuild, the swap, the refit after it.
+fn swapping(world: &mut World, change: Change, changed: u32) -> [Spread; 3] {
+    let params = RebuildParams {
+        top: true,
+        drift: f64::INFINITY,
+    };
+    let (mut rebuild, mut swap, mut refit) = (Vec::new(), Vec::new(), Vec::new());
+    for frame in 0..FRAMES {
+        let mut built = None;
+        rebuild.push(timed(|| built = Some(world.scene.rebuild(&params).run())));
+        let edits = world.edits(change, changed, (WARM + FRAMES + frame) as u32);
+        swap.push(timed(|| {
+            built.into_iter().for_each(|built| world.scene.adopt(built))
+        }));
+        refit.push(frame_of(world, edits).1);
+    }
+    [rebuild, swap, refit].map(Spread::of)
+}
+
+/// Time of update and refit.
+fn frame_of(world: &mut World, edits: Vec<Edit>) -> (Duration, Duration) {
+    let scene = &mut world.scene;
+    let update = timed(|| {
+        scene.update(edits).expect("the edits are within the domain");
+    });
+    (update, timed(|| scene.refit()))
 }
 
 /// Frames on a device, which follows the scene; its own time counts.
@@ -248,6 +204,7 @@ fn row(
         refit_ms,
         rebuild_ms: None,
         swap_ms: None,
+        refit_after_swap_ms: None,
         nodes,
         copies: refit_ms.median / scale.copy,
         of_single_level: refit_ms.median / scale.single_level,
@@ -291,58 +248,4 @@ fn timed(work: impl FnOnce()) -> Duration {
     let start = Instant::now();
     work();
     start.elapsed()
-}
-
-/// Prints the table.
-pub(super) fn print(report: &Report) -> io::Result<()> {
-    let header = [
-        "change",
-        "instances",
-        "triangles",
-        "changed",
-        "backend",
-        "threads",
-        "update ms",
-        "refit ms",
-        "least",
-        "most",
-        "nodes",
-        "rebuild ms",
-        "swap ms",
-        "copies",
-        "of single-level",
-    ];
-    let median = |spread: &Option<Spread>| spread.map_or("-".to_owned(), |s| format!("{:.3}", s.median));
-    let rows: Vec<Vec<String>> = report
-        .rows
-        .iter()
-        .map(|r| {
-            vec![
-                r.change.to_owned(),
-                r.instances.to_string(),
-                r.triangles.to_string(),
-                r.changed.to_string(),
-                r.backend.clone(),
-                if r.threads == 0 {
-                    "-".to_owned()
-                } else {
-                    r.threads.to_string()
-                },
-                format!("{:.3}", r.update_ms.median),
-                format!("{:.3}", r.refit_ms.median),
-                format!("{:.3}", r.refit_ms.least),
-                format!("{:.3}", r.refit_ms.most),
-                r.nodes.to_string(),
-                median(&r.rebuild_ms),
-                median(&r.swap_ms),
-                format!("{:.2}", r.copies),
-                format!("{:.4}", r.of_single_level),
-            ]
-        })
-        .collect();
-    table::print(&header, &rows)?;
-    table::print_text(&format!(
-        "single-level refit of all triangles, one thread: {:.3} ms; copy of the top level ({} bytes): {:.4} ms\n",
-        report.single_level_refit_ms.median, report.top_level_bytes, report.copy_ms.median
-    ))
 }

@@ -123,7 +123,14 @@ impl World {
                 let draw = |k: u32| unit_f32(hash(hash(i ^ hash(mesh)).wrapping_add(k)));
                 let sway = STEP * unit_f32(hash(frame ^ hash(i)));
                 let corner: [f32; 3] = std::array::from_fn(|k| (draw(k as u32) - 0.5) * self.side + sway);
-                let vertex = |v: u32| std::array::from_fn(|k| corner[k] + EDGE * draw(3 + 3 * v + k as u32));
+                // One vertex along each axis: no slivers, whose normals no rounding of a wide mesh would leave.
+                let vertex = |v: usize| {
+                    let mut p = corner;
+                    p[v] += EDGE
+                        * (0.5 + 0.5 * draw(3 + v as u32))
+                        * if draw(6 + v as u32) < 0.5 { -1.0 } else { 1.0 };
+                    p
+                };
                 EmissiveTriangle {
                     p: [vertex(0), vertex(1), vertex(2)],
                     radiance: std::array::from_fn(|k| 0.1 + draw(12 + k as u32)),
