@@ -48,6 +48,7 @@ impl LightBounds {
     /// (a diffuse emitter: pbrt-v4 `DiffuseAreaLight::Phi`).
     ///
     /// The triangle has no flux when its luminance is zero or its area is below 2^-100 of its longest edge squared.
+    #[inline(always)]
     #[must_use]
     pub fn of_triangle(triangle: &EmissiveTriangle) -> Self {
         let (p0, p1, p2) = (triangle.vertex(0), triangle.vertex(1), triangle.vertex(2));
@@ -102,21 +103,49 @@ impl LightBounds {
 
     /// Bounds of both sets: the union of the boxes, the smallest cone around the cones, the sum of the flux. The order
     /// of the arguments is part of the result's bits.
+    #[inline]
     #[must_use]
     pub fn merge(&self, other: &Self) -> Self {
-        let mut merged = if other.phi == 0.0 { *self } else { *other };
-        if self.phi != 0.0 && other.phi != 0.0 {
-            let cone = self.cone().union(other.cone());
-            merged = Self {
-                min: min3(self.min, other.min),
-                max: max3(self.max, other.max),
-                axis: cone.axis,
-                cos_theta_o: cone.cos_theta_o,
-                cos_theta_e: exact::min(self.cos_theta_e, other.cos_theta_e),
-                phi: exact::min(self.phi + other.phi, MAX_SUM),
-            };
+        let mut around = self.cone();
+        if self.merges_cones(other) {
+            around = around.smallest_around(other.cone());
         }
-        merged
+        self.merge_around(other, around)
+    }
+
+    /// Whether [`merge`](Self::merge) needs the smallest cone around both cones: both have flux, and neither cone is the
+    /// whole sphere.
+    #[inline(always)]
+    pub(crate) fn merges_cones(&self, other: &Self) -> bool {
+        let (both_emit, no_sphere) = (
+            self.phi != 0.0 && other.phi != 0.0,
+            self.cos_theta_o > -1.0 && other.cos_theta_o > -1.0,
+        );
+        both_emit && no_sphere
+    }
+
+    /// [`merge`](Self::merge) where the smallest cone around both cones, if it is needed, is known.
+    #[inline(always)]
+    pub(crate) fn merge_around(&self, other: &Self, around: Cone) -> Self {
+        let kept = if other.phi == 0.0 { *self } else { *other };
+        let both = self.phi != 0.0 && other.phi != 0.0;
+        let cone = self.cone().union_around(other.cone(), around);
+        Self {
+            min: select3(both, min3(self.min, other.min), kept.min),
+            max: select3(both, max3(self.max, other.max), kept.max),
+            axis: select3(both, cone.axis, kept.axis),
+            cos_theta_o: if both { cone.cos_theta_o } else { kept.cos_theta_o },
+            cos_theta_e: if both {
+                exact::min(self.cos_theta_e, other.cos_theta_e)
+            } else {
+                kept.cos_theta_e
+            },
+            phi: if both {
+                exact::min(self.phi + other.phi, MAX_SUM)
+            } else {
+                kept.phi
+            },
+        }
     }
 
     /// The orientation cone.
@@ -144,8 +173,17 @@ pub fn max3(a: Vec3, b: Vec3) -> Vec3 {
     Vec3::new(exact::max(a.x, b.x), exact::max(a.y, b.y), exact::max(a.z, b.z))
 }
 
+#[inline(always)]
+fn select3(first: bool, a: Vec3, b: Vec3) -> Vec3 {
+    Vec3::new(
+        if first { a.x } else { b.x },
+        if first { a.y } else { b.y },
+        if first { a.z } else { b.z },
+    )
+}
+
 /// The greatest exponent among the components of `v` and `floor`; −127 stands for zero.
-#[inline]
+#[inline(always)]
 fn max_exponent(v: Vec3, floor: i32) -> i32 {
     let x = if exponent(v.x) > floor {
         exponent(v.x)

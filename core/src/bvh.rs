@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 
 use crate::bounds::LightBounds;
 use crate::importance::ImportanceModel;
+use crate::lanes;
 use crate::levels::Levels;
 use crate::lights::Lights;
 use crate::node::LightNode;
@@ -52,17 +53,15 @@ impl<N: LightNode<W>, const W: usize, L: MeshLeaf> LightBvh<N, W, L> {
         } else {
             self.nodes.len()
         };
-        for i in 0..bottom_end {
-            self.nodes[i] = refit::leaves(&self.nodes, lights.triangles(), i as u32);
-        }
+        let bottom: Vec<u32> = (0..bottom_end as u32).collect();
+        lanes::leaves(&mut self.nodes, lights.triangles(), &bottom);
         self.refit_inner();
     }
 
     /// The passes of refit after the first.
     pub(super) fn refit_inner(&mut self) {
-        for k in 0..self.bottom.nodes.len() {
-            let i = self.bottom.nodes[k];
-            self.nodes[i as usize] = refit::level(&self.nodes, i);
+        for range in self.bottom.ranges() {
+            lanes::level(&mut self.nodes, &self.bottom.nodes[range]);
         }
         self.refit_top();
     }
@@ -72,12 +71,10 @@ impl<N: LightNode<W>, const W: usize, L: MeshLeaf> LightBvh<N, W, L> {
             for blas in &mut self.roots {
                 *blas = refit::root(&self.nodes, blas.node);
             }
-            for i in self.root as usize..self.nodes.len() {
-                self.nodes[i] = refit::mesh_leaves(&self.nodes, &self.meshes, &self.roots, i as u32);
-            }
-            for k in 0..self.top.nodes.len() {
-                let i = self.top.nodes[k];
-                self.nodes[i as usize] = refit::level(&self.nodes, i);
+            let top: Vec<u32> = (self.root..self.nodes.len() as u32).collect();
+            lanes::mesh_leaves(&mut self.nodes, &self.meshes, &self.roots, &top);
+            for range in self.top.ranges() {
+                lanes::level(&mut self.nodes, &self.top.nodes[range]);
             }
         }
     }

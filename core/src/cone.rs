@@ -31,7 +31,7 @@ pub struct Cone {
 }
 
 /// sin of the angle in `[0, π]` whose cosine is given.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub fn sine_of(cosine: f32) -> f32 {
     // In this form the differences are precise near ±1 too, where that of 1 − cos² is not.
@@ -39,7 +39,7 @@ pub fn sine_of(cosine: f32) -> f32 {
 }
 
 /// cos(θ + δ), −1 from θ + δ = π on. `cosine` is cos θ; δ is small and given by its sine and 1 − cos δ.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub fn widened(cosine: f32, delta_sin: f32, delta_cos_defect: f32) -> f32 {
     let sine = sine_of(cosine);
@@ -64,16 +64,28 @@ impl Cone {
     #[must_use]
     pub fn union(self, other: Self) -> Self {
         // Bulbs and boxes shine everywhere: most unions high up in a tree are of spheres, and need no arithmetic.
-        let mut union = if self.cos_theta_o <= -1.0 { self } else { other };
+        let mut around = self;
         if self.cos_theta_o > -1.0 && other.cos_theta_o > -1.0 {
-            union = self.smallest_around(other);
+            around = self.smallest_around(other);
         }
-        union
+        self.union_around(other, around)
+    }
+
+    /// [`union`](Self::union) where [`smallest_around`](Self::smallest_around) both, if neither is the whole sphere, is known.
+    #[inline(always)]
+    pub(crate) fn union_around(self, other: Self, around: Self) -> Self {
+        if self.cos_theta_o <= -1.0 {
+            self
+        } else if other.cos_theta_o <= -1.0 {
+            other
+        } else {
+            around
+        }
     }
 
     /// [`union`](Self::union) of two cones neither of which is the whole sphere.
-    #[inline]
-    fn smallest_around(self, other: Self) -> Self {
+    #[inline(always)]
+    pub(crate) fn smallest_around(self, other: Self) -> Self {
         let (cos_a, cos_b) = (self.cos_theta_o, other.cos_theta_o);
         let (sin_a, sin_b) = (sine_of(cos_a), sine_of(cos_b));
         let cos_d = exact::clamp(dot(self.axis, other.axis), -1.0, 1.0);
@@ -148,7 +160,7 @@ impl Cone {
 }
 
 /// `v` scaled to unit length; `v` need only be within a factor of 2^20 of it. Components below 2^-60 become +0.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub fn normalized(v: Vec3) -> Vec3 {
     let length = exact::sqrt(exact::max(length_squared(v), 1e-30));

@@ -96,6 +96,8 @@ pub mod build;
 #[cfg(feature = "alloc")]
 pub mod bvh;
 #[cfg(feature = "alloc")]
+pub mod lanes;
+#[cfg(feature = "alloc")]
 pub mod levels;
 #[cfg(feature = "alloc")]
 pub mod lights;

@@ -23,6 +23,10 @@ const ROUNDING: f64 = 1.0 / 4_194_304.0;
 /// What a similarity may turn a normal by itself, rad: 2^-18, for columns off by 2^-21 and the normalisation of axes.
 const BASE_TILT: f64 = 1.0 / 262_144.0;
 
+/// Triangles of a mesh that one thread measures.
+#[cfg(feature = "rayon")]
+const PIECE: usize = 4096;
+
 /// An affine map `x ↦ A x + t` from a mesh's space to the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
@@ -59,19 +63,28 @@ impl Transform {
 
     /// Whether every entry is a number within the domain, and a mesh of that extent stays within it.
     pub(crate) fn check(&self, extent: &Extent) -> Result<(), TransformError> {
-        for (column, entries) in self.columns.iter().chain([&self.translation]).enumerate() {
-            for (row, &value) in entries.iter().enumerate() {
-                // NaN is in no range.
-                if !(-MAX_COORDINATE..=MAX_COORDINATE).contains(&value) {
-                    return Err(TransformError::Entry { row, column, value });
+        let [a, b, c] = &self.columns;
+        let columns = [a, b, c, &self.translation];
+        // NaN is in no range.
+        let within = |value: f32| exact::abs(value) <= MAX_COORDINATE;
+        // Looked at together first: thousands may move in a frame, and all of them are within.
+        let all = columns
+            .iter()
+            .fold(true, |all, c| all & within(c[0]) & within(c[1]) & within(c[2]));
+        if !all {
+            for (column, entries) in columns.iter().enumerate() {
+                for (row, &value) in entries.iter().enumerate() {
+                    if !within(value) {
+                        return Err(TransformError::Entry { row, column, value });
+                    }
                 }
             }
         }
-        let reach = (0..3).map(|row| {
-            let across: f64 = self.columns.iter().map(|c| magnitude(f64::from(c[row]))).sum();
-            across * extent.radius + magnitude(f64::from(self.translation[row]))
-        });
-        let farthest = reach.fold(0.0, f64::max);
+        let reach = |row: usize| {
+            let entry = |column: &[f32; 3]| f64::from(exact::abs(column[row]));
+            ((entry(a) + entry(b)) + entry(c)) * extent.radius + entry(&self.translation)
+        };
+        let farthest = greatest(greatest(reach(0), reach(1)), reach(2));
         if farthest > f64::from(MAX_COORDINATE) {
             return Err(TransformError::TooFar {
                 metres: farthest as f32,
@@ -81,7 +94,8 @@ impl Transform {
     }
 
     fn column(&self, k: usize) -> [f64; 3] {
-        self.columns[k].map(f64::from)
+        let [x, y, z] = self.columns[k];
+        [f64::from(x), f64::from(y), f64::from(z)]
     }
 
     fn determinant(&self) -> f64 {
@@ -146,26 +160,26 @@ impl Transform {
     pub(crate) fn similarity(&self, extent: &Extent, radiance: f32) -> Option<Instance> {
         let columns = [self.column(0), self.column(1), self.column(2)];
         let gram = |i: usize, j: usize| dot(columns[i], columns[j]);
-        let squared = (gram(0, 0) + gram(1, 1) + gram(2, 2)) * (1.0 / 3.0);
+        let (lengths, angles) = (
+            [gram(0, 0), gram(1, 1), gram(2, 2)],
+            [gram(0, 1), gram(0, 2), gram(1, 2)],
+        );
+        let squared = (lengths[0] + lengths[1] + lengths[2]) * (1.0 / 3.0);
         if !(SCALES[0] * SCALES[0]..=SCALES[1] * SCALES[1]).contains(&squared) {
             return None;
         }
         // One step from a root in f32 leaves nothing that f32 could show.
         let root = f64::from(exact::sqrt(squared as f32));
         let scale = 0.5 * (root + squared / root);
-        let even = (0..3).all(|i| {
-            (0..3).all(|j| {
-                let wanted = if i == j { squared } else { 0.0 };
-                magnitude(gram(i, j) - wanted) <= SIMILAR * squared
-            })
+        let most = SIMILAR * squared;
+        let even = (0..3).fold(true, |even, k| {
+            even & (magnitude(lengths[k] - squared) <= most) & (magnitude(angles[k]) <= most)
         });
         if !even {
             return None;
         }
-        let farthest = self
-            .translation
-            .iter()
-            .fold(0.0f64, |most, &t| most.max(magnitude(f64::from(t))));
+        let [x, y, z] = self.translation.map(|t| f64::from(exact::abs(t)));
+        let farthest = greatest(greatest(x, y), z);
         let reach = scale * extent.radius;
         let error = ROUNDING * (2.0 * reach + farthest);
         let tilt = BASE_TILT + 4.0 * error / (scale * extent.finest);
@@ -173,16 +187,16 @@ impl Transform {
             return None;
         }
         let flux = f64::from(radiance) * squared;
+        let tiny = scale * TINY_ENTRY;
+        let mut entries = self.columns;
+        for column in 0..3 {
+            for row in 0..3 {
+                let small = magnitude(columns[column][row]) < tiny;
+                entries[column][row] = if small { 0.0 } else { entries[column][row] };
+            }
+        }
         Some(Instance {
-            columns: columns.map(|column| {
-                column.map(|x| {
-                    if magnitude(x) < scale * TINY_ENTRY {
-                        0.0
-                    } else {
-                        x as f32
-                    }
-                })
-            }),
+            columns: entries,
             translation: self.translation.map(|t| exact::flush(t, MIN_COORDINATE)),
             per_scale: (1.0 / scale) as f32,
             flux: flux as f32,
@@ -198,28 +212,56 @@ impl Transform {
 impl Extent {
     /// Of a mesh with these triangles.
     pub fn of(triangles: &[EmissiveTriangle]) -> Self {
-        let mut extent = Self {
-            radius: 0.0,
-            finest: f64::INFINITY,
+        #[cfg(feature = "rayon")]
+        let squares = {
+            use rayon::prelude::*;
+            let pieces = triangles.par_chunks(PIECE).map(Self::squares);
+            pieces.reduce(|| Self::NONE, Self::and)
         };
-        let mut squared = 0.0f64;
-        for triangle in triangles {
+        #[cfg(not(feature = "rayon"))]
+        let squares = Self::squares(triangles);
+        Self {
+            radius: square_root(squares.radius),
+            finest: if squares.finest < f64::INFINITY {
+                square_root(squares.finest)
+            } else {
+                f64::INFINITY
+            },
+        }
+    }
+
+    const NONE: Self = Self {
+        radius: 0.0,
+        finest: f64::INFINITY,
+    };
+
+    /// The extents of two parts together.
+    fn and(self, other: Self) -> Self {
+        Self {
+            radius: greatest(self.radius, other.radius),
+            finest: -greatest(-self.finest, -other.finest),
+        }
+    }
+
+    /// The squares of the extent.
+    fn squares(triangles: &[EmissiveTriangle]) -> Self {
+        triangles.iter().fold(Self::NONE, |extent, triangle| {
             let p = triangle.p.map(|p| p.map(f64::from));
-            for vertex in p {
-                squared = squared.max(dot(vertex, vertex));
-            }
+            let [a, b, c] = p.map(|vertex| dot(vertex, vertex));
+            let radius = greatest(a, greatest(b, c));
             // Only triangles whose normal bounds what they light.
             let bounds = crate::bounds::LightBounds::of_triangle(triangle);
-            if bounds.phi > 0.0 && bounds.cos_theta_o > -1.0 {
+            let finest = if bounds.phi > 0.0 && bounds.cos_theta_o > -1.0 {
                 let edge = |i: usize, j: usize| core::array::from_fn(|k| p[j][k] - p[i][k]);
                 let (a, b, c) = (edge(0, 1), edge(0, 2), edge(1, 2));
-                let longest = dot(a, a).max(dot(b, b)).max(dot(c, c));
-                let height = length(cross(a, b)) / square_root(longest);
-                extent.finest = extent.finest.min(height);
-            }
-        }
-        extent.radius = square_root(squared);
-        extent
+                let longest = greatest(dot(a, a), greatest(dot(b, b), dot(c, c)));
+                let area = cross(a, b);
+                dot(area, area) / longest
+            } else {
+                f64::INFINITY
+            };
+            extent.and(Self { radius, finest })
+        })
     }
 }
 
@@ -261,10 +303,17 @@ impl fmt::Display for TransformError {
 
 impl core::error::Error for TransformError {}
 
+#[inline(always)]
 fn magnitude(x: f64) -> f64 {
-    if x < 0.0 { -x } else { x }
+    f64::from_bits(x.to_bits() & !(1 << 63))
 }
 
+#[inline(always)]
+fn greatest(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+#[inline(always)]
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -428,6 +428,38 @@ fn bench_reports_every_case() {
 }
 
 #[test]
+fn bench_follows_moving_lights() {
+    let size = ["--instances", "200", "--mesh-triangles", "20"];
+    let report = json(&[&["bench", "--json", "--dynamic"], &size[..]].concat());
+    let report = &report["dynamic"];
+    assert!(report["single_level_refit_ms"]["median"].as_f64() > Some(0.0));
+    let rows = report["rows"].as_array().expect("rows");
+    let of = |change: &str, instances: u32, changed: u32| {
+        let found = rows.iter().find(|row| {
+            row["change"] == change
+                && row["backend"] == "cpu"
+                && row["threads"] == 1
+                && row["instances"] == instances
+                && row["changed"] == changed
+        });
+        found.unwrap_or_else(|| panic!("no {change} of {changed} among {instances}"))
+    };
+    let nodes = |row: &serde_json::Value| row["nodes"].as_u64().expect("nodes");
+    let all = of("move", 200, 200);
+    assert!(all["frames"].as_u64() >= Some(20), "{all}");
+    assert!(all["refit_ms"]["least"].as_f64() <= all["refit_ms"]["most"].as_f64());
+    for swapped in ["rebuild_ms", "swap_ms", "refit_after_swap_ms"] {
+        assert!(all[swapped]["median"].as_f64() > Some(0.0), "{all}");
+    }
+    // What little changes costs little: no more than its ways to the root.
+    assert!(nodes(of("move", 200, 2)) * 4 < nodes(all), "{all}");
+    assert!(nodes(of("shine", 200, 2)) * 4 < nodes(all), "{all}");
+    of("move", 200, 20);
+    of("move", 20, 2);
+    assert_eq!(of("deform", 1, 4000)["triangles"], 4000);
+}
+
+#[test]
 fn validate_finds_the_scenes_valid() {
     for scene in ["street", "square", "carousel"] {
         let report = json(&["validate", scene, "--json"]);
@@ -472,6 +504,10 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
     );
     let said = refused(&["bench", "--lights", "0"]);
     assert!(said.contains("--lights 0"), "{said}");
+    let said = refused(&["bench", "--dynamic", "--instances", "0"]);
+    assert!(said.contains("--instances 0"), "{said}");
+    let said = refused(&["bench", "--dynamic", "--mesh-triangles", "100000"]);
+    assert!(said.contains("1000000000") && said.contains("10000000"), "{said}");
     refused(&["render", "street", "--sampler", "best", "-o", &image]);
     refused(&["verify", "--queries", "many"]);
     assert!(!Path::new(&image).exists());

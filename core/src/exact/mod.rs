@@ -12,7 +12,7 @@
 //! | [`recip`], [`rsqrt`] | same bits, within 7e-6 relative | Newton steps, the same code on both sides |
 //! | [`recip_rough`], [`rsqrt_rough`] | same bits, within 3e-3 and 7e-4 relative | one Newton step |
 //! | [`min`], [`max`], [`clamp`], [`abs`] | exact | compare and select, bit masks |
-//! | [`flush`], [`floor_u32`] | exact | compare and select, truncation |
+//! | [`flush`], [`floor_u32`], [`floor_small`] | exact | compare and select, truncation |
 //! | [`exponent`], [`significand`], [`pow2`] | exact | the bits themselves |
 //! | [`hash`], [`unit_f32`] | exact | 32-bit integers |
 //!
@@ -27,7 +27,7 @@ mod scale;
 
 pub use div::{div, div_emulated, recip, recip_rough};
 pub use hash::{hash, unit_f32};
-pub use order::{abs, clamp, floor_u32, flush, max, min, order_key};
+pub use order::{abs, clamp, floor_small, floor_u32, flush, max, min, order_key};
 pub use root::{rsqrt, rsqrt_rough, sqrt, sqrt_emulated};
 pub use scale::{exponent, pow2, significand};
 

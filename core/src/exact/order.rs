@@ -53,6 +53,28 @@ pub fn floor_u32(x: f32) -> u32 {
     x as u32
 }
 
+/// The integer part of `x`, for `0 <= x < 2^22`: as [`floor_u32`], but on the CPU by arithmetic that processors do several
+/// numbers at a time, which they do not convert to `u32`.
+#[inline(always)]
+#[must_use]
+pub fn floor_small(x: f32) -> u32 {
+    #[cfg(target_arch = "spirv")]
+    {
+        x as u32
+    }
+    #[cfg(not(target_arch = "spirv"))]
+    {
+        // From 2^23 to 2^24 numbers are the integers, and the last bits of their words count them: the sum rounds to one.
+        const COUNTS: f32 = 8_388_608.0;
+        let nearest = x + COUNTS;
+        let above = u32::from(nearest - COUNTS > x);
+        nearest
+            .to_bits()
+            .wrapping_sub(COUNTS.to_bits())
+            .wrapping_sub(above)
+    }
+}
+
 /// An integer that sorts as `x` does, with -0 just before +0: a total order that no processor can see differently.
 #[inline]
 #[must_use]
@@ -60,4 +82,25 @@ pub fn order_key(x: f32) -> u32 {
     let bits = x.to_bits();
     // All ones for a negative number, whose order on bits is reversed; only the sign bit for a positive one.
     bits ^ (((bits as i32) >> 31) as u32 | SIGN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers around every integer and every half, and evenly over the words.
+    #[test]
+    fn small_floors_are_floors() {
+        let words = (0..1_u32 << 18).flat_map(|i| {
+            let (n, evenly) = (i << 4 | i >> 14, i.wrapping_mul(4354));
+            let halves = [n as f32, n as f32 + 0.5, f32::from_bits(evenly % 0x4a80_0000)];
+            halves.map(f32::to_bits)
+        });
+        for word in words.flat_map(|word| [word.saturating_sub(1), word, word + 1]) {
+            let x = f32::from_bits(word);
+            if x < 4_194_304.0 {
+                assert_eq!(floor_small(x), floor_u32(x), "{x}");
+            }
+        }
+    }
 }

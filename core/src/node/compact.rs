@@ -135,6 +135,7 @@ impl<const W: usize> LightNode<W> for CompactNode<W> {
         }
     }
 
+    #[inline(always)]
     fn bounds(&self, slot: usize) -> LightBounds {
         let (half_units, unit) = self.half_extents(slot);
         let half = half_units * unit;
@@ -167,6 +168,7 @@ impl<const W: usize> LightNode<W> for CompactNode<W> {
         }
     }
 
+    #[inline(always)]
     fn set_bounds(&mut self, slot: usize, bounds: &LightBounds) {
         let (center, extent) = pack_box(bounds.min, bounds.max);
         self.0[CENTER_X][slot] = center.x.to_bits();
@@ -179,6 +181,7 @@ impl<const W: usize> LightNode<W> for CompactNode<W> {
 }
 
 /// Centre, and the word of half extents that reach both corners from it.
+#[inline(always)]
 fn pack_box(min: Vec3, max: Vec3) -> (Vec3, u32) {
     let center = Vec3::new(
         exact::flush((min.x + max.x) * 0.5, crate::light::MIN_COORDINATE),
@@ -212,17 +215,20 @@ fn pack_box(min: Vec3, max: Vec3) -> (Vec3, u32) {
 }
 
 /// Each component, a little shortened, to the nearest 1/511.
+#[inline(always)]
 fn pack_axis(axis: Vec3) -> u32 {
-    let component = |a: f32| exact::floor_u32(exact::clamp(a, -1.0, 1.0) * (511.0 * AXIS_LENGTH) + 511.5);
+    let component = |a: f32| exact::floor_small(exact::clamp(a, -1.0, 1.0) * (511.0 * AXIS_LENGTH) + 511.5);
     (component(axis.x) << 22) | (component(axis.y) << 12) | (component(axis.z) << 2)
 }
 
 /// The upper 24 of the 31 bits below the sign, rounded up.
+#[inline(always)]
 fn pack_phi(phi: f32) -> u32 {
     ((phi.to_bits() << 1).wrapping_add(0xff)) & 0xffff_ff00
 }
 
 /// Code of the smallest stored cone around the cone, axis error included.
+#[inline(always)]
 fn pack_cone(cos_theta_o: f32) -> u32 {
     let wide = widened(cos_theta_o, AXIS_ERROR_SIN, AXIS_ERROR_COS_DEFECT);
     let half_sine = exact::sqrt(exact::clamp(0.5 - 0.5 * wide, 0.0, 1.0));
@@ -235,9 +241,10 @@ fn pack_cone(cos_theta_o: f32) -> u32 {
     }
 }
 
-/// Least integer not below `x`, for `x` in `[0, 2^23]`; any other from hostile words.
+/// Least integer not below `x`, for `x` in `[0, 2^22)`; any other from hostile words.
+#[inline(always)]
 fn ceil_u32(x: f32) -> u32 {
-    let down = exact::floor_u32(x);
+    let down = exact::floor_small(x);
     let up = (down as i32 as f32) < x;
     if up { down.wrapping_add(1) } else { down }
 }

@@ -7,6 +7,7 @@ use super::Scene;
 use crate::bounds::LightBounds;
 use crate::build::{Primitive, Topology, build, drift};
 use crate::instance::Instance;
+use crate::lanes;
 use crate::levels::Levels;
 use crate::light::EmissiveTriangle;
 use crate::node::{LightNode, kind};
@@ -130,12 +131,11 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         blas.born = born;
         self.roots[index as usize].node = nodes.start;
 
-        for node in nodes.clone() {
-            self.nodes[node as usize] = refit::leaves(&self.nodes, &self.triangles, node);
-        }
-        for k in 0..self.blases[index as usize].levels.nodes.len() {
-            let node = self.blases[index as usize].levels.nodes[k];
-            self.nodes[node as usize] = refit::level(&self.nodes, node);
+        let list: Vec<u32> = nodes.clone().collect();
+        lanes::leaves(&mut self.nodes, &self.triangles, &list);
+        let levels = &self.blases[index as usize].levels;
+        for range in levels.ranges() {
+            lanes::level(&mut self.nodes, &levels.nodes[range]);
         }
         self.roots[index as usize] = refit::root(&self.nodes, nodes.start);
         let placed = &self.nodes[nodes.start as usize..nodes.end as usize];

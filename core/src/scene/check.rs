@@ -1,6 +1,7 @@
 //! The door: a batch of edits is checked as a whole before any of it is done.
 
 use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::vec::Vec;
 
 use super::edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
 use super::{Scene, live};
@@ -8,6 +9,10 @@ use crate::light::EmissiveTriangle;
 use crate::lights::MAX_LIGHTS;
 use crate::node::LightNode;
 use crate::transform::{Extent, Transform};
+
+/// Triangles that one thread looks at.
+#[cfg(feature = "rayon")]
+const PIECE: usize = 4096;
 
 /// What the edits before this one in the batch have done.
 #[derive(Default)]
@@ -23,11 +28,14 @@ struct Batch {
     deforms: bool,
     lights: usize,
     triangles: usize,
+    /// Of the batch's deformed meshes, in the order of their edits.
+    deformed: Vec<Extent>,
 }
 
 impl<N: LightNode<W>, const W: usize> Scene<N, W> {
-    /// Brings all triangles of the batch into the domain, or says which edit cannot be done.
-    pub(super) fn check(&self, edits: &mut [Edit]) -> Result<(), EditError> {
+    /// Brings all triangles of the batch into the domain, or says which edit cannot be done. Returns the new extents of the
+    /// deformed meshes, in the order of their edits.
+    pub(super) fn check(&self, edits: &mut [Edit]) -> Result<Vec<Extent>, EditError> {
         let mut batch = Batch {
             lights: self.lights.end() as usize,
             triangles: self.triangles.len(),
@@ -38,7 +46,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             self.check_one(&mut batch, edit)
                 .map_err(|reason| EditError { edit: index, reason })?;
         }
-        Ok(())
+        Ok(batch.deformed)
     }
 
     fn check_one(&self, batch: &mut Batch, edit: &mut Edit) -> Result<(), EditReason> {
@@ -96,6 +104,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
                     }
                 }
                 batch.extents.insert(*mesh, extent);
+                batch.deformed.push(extent);
             }
             &mut Edit::RemoveInstance(id) => {
                 let mesh = self.known_instance(batch, id)?;
@@ -162,12 +171,28 @@ fn checked(triangles: &mut [EmissiveTriangle]) -> Result<(), EditReason> {
     if triangles.is_empty() {
         return Err(EditReason::EmptyMesh);
     }
-    for (index, triangle) in triangles.iter_mut().enumerate() {
-        *triangle = triangle
-            .checked()
-            .map_err(|error| EditReason::Light { index, error })?;
+    #[cfg(feature = "rayon")]
+    let wrong = {
+        use rayon::prelude::*;
+        triangles
+            .par_chunks_mut(PIECE)
+            .enumerate()
+            .find_map_first(|(i, piece)| first_wrong(piece, i * PIECE))
+    };
+    #[cfg(not(feature = "rayon"))]
+    let wrong = first_wrong(triangles, 0);
+    wrong.map_or(Ok(()), Err)
+}
+
+/// Brings triangles into the domain up to the first that cannot be; they are numbered from `first`.
+fn first_wrong(triangles: &mut [EmissiveTriangle], first: usize) -> Option<EditReason> {
+    for (index, triangle) in (first..).zip(triangles) {
+        match triangle.checked() {
+            Ok(checked) => *triangle = checked,
+            Err(error) => return Some(EditReason::Light { index, error }),
+        }
     }
-    Ok(())
+    None
 }
 
 fn factor(radiance: f32) -> Result<(), EditReason> {

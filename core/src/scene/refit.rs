@@ -6,6 +6,7 @@ use core::ops::Range;
 
 use super::Scene;
 use super::blas::Owner;
+use crate::lanes;
 use crate::levels::Levels;
 use crate::node::LightNode;
 use crate::refit;
@@ -112,25 +113,17 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         self.planned = false;
         let work = core::mem::take(&mut self.work);
         self.refits += u64::from(work.computed() > 0);
-        run(&mut self.nodes, &work.leaves, |nodes, i| {
-            refit::leaves(nodes, &self.triangles, i)
-        });
+        lanes::leaves(&mut self.nodes, &self.triangles, &work.leaves);
         for range in work.levels.ranges() {
-            run(&mut self.nodes, &work.levels.nodes()[range], |nodes, i| {
-                refit::level(nodes, i)
-            });
+            lanes::level(&mut self.nodes, &work.levels.nodes()[range]);
         }
         for &blas in &work.roots {
             let root = self.roots[blas as usize].node;
             self.roots[blas as usize] = refit::root(&self.nodes, root);
         }
-        run(&mut self.nodes, &work.instances, |nodes, i| {
-            refit::mesh_leaves(nodes, &self.instances, &self.roots, i)
-        });
+        lanes::mesh_leaves(&mut self.nodes, &self.instances, &self.roots, &work.instances);
         for range in work.top.ranges() {
-            run(&mut self.nodes, &work.top.nodes()[range], |nodes, i| {
-                refit::level(nodes, i)
-            });
+            lanes::level(&mut self.nodes, &work.top.nodes()[range]);
         }
         self.work = work;
     }
@@ -209,14 +202,6 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
                     .collect()
             }
         }
-    }
-}
-
-/// Gives each listed node the value that `node` computes from the nodes below it; nodes of one list do not depend on each
-/// other.
-fn run<N: Copy>(nodes: &mut [N], list: &[u32], node: impl Fn(&[N], u32) -> N) {
-    for &i in list {
-        nodes[i as usize] = node(nodes, i);
     }
 }
 

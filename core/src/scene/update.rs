@@ -27,7 +27,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     /// # Errors
     /// [`EditError`] naming the first edit that cannot be done; the scene is as before then.
     pub fn update(&mut self, mut edits: Vec<Edit>) -> Result<Updated, EditError> {
-        self.check(&mut edits)?;
+        let mut deformed = self.check(&mut edits)?.into_iter();
         self.removed_lights.clear();
         let mut updated = Updated::default();
         let mut added = Vec::new();
@@ -51,7 +51,10 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
                     self.placed[instance.index as usize].radiance = radiance;
                     self.place(instance.index);
                 }
-                Edit::Deform { mesh, triangles } => self.deform(mesh, &triangles),
+                Edit::Deform { mesh, triangles } => {
+                    let extent = deformed.next().unwrap_or_else(|| Extent::of(&triangles));
+                    self.deform(mesh, &triangles, extent);
+                }
                 Edit::RemoveInstance(id) => self.remove_instance(id.index),
                 Edit::RemoveMesh(id) => self.remove_mesh(id.index),
             }
@@ -141,9 +144,9 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         self.placed_ranges.give(index..index + 1);
     }
 
-    fn deform(&mut self, id: MeshId, triangles: &[EmissiveTriangle]) {
+    fn deform(&mut self, id: MeshId, triangles: &[EmissiveTriangle], extent: Extent) {
         let blas = self.meshes[id.index as usize].blas;
-        self.blases[blas as usize].extent = Extent::of(triangles);
+        self.blases[blas as usize].extent = extent;
         self.write_triangles(blas, triangles);
         // Instances with triangles of their own need them anew; the others may need some now, or no more.
         for k in 0..self.meshes[id.index as usize].users.len() {

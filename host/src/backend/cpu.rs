@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use lightbvh::{INVALID, Lights, refit, traverse};
+use lightbvh::{INVALID, Lights, traverse};
 use lightbvh_kernels::bvh::{Importance, Node, WIDTH};
 use lightbvh_kernels::query::{Query, Sampled};
 use lightbvh_kernels::render::RenderParams;
@@ -11,12 +11,9 @@ use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use rayon::prelude::*;
 
 use super::parts::{MAX_SAMPLES_PER_INVOCATION, in_parts, paths_per_invocation};
-use super::{Backend, Bvh, LightScene, Sampler, SceneArrays, Structure, Timed, climb};
+use super::{Backend, LightScene, Sampler, SceneArrays, Structure, Timed, climb};
 use crate::render::{render, render_path};
 use crate::vulkan::VulkanError;
-
-/// Nodes below which a level is not worth handing to other threads.
-const SERIAL: usize = 2048;
 
 /// The CPU as a backend: the reference that devices are compared with.
 pub struct CpuBackend {
@@ -56,7 +53,7 @@ impl Backend for CpuBackend {
         self.lights = lights.clone();
         let start = Instant::now();
         if let Structure::Bvh(bvh) = &mut self.structure {
-            refit_parallel(bvh, lights);
+            bvh.refit(lights);
         }
         Ok(Timed {
             time: start.elapsed(),
@@ -204,56 +201,6 @@ impl CpuBackend {
         Timed {
             value,
             time: start.elapsed(),
-        }
-    }
-}
-
-/// [`lightbvh::LightBvh::refit`] with the nodes of a pass computed in parallel: they do not depend on each other, and are
-/// written after all are known.
-fn refit_parallel(bvh: &mut Bvh, lights: &Lights) {
-    let (bottom, top) = (bvh.bottom_levels().clone(), bvh.top_levels().clone());
-    let meshes = bvh.tree().meshes.to_vec();
-    let nodes = bvh.nodes().len() as u32;
-    let top_start = if bvh.is_two_level() {
-        bvh.tree().root
-    } else {
-        nodes
-    };
-
-    let all: Vec<u32> = (0..nodes).collect();
-    let (bottom_nodes, top_nodes) = all.split_at(top_start as usize);
-    run_pass(bvh, bottom_nodes, |nodes, i| {
-        refit::leaves(nodes, lights.triangles(), i)
-    });
-    for range in bottom.ranges() {
-        run_pass(bvh, &bottom.nodes()[range], refit::level);
-    }
-    for root in 0..bvh.roots().len() {
-        bvh.roots_mut()[root] = refit::root(bvh.nodes(), bvh.roots()[root].node);
-    }
-    let roots = bvh.roots().to_vec();
-    run_pass(bvh, top_nodes, |nodes, i| {
-        refit::mesh_leaves(nodes, &meshes, &roots, i)
-    });
-    for range in top.ranges() {
-        run_pass(bvh, &top.nodes()[range], refit::level);
-    }
-}
-
-/// Gives each listed node the value that `node` computes from the nodes as they were before.
-fn run_pass(bvh: &mut Bvh, list: &[u32], node: impl Fn(&[Node], u32) -> Node + Sync) {
-    if list.len() < SERIAL {
-        for &i in list {
-            bvh.nodes_mut()[i as usize] = node(bvh.nodes(), i);
-        }
-    } else {
-        let new: Vec<Node> = list
-            .par_iter()
-            .with_min_len(512)
-            .map(|&i| node(bvh.nodes(), i))
-            .collect();
-        for (&i, new) in list.iter().zip(new) {
-            bvh.nodes_mut()[i as usize] = new;
         }
     }
 }

@@ -1,6 +1,7 @@
 //! `lightbvh bench`: time per item and bytes per light, beside a plain copy of the same bytes; and what speed costs in
-//! accuracy.
+//! accuracy; or what frames of moving lights cost.
 
+mod dynamic;
 mod trade;
 
 use std::hint::black_box;
@@ -36,6 +37,15 @@ pub(super) struct Args {
     /// Leave out the table of accuracy against speed.
     #[arg(long)]
     no_trade: bool,
+    /// Measure updates of moving lights instead: rigid motion, brightness, a deforming mesh.
+    #[arg(long)]
+    dynamic: bool,
+    /// Instances of the moving scene, 1 to 10^6.
+    #[arg(long, default_value_t = 10_000)]
+    instances: u32,
+    /// Triangles of each of its meshes, 1 to 10^6, and at most 10^7 in all instances together.
+    #[arg(long, default_value_t = 100)]
+    mesh_triangles: u32,
 }
 
 /// A measurement.
@@ -58,6 +68,9 @@ struct Case {
 }
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
+    if args.dynamic {
+        return run_dynamic(context, args);
+    }
     if args.lights == 0 || args.lights > 100_000_000 {
         let value = args.lights.into();
         return Err(HostError::Range {
@@ -110,7 +123,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             push(("build", None), "cpu", all, &build_times_all, args.lights);
         }
         // One thread as an engine embeds the library, whose mesh lights lie in world space; all threads through the backend.
-        let single = library_passes(structure, &lights, &queries);
+        let single = one.install(|| library_passes(structure, &lights, &queries));
         let mut cpu = CpuBackend::new(bvh.clone(), lights.clone());
         let mut results = vec![(1, single)];
         if all > 1 {
@@ -141,6 +154,49 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
 /// The two ways to refit. On the CPU the second takes one thread.
 const LEVELS: (&str, Option<&str>) = ("refit", Some("levels"));
 const SINGLE: (&str, Option<&str>) = ("refit", Some("single"));
+
+fn run_dynamic(context: &Context, args: &Args) -> Result<Outcome, HostError> {
+    let all = u64::from(args.instances) * u64::from(args.mesh_triangles);
+    let most = 1_000_000;
+    let options = [
+        (
+            "--instances",
+            args.instances.into(),
+            (1..=most).contains(&args.instances),
+            "1 to 1000000",
+        ),
+        (
+            "--mesh-triangles",
+            args.mesh_triangles.into(),
+            (1..=most).contains(&args.mesh_triangles),
+            "1 to 1000000",
+        ),
+        (
+            "--instances times --mesh-triangles",
+            all,
+            all <= 10_000_000,
+            "at most 10000000 triangles in all",
+        ),
+    ];
+    for (option, value, good, expected) in options {
+        if !good {
+            return Err(HostError::Range {
+                option,
+                value,
+                expected,
+            });
+        }
+    }
+    let opened = devices::open(context)?;
+    let report = dynamic::report(args.instances, args.mesh_triangles, &opened)?;
+    devices::close(opened)?;
+    if context.json {
+        table::print_json(&json!({ "dynamic": report }))?;
+    } else {
+        dynamic::print(&report)?;
+    }
+    Ok(Outcome::Good)
+}
 
 /// Times of several runs of each pass.
 struct Times {

@@ -76,6 +76,10 @@ impl Backend for CorruptBackend {
         self.inner.refit(lights)
     }
 
+    fn refit_once(&mut self, lights: &Lights) -> Result<Timed<Vec<Node>>, VulkanError> {
+        self.inner.refit_once(lights)
+    }
+
     fn follow(&mut self, scene: &LightScene, lights: &Lights) -> Result<Timed<()>, VulkanError> {
         self.inner.follow(scene, lights)
     }
