@@ -148,7 +148,7 @@ pub fn around(lights: &[EmissiveTriangle], count: u32, random: &mut Random) -> V
     let most = lightbvh::light::MAX_COORDINATE;
     (0..count)
         .map(|i| {
-            let p: [f32; 3] = if i % 2 == 0 {
+            let p: [f32; 3] = if i.is_multiple_of(2) {
                 let light = &lights[random.below(lights.len() as u32) as usize];
                 let size = size(light) * lightbvh::exact::pow2(random.below(13) as i32 - 8);
                 let by = random.direction();

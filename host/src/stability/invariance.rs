@@ -246,7 +246,7 @@ fn offset() -> (Scene, Scene) {
             p: [corner, vertex(random), vertex(random)],
             radiance: [1.0; 3],
             mesh: i / 8,
-            flags: u32::from(i % 4 == 0),
+            flags: u32::from(i.is_multiple_of(4)),
         });
     }
     let points = around(&lights, 48, random);

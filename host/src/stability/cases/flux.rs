@@ -34,7 +34,7 @@ pub(super) fn cases() -> Vec<Case> {
             exact::pow2(if i == 77 { 12 } else { 0 })
         }),
         with("every third light without flux", &|i| {
-            if i % 3 == 0 { 0.0 } else { 1.0 }
+            if i.is_multiple_of(3) { 0.0 } else { 1.0 }
         }),
         with("one light with flux among dark ones", &|i| {
             if i == 123 { 1.0 } else { 0.0 }

@@ -28,25 +28,25 @@ pub(super) fn cases() -> Vec<Case> {
         map.translation = [0, 1, 2].map(|k| map.translation[k] + [1e7, -1e7, 1e7][k]);
     }
     let mirrored = spread(24, 5.0, &|i| {
-        if i % 2 == 0 {
+        if i.is_multiple_of(2) {
             DVec3::splat(-1.0)
         } else {
             DVec3::new(1.0, 1.0, -1.0)
         }
     });
     let sheared = spread(24, 5.0, &|i| {
-        DVec3::new(1.0, 0.25, if i % 3 == 0 { 0.0 } else { 3.0 })
+        DVec3::new(1.0, 0.25, if i.is_multiple_of(3) { 0.0 } else { 3.0 })
     });
     let small = spread(12, 2e-5, &|_| DVec3::splat(f64::from(exact::pow2(-19))));
     let large = spread(12, 5e6, &|_| DVec3::splat(f64::from(exact::pow2(19))));
     let beyond = spread(12, 5e7, &|i| {
-        DVec3::splat(f64::from(exact::pow2(if i % 2 == 0 { 22 } else { -22 })))
+        DVec3::splat(f64::from(exact::pow2(if i.is_multiple_of(2) { 22 } else { -22 })))
     });
     let dimmed = plain.iter().enumerate().map(|(i, &(mesh, map, _))| {
         (
             mesh,
             map,
-            if i % 5 == 0 {
+            if i.is_multiple_of(5) {
                 0.0
             } else {
                 exact::pow2(i as i32 * 5 - 60)

@@ -53,7 +53,7 @@ fn offset() -> Vec<EmissiveTriangle> {
             p: [vertex(random), vertex(random), vertex(random)],
             radiance: [1.0; 3],
             mesh: i / 8,
-            flags: u32::from(i % 5 == 0),
+            flags: u32::from(i.is_multiple_of(5)),
         }
     };
     (0..200).map(light).collect()
@@ -64,7 +64,7 @@ fn all_scales() -> Vec<EmissiveTriangle> {
     let mut lights = Vec::new();
     for power in -12..=12 {
         let factor = 10f32.powi(power);
-        for mut light in scattered(8, 100 + power as u32) {
+        for mut light in scattered(8, (100 + power) as u32) {
             for x in light.p.iter_mut().flatten() {
                 *x *= factor;
             }
@@ -78,7 +78,7 @@ fn all_scales() -> Vec<EmissiveTriangle> {
 /// Equal triangles, some of them turned over.
 fn coincident(i: u32) -> EmissiveTriangle {
     let mut light = facing_x([1.0, 2.0, 3.0], 0.25, 1.0, 0, 0);
-    if i % 3 == 0 {
+    if i.is_multiple_of(3) {
         light.p.swap(1, 2);
     }
     light

@@ -96,7 +96,7 @@ fn far(distance: f32) -> Vec<ShadingPoint> {
 fn floor() -> Vec<EmissiveTriangle> {
     let light = |i: u32| {
         let (x, z) = ((i % 12) as f32, (i / 12) as f32);
-        let p = if i % 7 == 0 {
+        let p = if i.is_multiple_of(7) {
             [[x, 0.0, z], [x, 0.5, z], [x, 0.0, z + 0.5]]
         } else {
             [[x, 0.0, z], [x, 0.0, z + 0.5], [x + 0.5, 0.0, z]]

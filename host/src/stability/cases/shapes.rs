@@ -92,7 +92,7 @@ fn cone(name: &str, angle: f64) -> Case {
     let direction = |theta: f64, phi: f64| [theta.cos(), theta.sin() * phi.cos(), theta.sin() * phi.sin()];
     let light = |i: u32| {
         let phi = f64::from(i) * 2.4;
-        let theta = if i % 2 == 0 {
+        let theta = if i.is_multiple_of(2) {
             angle
         } else {
             angle * f64::from(random.unit())
@@ -116,7 +116,7 @@ fn cone(name: &str, angle: f64) -> Case {
         let d = direction(limit + off, i as f64);
         ShadingPoint {
             p: d.map(|x| (x * reach) as f32),
-            n: if i % 2 == 0 {
+            n: if i.is_multiple_of(2) {
                 [0.0; 3]
             } else {
                 d.map(|x| -x as f32)
