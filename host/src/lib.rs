@@ -10,5 +10,6 @@ pub mod method;
 pub mod metrics;
 pub mod render;
 pub mod scene;
+pub mod stability;
 pub mod vulkan;
 pub mod workload;

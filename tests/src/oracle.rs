@@ -1,46 +1,10 @@
-//! Oracles in f64, independent of the arithmetic under test: angles, cones, and which light can arrive where.
+//! Oracles in f64, independent of the arithmetic under test: angles and cones here; which light can arrive where is shared
+//! with `lightbvh stability`.
 
 use glam::DVec3;
 use lightbvh::cone::Cone;
-use lightbvh::{EmissiveTriangle, ImportanceModel, LightBounds, LightBvh, LightNode, Lights, ShadingPoint};
-
-/// A vector of the crate in f64.
-#[must_use]
-pub fn vector(v: [f32; 3]) -> DVec3 {
-    DVec3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]))
-}
-
-/// A triangle in f64.
-#[derive(Clone, Copy, Debug)]
-pub struct Triangle {
-    /// Vertices, metres.
-    pub p: [DVec3; 3],
-    /// (p1 − p0) × (p2 − p0), twice the area long.
-    pub normal: DVec3,
-    /// By how much rounding of the edges is enlarged in the direction of the normal: |e1| |e2| / |e1 × e2|.
-    pub condition: f64,
-}
-
-impl Triangle {
-    /// The triangle of a light.
-    #[must_use]
-    pub fn new(light: &EmissiveTriangle) -> Self {
-        let p = light.p.map(vector);
-        let (e1, e2) = (p[1] - p[0], p[2] - p[0]);
-        let normal = e1.cross(e2);
-        Self {
-            p,
-            normal,
-            condition: e1.length() * e2.length() / normal.length(),
-        }
-    }
-
-    /// Area, m².
-    #[must_use]
-    pub fn area(&self) -> f64 {
-        0.5 * self.normal.length()
-    }
-}
+use lightbvh::{ImportanceModel, LightBounds, LightBvh, LightNode, Lights, ShadingPoint};
+pub use lightbvh_host::stability::geometry::{Triangle, can_contribute, sum_tolerance, vector};
 
 /// The angle between two vectors of any length, precise at every angle.
 #[must_use]
@@ -63,27 +27,6 @@ pub fn cone_excess(outer: (DVec3, f32), inner: (DVec3, f32)) -> f64 {
     (reach - half_angle(outer.1)).max(0.0)
 }
 
-/// Whether light can arrive, by geometry alone: some of the triangle is above the point's horizon, and the point is on
-/// an emitting side, both by more than `margin` of the distance.
-#[must_use]
-pub fn can_contribute(light: &EmissiveTriangle, point: &ShadingPoint, margin: f64) -> bool {
-    let triangle = Triangle::new(light);
-    let (p, n) = (vector(point.p), vector(point.n));
-    let length = triangle.normal.length();
-    if length == 0.0 || light.luminance() == 0.0 {
-        return false;
-    }
-    let height = triangle.normal.dot(p - triangle.p[0]) / length;
-    let height = if light.is_two_sided() {
-        height.abs()
-    } else {
-        height
-    };
-    let in_front = height > margin * (triangle.p[0] - p).length();
-    let above = |v: &DVec3| n.dot(*v - p) > margin * (*v - p).length();
-    in_front && (n == DVec3::ZERO || triangle.p.iter().any(above))
-}
-
 /// Probability of every light at `point`.
 pub fn all_pmfs<I: ImportanceModel, N: LightNode<W>, const W: usize>(
     bvh: &LightBvh<N, W>,
@@ -93,13 +36,6 @@ pub fn all_pmfs<I: ImportanceModel, N: LightNode<W>, const W: usize>(
     (0..lights.triangles().len() as u32)
         .map(|i| bvh.pmf::<I>(lights, point, i))
         .collect()
-}
-
-/// By how much a sum of pmfs may be off 1: every factor of every pmf is rounded by at most 2^-24, and adopted masses add
-/// as many roundings again.
-#[must_use]
-pub fn sum_tolerance(depth: u32) -> f64 {
-    f64::from(depth * 4 + 8) * 2f64.powi(-24)
 }
 
 /// What f64 itself may be off in an angle, rad: acos and atan2 of numbers that are exact.

@@ -5,6 +5,7 @@ use lightbvh::{
     BuildParams, CompactNode, EmissiveTriangle, Eq4, FullNode, Heuristic, INVALID, LightBvh, LightNode,
     Lights, ShadingPoint, exact,
 };
+use lightbvh_host::stability::cases::scattered;
 use lightbvh_tests::generate::Random;
 use lightbvh_tests::oracle::{all_pmfs, sum_tolerance};
 use lightbvh_tests::statistics::{chi_squared, chi_squared_quantile};
@@ -279,5 +280,52 @@ fn one_light_outshines_all() {
             pmfs.iter().enumerate().all(|(i, &p)| p > 0.0 || i == 20),
             "a starved light: {pmfs:?}"
         );
+    }
+}
+
+/// Flux over 2^200 drives the pmfs of dim lights to the least there is, below several levels of it. Where those take over
+/// from dead neighbours far above, the neighbours' probability must not be reckoned from what the least has swallowed: it
+/// came out too large, and the probabilities summed to 1.44.
+#[test]
+fn adoption_above_the_least_pmf() {
+    let mut triangles = scattered(200, 17);
+    for (i, triangle) in (0..).zip(&mut triangles) {
+        triangle.radiance = [10f32.powi(i * 60 / 199 - 30); 3];
+    }
+    let lights = Lights::new(triangles).expect("within the domain");
+    let params = BuildParams::default();
+    adopting(
+        &LightBvh::<CompactNode<2>, 2>::two_level(&lights, &params),
+        &lights,
+    );
+    adopting(
+        &LightBvh::<CompactNode<2>, 2>::single_level(&lights, &params),
+        &lights,
+    );
+    adopting(&LightBvh::<FullNode<2>, 2>::two_level(&lights, &params), &lights);
+    adopting(
+        &LightBvh::<CompactNode<4>, 4>::two_level(&lights, &params),
+        &lights,
+    );
+}
+
+fn adopting<N: LightNode<W>, const W: usize>(bvh: &LightBvh<N, W>, lights: &Lights) {
+    let random = &mut Random::new(1);
+    for i in 0..400 {
+        let point = ShadingPoint {
+            p: [0; 3].map(|_| random.between(-0.25, 1.25)),
+            n: random.direction(),
+        };
+        let sum: f64 = all_pmfs::<Eq4, N, W>(bvh, lights, &point)
+            .iter()
+            .map(|&p| f64::from(p))
+            .sum();
+        assert!(
+            sum == 0.0 || (sum - 1.0).abs() <= sum_tolerance(bvh.depth()),
+            "sum {sum} at {point:?}"
+        );
+        if i % 40 == 0 && sum > 0.0 {
+            frequencies_match(bvh, lights, &point, 20_000, i);
+        }
     }
 }

@@ -27,12 +27,13 @@ impl ImportanceModel for Counting {
 }
 
 /// Most importances that a call may ask for: two ways down; then for the heir and for adopted masses, each of the
-/// neighbours of a way, at most four times the slots that two levels of nodes have, a search of all nodes and a way up.
+/// neighbours of a way, at most four times the slots that two levels of nodes have, a search of all nodes and a way up, on which
+/// each node may be walked to from the root.
 fn bound(nodes: usize, width: usize) -> u64 {
     let (n, w) = (nodes as u64, width as u64);
     let levels = u64::from(2 * max_levels(width));
     let neighbours = 2 * 2 * w * levels;
-    w * (2 * levels + neighbours * (n * levels + levels))
+    w * (2 * levels + neighbours * (n * levels + levels * (1 + levels)))
 }
 
 /// Samples and evaluates pmfs; returns the greatest number of importances of one call.

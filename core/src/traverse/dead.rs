@@ -7,7 +7,7 @@
 //! too where no live one follows among the siblings. Neighbours are mostly live and near, so one look on each side is
 //! the usual cost.
 
-use super::descend::{Descent, Start, enter};
+use super::descend::{Descent, MIN_PMF, Start, enter};
 use super::neighbor::Neighbor;
 use crate::exact;
 use crate::importance::ImportanceModel;
@@ -144,7 +144,8 @@ fn search_bound(nodes: u32, levels: u32) -> u32 {
 ///
 /// Nodes above are found by following links alone, which costs far less than importances. Their probabilities follow
 /// from the neighbour's by undoing one choice per level, so that a walk from the root is not needed; the rounding is
-/// the same whoever asks.
+/// the same whoever asks. Only where the least pmf has swallowed factors, so that nothing can be undone, the way is walked
+/// again.
 fn next_neighbor<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: usize>(
     tree: &LightTree<'_, N, L>,
     point: &ShadingPoint,
@@ -163,11 +164,11 @@ fn next_neighbor<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: usiz
     let mut done = neighbor.is_none();
     while !done && steps > 0 {
         steps -= 1;
-        let index = if undo {
-            node_at::<N, L, W>(tree, d.path, position)
-        } else {
-            neighbor.index
-        };
+        let swallowed = before <= MIN_PMF;
+        let (mut index, mut reached) = (neighbor.index, 0.0);
+        if undo {
+            (index, reached) = node_at::<N, I, L, W>(tree, point, d.path, position, swallowed);
+        }
         let node = &tree.nodes[index as usize];
         let (mut weights, mut sum) = (neighbor.weights, neighbor.sum);
         if undo {
@@ -176,7 +177,8 @@ fn next_neighbor<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: usiz
             for s in 0..W {
                 taken = if s as u32 == slot { weights[s] } else { taken };
             }
-            before = exact::div(before * sum, taken);
+            let undone = before * exact::div(sum, taken);
+            before = if swallowed { reached } else { undone };
         }
         for i in 0..W {
             let s = if right { i } else { W - 1 - i };
@@ -212,26 +214,40 @@ fn next_neighbor<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: usiz
     next
 }
 
-/// Index of the node at `position` of a way that was taken before.
-fn node_at<N: LightNode<W>, L: MeshLeaf, const W: usize>(
+/// Index of the node at `position` of a way that was taken before, and with `measure` the probability of reaching it.
+fn node_at<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: usize>(
     tree: &LightTree<'_, N, L>,
+    point: &ShadingPoint,
     path: Path,
     position: u32,
-) -> u32 {
+    measure: bool,
+) -> (u32, f32) {
     let (mut index, mut at) = (tree.root, 0);
+    let (mut mesh, mut pmf) = (INVALID, 1.0);
     let mut steps = 2 * max_levels(W);
     while at != position && index < tree.nodes.len() as u32 && steps > 0 {
         steps -= 1;
         let slot = path.slot::<W>(at);
         let node = &tree.nodes[index as usize];
         let slot = if slot < W as u32 { slot as usize } else { 0 };
+        if measure {
+            let (weights, sum) = node.weights::<I, L::Local>(&tree.receiver(point, mesh));
+            let mut weight = 0.0;
+            for s in 0..W {
+                weight = if s == slot { weights[s] } else { weight };
+            }
+            let alive = if sum > 0.0 { sum } else { 1.0 };
+            pmf = exact::max(pmf * exact::div(weight, alive), MIN_PMF);
+        }
         let (to, link) = (node.kind(slot), node.link(slot));
-        let (next, next_position, _) = enter::<N, L, W>(tree, to, link, at, INVALID);
+        let (next, next_position, next_mesh) = enter::<N, L, W>(tree, to, link, at, mesh);
         index = next;
         at = next_position;
+        mesh = next_mesh;
     }
     // A way that was taken does not lead out of the nodes, unless another invocation changed them meanwhile.
-    if index < tree.nodes.len() as u32 { index } else { 0 }
+    let within = index < tree.nodes.len() as u32;
+    (if within { index } else { 0 }, pmf)
 }
 
 /// Slots of one node that are known to be dead or of no importance.

@@ -37,7 +37,7 @@ pub(super) struct Descent<const W: usize> {
 }
 
 /// A pmf never falls below 2^-120: a light less probable than that is never drawn, and must not seem impossible.
-const MIN_PMF: f32 = exact::pow2(-120);
+pub(super) const MIN_PMF: f32 = exact::pow2(-120);
 
 /// Where a descent starts, and what lies beside the way so far.
 #[derive(Clone, Copy)]

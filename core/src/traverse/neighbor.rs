@@ -27,6 +27,9 @@ pub(super) struct Neighbor<const W: usize> {
     pub sum: f32,
 }
 
+/// Probabilities of neighbours below this, 2^-124, count as none: a device that flushes subnormal numbers agrees.
+const LEAST_MASS: f32 = exact::pow2(-124);
+
 impl<const W: usize> Neighbor<W> {
     /// No neighbour.
     pub const NONE: Self = Self {
@@ -52,7 +55,7 @@ impl<const W: usize> Neighbor<W> {
                 weight
             };
         }
-        self.before * exact::div(weight, self.sum)
+        exact::flush(self.before * exact::div(weight, self.sum), LEAST_MASS)
     }
 
     #[inline(always)]

@@ -9,6 +9,7 @@ mod export;
 mod frames;
 mod info;
 mod render;
+mod stability;
 mod table;
 mod validate;
 mod verify;
@@ -48,6 +49,8 @@ enum Command {
     Bench(bench::Args),
     /// Compare the methods over an animation as the paper does: errors, times, graphs and close-ups.
     Compare(compare::Args),
+    /// Check every extreme that the light BVH must survive, on the CPU and every device, against stated bounds.
+    Stability(stability::Args),
     /// List the Vulkan devices and whether their arithmetic is exact.
     Info,
     /// Check every invariant of the light BVHs of a scene.
@@ -95,6 +98,7 @@ pub fn main() -> ExitCode {
         Command::Verify(args) => verify::run(&context, args),
         Command::Bench(args) => bench::run(&context, args),
         Command::Compare(args) => compare::run(&context, args),
+        Command::Stability(args) => stability::run(&context, args),
         Command::Info => info::run(&context),
         Command::Validate(args) => validate::run(&context, args),
         Command::Export(args) => export::run(&context, args),

@@ -161,9 +161,12 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             "scene": scene.name(), "width": args.width, "height": args.height, "spp": samples,
             "sampler": args.sampler, "backend": name,
         });
-        if let Integrator::Path { bounces } = integrator {
-            report["bounces"] = bounces.into();
+        // Direct lighting is reflected once.
+        report["bounces"] = match integrator {
+            Integrator::Direct => 1,
+            Integrator::Path { bounces } => bounces,
         }
+        .into();
         report["integrator"] = json!(args.integrator);
         if let Some(restir) = method.report() {
             report["restir"] = restir;

@@ -1,0 +1,155 @@
+//! `lightbvh stability`: every extreme on the CPU and on every device, each row against its bound.
+
+use std::collections::BTreeMap;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use serde::Serialize;
+
+use super::{Context, Outcome, devices, table};
+use crate::error::HostError;
+use crate::stability::row::{Check, Row};
+use crate::stability::{Effort, Found, cases, invariance, run as run_case};
+use crate::vulkan::Device;
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// Fewer samples and smaller scenes: less than a minute.
+    #[arg(long)]
+    quick: bool,
+}
+
+/// An extreme that a device has no room for.
+#[derive(Serialize)]
+struct Skipped {
+    name: String,
+    device: String,
+    why: &'static str,
+}
+
+#[derive(Serialize)]
+struct Report {
+    rows: Vec<Row>,
+    failed: usize,
+    skipped: Vec<Skipped>,
+    /// What each check measures, and why its bound is what it is.
+    checks: BTreeMap<&'static str, &'static str>,
+}
+
+pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
+    let effort = if args.quick { Effort::QUICK } else { Effort::FULL };
+    let opened = devices::open(context)?;
+    let each: Vec<&Device> = opened.iter().map(|o| &o.device).collect();
+    let small = cases::small();
+    let progress = progress(small.len() as u64 + 3, context.json);
+    let mut found = Found::default();
+    for case in &small {
+        progress.set_message(case.name.clone());
+        run_case(case, &effort, &each, &mut found)?;
+        progress.inc(1);
+    }
+    progress.set_message("invariance");
+    found.rows.extend(invariance::rows()?);
+    progress.inc(1);
+    // One after the other, and gone before the next: each takes gigabytes.
+    for (make, count) in [
+        (cases::equal as fn(u32) -> _, effort.equal_lights),
+        (cases::many, effort.most_lights),
+    ] {
+        progress.set_message(format!("{count} lights"));
+        run_case(&make(count), &effort, &each, &mut found)?;
+        progress.inc(1);
+    }
+    progress.finish_and_clear();
+    devices::close(opened)?;
+
+    let too_large = found.too_large.into_iter();
+    let report = Report {
+        failed: found.rows.iter().filter(|row| !row.pass).count(),
+        rows: found.rows,
+        skipped: too_large
+            .map(|(extreme, structure, device)| Skipped {
+                name: format!("{extreme}, {structure}"),
+                device,
+                why: "larger than a buffer of the device may be",
+            })
+            .collect(),
+        checks: Check::ALL
+            .iter()
+            .map(|check| (check.name(), check.reason()))
+            .collect(),
+    };
+    print(context, &report)?;
+    Ok(if report.failed == 0 {
+        Outcome::Good
+    } else {
+        Outcome::Bad
+    })
+}
+
+fn progress(cases: u64, hidden: bool) -> ProgressBar {
+    if hidden {
+        return ProgressBar::hidden();
+    }
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg}");
+    ProgressBar::new(cases).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+fn print(context: &Context, report: &Report) -> Result<(), HostError> {
+    if context.json {
+        table::print_json(report)?;
+        return Ok(());
+    }
+    let rows: Vec<Vec<String>> = report
+        .rows
+        .iter()
+        .map(|row| {
+            let verdict = if row.pass { "yes" } else { "NO" };
+            [
+                &row.name,
+                &row.device,
+                &number(row.worst),
+                &number(row.bound),
+                verdict,
+            ]
+            .map(str::to_owned)
+            .into()
+        })
+        .collect();
+    table::print(
+        &["extreme, structure: check", "device", "worst", "bound", "within"],
+        &rows,
+    )?;
+    let mut text = String::from("\n");
+    for (check, reason) in &report.checks {
+        text += &format!("{check}: {reason}\n");
+    }
+    for skipped in &report.skipped {
+        text += &format!(
+            "not compared on {}: {} is {}\n",
+            skipped.device, skipped.name, skipped.why
+        );
+    }
+    for row in report.rows.iter().filter(|row| !row.pass) {
+        let at = row.at.as_deref().unwrap_or("no place is known");
+        text += &format!(
+            "FAILED on {}: {}: {}, at most {}; {at}\n",
+            row.device,
+            row.name,
+            number(row.worst),
+            number(row.bound)
+        );
+    }
+    let (failed, all) = (report.failed, report.rows.len());
+    text += &format!("{} of {all} rows are within their bounds\n", all - failed);
+    table::print_text(&text)?;
+    Ok(())
+}
+
+/// Counts as they are, everything else to three digits.
+fn number(x: f64) -> String {
+    if x == x.trunc() && x.abs() < 1e9 {
+        format!("{x}")
+    } else {
+        format!("{x:.2e}")
+    }
+}

@@ -1,0 +1,75 @@
+//! How many lights there are: one, two, millions.
+
+use lightbvh::{EmissiveTriangle, ShadingPoint};
+
+use super::super::case::Case;
+use super::super::random::Random;
+use super::{add, scattered};
+
+pub(super) fn few() -> Vec<Case> {
+    vec![
+        Case::new("one light", scattered(1, 91)),
+        Case::new("two lights", scattered(2, 92)),
+        Case::new("three lights", scattered(3, 92)),
+    ]
+}
+
+/// `count` equal lights in a cube, all seen from so far away that each is as probable as any other to a few percent.
+#[must_use]
+pub fn equal(count: u32) -> Case {
+    let side = f64::from(count).cbrt().ceil() as u32;
+    let light = |i: u32| {
+        let corner = [i % side, i / side % side, i / (side * side)].map(|k| k as f32);
+        small(corner, i / 4096)
+    };
+    let far = 40.0 * side as f32;
+    let points = vec![
+        ShadingPoint {
+            p: [far; 3],
+            n: [0.0; 3],
+        },
+        ShadingPoint {
+            p: [0.5 * side as f32; 3],
+            n: [0.0; 3],
+        },
+    ];
+    Case {
+        large: true,
+        ..Case::new(format!("{count} equal lights"), (0..count).map(light).collect()).at(points)
+    }
+}
+
+/// `count` lights anywhere in a box of 1000 m.
+#[must_use]
+pub fn many(count: u32) -> Case {
+    let random = &mut Random::new(97);
+    let light = |i: u32| small([0; 3].map(|_| random.between(0.0, 1000.0)), i / 1000);
+    let lights: Vec<_> = (0..count).map(light).collect();
+    let points = vec![
+        ShadingPoint {
+            p: [500.0; 3],
+            n: [0.0, 1.0, 0.0],
+        },
+        ShadingPoint {
+            p: [1200.0, -300.0, 40.0],
+            n: [0.0; 3],
+        },
+    ];
+    Case {
+        large: true,
+        ..Case::new(format!("{count} lights"), lights).at(points)
+    }
+}
+
+fn small(corner: [f32; 3], mesh: u32) -> EmissiveTriangle {
+    EmissiveTriangle {
+        p: [
+            corner,
+            add(corner, [0.25, 0.0, 0.0]),
+            add(corner, [0.0, 0.25, 0.125]),
+        ],
+        radiance: [1.0; 3],
+        mesh,
+        flags: 1,
+    }
+}

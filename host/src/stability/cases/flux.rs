@@ -1,0 +1,52 @@
+//! How much lights emit: nothing, 1e-30 to 1e30, one more than all others.
+
+use lightbvh::{EmissiveTriangle, exact};
+
+use super::super::case::Case;
+use super::scattered;
+
+pub(super) fn cases() -> Vec<Case> {
+    let with = |name: &str, radiance: &dyn Fn(usize) -> f32| {
+        let mut lights = scattered(200, 17);
+        for (i, light) in lights.iter_mut().enumerate() {
+            light.radiance = [radiance(i); 3];
+        }
+        Case::new(name, lights)
+    };
+    let dark: fn(EmissiveTriangle) -> EmissiveTriangle = |light| EmissiveTriangle {
+        radiance: [0.0; 3],
+        ..light
+    };
+    vec![
+        with("flux from 1e-30 to 1e30", &|i| {
+            10f32.powi(i as i32 * 37 % 61 - 30)
+        }),
+        with("flux from 1e-30 to 1e30, sorted", &|i| {
+            10f32.powi(i as i32 * 60 / 199 - 30)
+        }),
+        with("one light brighter by 2^40", &|i| {
+            exact::pow2(if i == 77 { 40 } else { 0 })
+        }),
+        with("one light brighter by 2^100", &|i| {
+            exact::pow2(if i == 77 { 100 } else { 0 })
+        }),
+        with("one light brighter by 2^12", &|i| {
+            exact::pow2(if i == 77 { 12 } else { 0 })
+        }),
+        with("every third light without flux", &|i| {
+            if i.is_multiple_of(3) { 0.0 } else { 1.0 }
+        }),
+        with("one light with flux among dark ones", &|i| {
+            if i == 123 { 1.0 } else { 0.0 }
+        }),
+        Case {
+            points: Case::new("", scattered(64, 5)).points,
+            ..Case::new(
+                "no light has flux",
+                scattered(64, 5).into_iter().map(dark).collect(),
+            )
+        },
+        with("least radiance, 2^-100", &|_| exact::pow2(-100)),
+        with("greatest radiance, 2^100", &|_| exact::pow2(100)),
+    ]
+}

@@ -1,0 +1,137 @@
+//! What is lit: points on lights, in boxes and at their centres, far away, grazing and behind.
+
+use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, LightNode, Lights, ShadingPoint, exact};
+use lightbvh_kernels::bvh::{Node, WIDTH};
+
+use super::super::case::Case;
+use super::super::random::Random;
+use super::scattered;
+
+pub(super) fn cases() -> Vec<Case> {
+    let lights = scattered(200, 41);
+    vec![
+        Case::new("points on lights", lights.clone()).at(on_lights(&lights)),
+        Case::new("points at the centres and corners of boxes", lights.clone()).at(in_boxes(&lights)),
+        Case::new("points at 1e15 m", lights.clone()).at(far(1e15)),
+        Case::new("points at 2^40 m", lights.clone()).at(far(exact::pow2(40))),
+        Case::new("points at 2^60 m", lights.clone()).at(far(exact::pow2(60))),
+        Case::new("grazing and back-facing", floor()).at(grazing()),
+    ]
+}
+
+fn volume(p: [f32; 3]) -> ShadingPoint {
+    ShadingPoint { p, n: [0.0; 3] }
+}
+
+/// At vertices, on edges and within lights, with the light's own normal, its opposite, none, and any.
+fn on_lights(lights: &[EmissiveTriangle]) -> Vec<ShadingPoint> {
+    let random = &mut Random::new(43);
+    let mut points = Vec::new();
+    for light in lights.iter().step_by(12) {
+        let [a, b, c] = light.p;
+        let normal = super::super::geometry::Triangle::new(light)
+            .normal
+            .normalize()
+            .to_array()
+            .map(|x| x as f32);
+        let places = [
+            a,
+            std::array::from_fn(|k| 0.5 * (a[k] + b[k])),
+            std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0),
+        ];
+        for p in places {
+            for n in [normal, normal.map(|x| -x), [0.0; 3], random.direction()] {
+                points.push(ShadingPoint { p, n });
+            }
+        }
+    }
+    points
+}
+
+/// At the centres and corners of the boxes of a tree's nodes.
+fn in_boxes(lights: &[EmissiveTriangle]) -> Vec<ShadingPoint> {
+    let random = &mut Random::new(47);
+    let Ok(lights) = Lights::new(lights.to_vec()) else {
+        return Vec::new();
+    };
+    let bvh = LightBvh::<Node, WIDTH>::single_level(&lights, &BuildParams::default());
+    let mut points = Vec::new();
+    for node in bvh.nodes().iter().step_by(2) {
+        for slot in 0..2 {
+            let (cluster, bounds) = (node.cluster(slot), node.bounds(slot));
+            points.push(volume(cluster.center.to_array()));
+            points.push(ShadingPoint {
+                p: cluster.center.to_array(),
+                n: random.direction(),
+            });
+            points.push(ShadingPoint {
+                p: bounds.max.to_array(),
+                n: random.direction(),
+            });
+        }
+    }
+    points.truncate(120);
+    points
+}
+
+fn far(distance: f32) -> Vec<ShadingPoint> {
+    let random = &mut Random::new(53);
+    let mut points: Vec<ShadingPoint> = (0..24)
+        .map(|i| {
+            let p = random.direction().map(|x| x * distance);
+            let n = match i % 3 {
+                0 => [0.0; 3],
+                1 => p.map(|x| -x / distance),
+                _ => random.direction(),
+            };
+            ShadingPoint { p, n }
+        })
+        .collect();
+    points.push(volume([distance; 3]));
+    points.push(volume([-distance, distance, 0.0]));
+    points
+}
+
+/// A floor of one-sided lights in the plane y = 0 that face up, and a few walls.
+fn floor() -> Vec<EmissiveTriangle> {
+    let light = |i: u32| {
+        let (x, z) = ((i % 12) as f32, (i / 12) as f32);
+        let p = if i.is_multiple_of(7) {
+            [[x, 0.0, z], [x, 0.5, z], [x, 0.0, z + 0.5]]
+        } else {
+            [[x, 0.0, z], [x, 0.0, z + 0.5], [x + 0.5, 0.0, z]]
+        };
+        EmissiveTriangle {
+            p,
+            radiance: [1.0; 3],
+            mesh: i / 12,
+            flags: 0,
+        }
+    };
+    (0..144).map(light).collect()
+}
+
+/// Just above and below the floor's plane, with normals along it, just out of it, and away from all lights.
+fn grazing() -> Vec<ShadingPoint> {
+    let mut points = Vec::new();
+    for height in [0.0, 1e-6, -1e-6, 1e-5, 1e-3, -1e-3, 1.0, -1.0] {
+        for n in [
+            [1.0, 0.0, 0.0],
+            [-1.0, 1e-5, 0.0],
+            [-1.0, -1e-5, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, -1.0, 0.0],
+            [0.0; 3],
+        ] {
+            points.push(ShadingPoint {
+                p: [14.0, height, 5.25],
+                n,
+            });
+            points.push(ShadingPoint {
+                p: [5.25, height, 5.75],
+                n,
+            });
+        }
+    }
+    points
+}

@@ -1,0 +1,112 @@
+//! Which light can arrive where, by geometry alone, in f64 and independent of the arithmetic under test.
+
+use glam::DVec3;
+use lightbvh::{EmissiveTriangle, ShadingPoint};
+
+/// A vector of the crate in f64.
+#[must_use]
+pub fn vector(v: [f32; 3]) -> DVec3 {
+    DVec3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]))
+}
+
+/// A triangle in f64.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangle {
+    /// Vertices, metres.
+    pub p: [DVec3; 3],
+    /// (p1 − p0) × (p2 − p0), twice the area long.
+    pub normal: DVec3,
+    /// By how much rounding of the edges is enlarged in the direction of the normal: |e1| |e2| / |e1 × e2|.
+    pub condition: f64,
+}
+
+impl Triangle {
+    /// The triangle of a light.
+    #[must_use]
+    pub fn new(light: &EmissiveTriangle) -> Self {
+        let p = light.p.map(vector);
+        let (e1, e2) = (p[1] - p[0], p[2] - p[0]);
+        let normal = e1.cross(e2);
+        Self {
+            p,
+            normal,
+            condition: e1.length() * e2.length() / normal.length(),
+        }
+    }
+
+    /// Area, m².
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        0.5 * self.normal.length()
+    }
+}
+
+/// Whether light can arrive, by geometry alone: some of the triangle is above the point's horizon, and the point is on
+/// an emitting side, both by more than `margin` of the distance.
+#[must_use]
+pub fn can_contribute(light: &EmissiveTriangle, point: &ShadingPoint, margin: f64) -> bool {
+    let triangle = Triangle::new(light);
+    let (p, n) = (vector(point.p), vector(point.n));
+    let length = triangle.normal.length();
+    if length == 0.0 || light.luminance() == 0.0 {
+        return false;
+    }
+    let height = triangle.normal.dot(p - triangle.p[0]) / length;
+    let height = if light.is_two_sided() {
+        height.abs()
+    } else {
+        height
+    };
+    let in_front = height > margin * (triangle.p[0] - p).length();
+    let above = |v: &DVec3| n.dot(*v - p) > margin * (*v - p).length();
+    in_front && (n == DVec3::ZERO || triangle.p.iter().any(above))
+}
+
+/// By how much a sum of pmfs may be off 1: every factor of every pmf is rounded by at most 2^-24, and adopted masses add
+/// as many roundings again.
+#[must_use]
+pub fn sum_tolerance(depth: u32) -> f64 {
+    f64::from(depth * 4 + 8) * 2f64.powi(-24)
+}
+
+/// Whether rounding in `f32` may leave nothing of the triangle's area: it is below 2^-21 of the product of two of its edges.
+/// Such a light may count as one without area, and then emits nothing.
+#[must_use]
+pub fn may_lose_its_area(light: &EmissiveTriangle) -> bool {
+    Triangle::new(light).condition.recip() < 1.0 / 2_097_152.0
+}
+
+/// What `light` contributes to `point` if nothing is between, in f64: radiance (green) times both cosines over squared
+/// distance, times area, at four points of the triangle. In a volume there is no cosine at the receiver.
+#[must_use]
+pub fn contribution(light: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
+    let triangle = Triangle::new(light);
+    let length = triangle.normal.length();
+    if length == 0.0 || light.radiance[1] == 0.0 {
+        return 0.0;
+    }
+    let (p, n) = (vector(point.p), vector(point.n));
+    let normal = triangle.normal / length;
+    let [a, b, c] = triangle.p;
+    let weights = [[1.0, 1.0, 1.0], [4.0, 1.0, 1.0], [1.0, 4.0, 1.0], [1.0, 1.0, 4.0]];
+    let mut sum = 0.0;
+    for [u, v, w] in weights {
+        let d = (a * u + b * v + c * w) / (u + v + w) - p;
+        let squared = d.length_squared();
+        if squared > 0.0 {
+            let received = if n == DVec3::ZERO {
+                1.0
+            } else {
+                (n.dot(d) / squared.sqrt()).max(0.0)
+            };
+            let emitted = -normal.dot(d) / squared.sqrt();
+            let emitted = if light.is_two_sided() {
+                emitted.abs()
+            } else {
+                emitted.max(0.0)
+            };
+            sum += received * emitted / squared;
+        }
+    }
+    f64::from(light.radiance[1]) * triangle.area() * sum / weights.len() as f64
+}

@@ -1,0 +1,306 @@
+//! A scene against itself scaled, turned, moved and dimmed: what may change, and by how much.
+
+use glam::{DMat3, DQuat, DVec3};
+use lightbvh::{BuildParams, EmissiveTriangle, Lights, ShadingPoint, exact};
+use rayon::prelude::*;
+
+use super::case::{around, door};
+use super::cases::scattered;
+use super::checks::{all_pmfs, relative_deviation};
+use super::random::Random;
+use super::row::{Check, Row};
+use super::walked;
+use crate::backend::{Bvh, Sampler};
+use crate::error::HostError;
+use crate::workload;
+
+/// Greatest share of samples that may go elsewhere; see [`Check::Variation`].
+const VARIATION: f64 = 0.02;
+/// Greatest factor on the standard deviation; see [`Check::Deviation`].
+const DEVIATION: f64 = 1.5;
+
+/// A scene and where it is looked at.
+#[derive(Clone)]
+struct Scene {
+    lights: Vec<EmissiveTriangle>,
+    points: Vec<ShadingPoint>,
+}
+
+/// What is invariant, or nearly so.
+struct Study {
+    /// By point, by light.
+    pmfs: Vec<Vec<f32>>,
+    /// Root mean square over the points of the relative standard deviation of one sample's estimate.
+    deviation: f64,
+}
+
+impl Scene {
+    fn new(lights: Vec<EmissiveTriangle>) -> Self {
+        let points = around(&lights, 48, &mut Random::new(7));
+        Self { lights, points }
+    }
+
+    /// With places, and directions, brought elsewhere.
+    fn mapped(&self, place: impl Fn([f32; 3]) -> [f32; 3], direction: impl Fn([f32; 3]) -> [f32; 3]) -> Self {
+        let mut mapped = self.clone();
+        for vertex in mapped.lights.iter_mut().flat_map(|light| light.p.iter_mut()) {
+            *vertex = place(*vertex);
+        }
+        for point in &mut mapped.points {
+            *point = ShadingPoint {
+                p: place(point.p),
+                n: direction(point.n),
+            };
+        }
+        mapped
+    }
+
+    fn scaled(&self, factor: f32) -> Self {
+        self.mapped(|p| p.map(|x| x * factor), |n| n)
+    }
+
+    fn turned(&self, turn: DMat3) -> Self {
+        let apply = |v: [f32; 3]| {
+            (turn * DVec3::from(v.map(f64::from)))
+                .to_array()
+                .map(|x| x as f32)
+        };
+        self.mapped(apply, apply)
+    }
+
+    fn dimmed(&self, factor: f32) -> Self {
+        let mut dimmed = self.clone();
+        for x in dimmed
+            .lights
+            .iter_mut()
+            .flat_map(|light| light.radiance.iter_mut())
+        {
+            *x *= factor;
+        }
+        dimmed
+    }
+
+    fn tree(&self, sampler: Sampler) -> Result<(Bvh, Lights), HostError> {
+        let lights = door("invariance", self.lights.clone())?;
+        Ok((workload::build(&lights, sampler, &BuildParams::default()), lights))
+    }
+
+    /// By a tree of its own; or, for [`Check::Variation`], by that of `base` refitted, since rounding may let the builder
+    /// choose otherwise and then all probabilities are others.
+    fn study(&self, sampler: Sampler, base: Option<&Self>) -> Result<Study, HostError> {
+        let (mut bvh, mut lights) = base.unwrap_or(self).tree(sampler)?;
+        if base.is_some() {
+            lights = door("invariance", self.lights.clone())?;
+            bvh.refit(&lights);
+        }
+        let tree = walked(&bvh, &lights);
+        let squares: Vec<f64> = self
+            .points
+            .par_iter()
+            .filter_map(|p| relative_deviation(&tree, p))
+            .map(|d| d * d)
+            .collect();
+        Ok(Study {
+            pmfs: self.points.iter().map(|point| all_pmfs(&tree, point)).collect(),
+            deviation: (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt(),
+        })
+    }
+}
+
+impl Study {
+    fn pairs<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = (f32, f32)> + 'a {
+        self.pmfs
+            .iter()
+            .flatten()
+            .copied()
+            .zip(other.pmfs.iter().flatten().copied())
+    }
+
+    fn different_bits(&self, other: &Self) -> f64 {
+        self.pairs(other)
+            .filter(|(a, b)| a.to_bits() != b.to_bits())
+            .count() as f64
+    }
+
+    /// The mean over points of the total variation distance.
+    fn variation(&self, other: &Self) -> f64 {
+        let sum: f64 = self
+            .pairs(other)
+            .map(|(a, b)| (f64::from(a) - f64::from(b)).abs())
+            .sum();
+        0.5 * sum / self.pmfs.len().max(1) as f64
+    }
+
+    fn worse(&self, other: &Self) -> f64 {
+        let factor = self.deviation / other.deviation;
+        factor.max(1.0 / factor)
+    }
+}
+
+/// All rows, on the CPU.
+///
+/// # Errors
+/// [`HostError`] when the crate refuses a scene.
+pub fn rows() -> Result<Vec<Row>, HostError> {
+    let mut out = Vec::new();
+    for sampler in [Sampler::SingleLevel, Sampler::TwoLevel] {
+        let mut group =
+            |name: &str, base: &Scene, others: Vec<Scene>, checks: &[Check]| -> Result<(), HostError> {
+                let study = base.study(sampler, None)?;
+                let mut worst = vec![0f64; checks.len()];
+                for other in others {
+                    let anew = other.study(sampler, None)?;
+                    for (worst, check) in worst.iter_mut().zip(checks) {
+                        let value = match check {
+                            Check::SameBits => study.different_bits(&anew),
+                            Check::Variation => study.variation(&other.study(sampler, Some(base))?),
+                            _ => study.worse(&anew),
+                        };
+                        *worst = if value > *worst || value.is_nan() {
+                            value
+                        } else {
+                            *worst
+                        };
+                    }
+                }
+                for (&worst, &check) in worst.iter().zip(checks) {
+                    let bound = match check {
+                        Check::SameBits => 0.0,
+                        Check::Variation => VARIATION,
+                        _ => DEVIATION,
+                    };
+                    out.push(Row::new(name, sampler.name(), check, worst, bound));
+                }
+                Ok(())
+            };
+
+        let base = Scene::new(scattered(400, 5));
+        // Below 2^-32 the nearest points come nearer to a light than the 2^-50 m that importance tells apart.
+        let powers = (-32..=39).map(|e| base.scaled(exact::pow2(e))).collect();
+        group("scaled by powers of two", &base, powers, &[Check::SameBits])?;
+        let powers = (-60..=60)
+            .step_by(3)
+            .map(|e| base.dimmed(exact::pow2(e)))
+            .collect();
+        group(
+            "radiance scaled by powers of two",
+            &base,
+            powers,
+            &[Check::SameBits],
+        )?;
+        let nearly = [Check::Variation, Check::Deviation];
+        let tens = (-12..=12)
+            .filter(|&e| e != 0)
+            .map(|e| base.scaled(10f32.powi(e)))
+            .collect();
+        group("scaled by 1e-12 to 1e12", &base, tens, &nearly)?;
+        let tens = (-18..=18)
+            .filter(|&e| e != 0)
+            .map(|e| base.dimmed(10f32.powi(e)))
+            .collect();
+        group("radiance scaled by 1e-18 to 1e18", &base, tens, &nearly)?;
+        let right = [DVec3::X, DVec3::Y, DVec3::Z]
+            .map(|axis| base.turned(DMat3::from_axis_angle(axis, std::f64::consts::FRAC_PI_2)));
+        group("turned by right angles", &base, right.into(), &[Check::Deviation])?;
+        group("turned", &base, turns(&base), &[Check::Deviation])?;
+        let (near, far) = offset();
+        group("moved by 1e7 m", &near, vec![far], &nearly)?;
+        let zeros = scene_of_zeros(0.0);
+        let others = [
+            -0.0,
+            f32::from_bits(1),
+            f32::from_bits(0x8000_0001),
+            f32::from_bits(0x007f_ffff),
+        ];
+        group(
+            "minus zero and subnormals for zeros",
+            &zeros,
+            others.map(scene_of_zeros).into(),
+            &[Check::SameBits],
+        )?;
+    }
+    Ok(out)
+}
+
+fn turns(base: &Scene) -> Vec<Scene> {
+    let random = &mut Random::new(9);
+    (0..12)
+        .map(|_| {
+            let axis = DVec3::from(random.direction().map(f64::from)).normalize();
+            base.turned(DMat3::from_quat(DQuat::from_axis_angle(
+                axis,
+                f64::from(random.between(0.1, 3.0)),
+            )))
+        })
+        .collect()
+}
+
+/// A scene on a grid of 1 m about the origin, and the same at 10^7 m, where that is the grid of f32: no vertex is rounded.
+fn offset() -> (Scene, Scene) {
+    let random = &mut Random::new(13);
+    let mut lights = Vec::new();
+    for i in 0..400 {
+        let corner = [0; 3].map(|_| random.between(0.0, 2000.0).floor());
+        let vertex = |random: &mut Random| corner.map(|c| c + random.between(-40.0, 40.0).floor());
+        lights.push(EmissiveTriangle {
+            p: [corner, vertex(random), vertex(random)],
+            radiance: [1.0; 3],
+            mesh: i / 8,
+            flags: u32::from(i.is_multiple_of(4)),
+        });
+    }
+    let points = around(&lights, 48, random);
+    let points = points.into_iter().map(|point| ShadingPoint {
+        p: point.p.map(f32::floor),
+        ..point
+    });
+    let near = Scene {
+        points: points.collect(),
+        lights,
+    };
+    let far = near.mapped(|[x, y, z]| [x + 1e7, y - 1e7, z + 1e7], |n| n);
+    (near, far)
+}
+
+/// Lights in coordinate planes, seen from coordinate axes, with `zero` for every zero.
+fn scene_of_zeros(zero: f32) -> Scene {
+    let mut lights = Vec::new();
+    for i in 0..48u32 {
+        let mut corner = [zero; 3];
+        corner[(i % 3) as usize] = 1.0 + (i / 3) as f32;
+        let mut p = [corner; 3];
+        p[1][(i as usize + 1) % 3] = 0.5;
+        p[2][(i as usize + 2) % 3] = 0.25;
+        // Radiance may be minus zero too; a subnormal one is refused.
+        let blue = if zero.to_bits() == (-0f32).to_bits() {
+            zero
+        } else {
+            0.0
+        };
+        lights.push(EmissiveTriangle {
+            p,
+            radiance: [1.0, 1.0, blue],
+            mesh: i / 8,
+            flags: i & 1,
+        });
+    }
+    let axis = |k: usize, x: f32| {
+        let mut v = [zero; 3];
+        v[k] = x;
+        v
+    };
+    let mut points = Vec::new();
+    for k in 0..3 {
+        for x in [0.5, -2.0, 3.25, 20.0] {
+            points.extend((0..3).map(|m| ShadingPoint {
+                p: axis(k, x),
+                n: axis(m, x.signum()),
+            }));
+        }
+        points.push(ShadingPoint {
+            p: [zero; 3],
+            n: axis(k, 1.0),
+        });
+    }
+    Scene { lights, points }
+}

@@ -1,0 +1,203 @@
+//! `lightbvh stability`: the extremes that the light BVH must survive, each with its worst error against a stated bound.
+//!
+//! [`cases`] makes the extremes; [`checks`] looks at one tree over one of them on the CPU, by oracles in f64 that share no
+//! arithmetic with what they check; [`invariance`] compares a scene with itself scaled, turned and moved; [`words`] compares
+//! devices with the CPU. What a row means stands in [`row`].
+
+pub mod case;
+pub mod cases;
+pub mod checks;
+pub mod geometry;
+pub mod invariance;
+pub mod random;
+pub mod row;
+pub mod statistics;
+pub mod subject;
+pub mod words;
+
+use lightbvh::{CompactNode, EmissiveTriangle, FullNode, Instance, LightBvh, LightNode, Lights, MeshLeaf};
+use lightbvh_kernels::bvh::WIDTH;
+
+use self::case::{Case, Source, door, moving_scene};
+use self::row::{Check, Row};
+use self::subject::{Subject, Walked};
+use self::words::Compared;
+use crate::backend::{Bvh, Sampler};
+use crate::error::HostError;
+use crate::vulkan::Device;
+use crate::workload;
+
+/// How much is done.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Samples per point on the CPU.
+    pub samples: u32,
+    /// Lights of the largest scene.
+    pub most_lights: u32,
+    /// Lights of the scene of equal lights.
+    pub equal_lights: u32,
+}
+
+impl Effort {
+    /// Some minutes.
+    pub const FULL: Self = Self {
+        samples: 20_000,
+        most_lights: 10_000_000,
+        equal_lights: 1 << 22,
+    };
+    /// Less than a minute.
+    pub const QUICK: Self = Self {
+        samples: 2_000,
+        most_lights: 1_000_000,
+        equal_lights: 1 << 18,
+    };
+}
+
+/// Rows, and what could not be compared: extreme, structure, device.
+#[derive(Debug, Default)]
+pub struct Found {
+    /// The rows.
+    pub rows: Vec<Row>,
+    /// Extremes that are larger than a device's buffers may be.
+    pub too_large: Vec<(String, String, String)>,
+}
+
+/// Runs one extreme: on the CPU, and on each device.
+///
+/// # Errors
+/// [`HostError`] when the crate refuses the lights, or a device fails.
+pub fn run(case: &Case, effort: &Effort, devices: &[&Device], found: &mut Found) -> Result<(), HostError> {
+    match &case.source {
+        Source::World(triangles) => world(case, triangles, effort, devices, found),
+        Source::Moving { meshes, instances } => {
+            let (scene, lights) = moving_scene(&case.name, meshes, instances, &case.params)?;
+            let case = Case {
+                name: case.name.clone(),
+                source: Source::World(Vec::new()),
+                points: [
+                    &case.points[..],
+                    &case::around(lights.triangles(), 24, &mut random::Random::new(5)),
+                ]
+                .concat(),
+                ..*case
+            };
+            let mut refitted = scene.clone();
+            refitted.refit();
+            let depth = refitted.validate().map_or(u32::MAX, |stats| stats.depth);
+            let tree = Walked::<_, _, WIDTH> {
+                tree: refitted.tree(),
+                lights: lights.triangles(),
+                depth,
+            };
+            found.rows.extend(checks::check(
+                &case.name,
+                "instances",
+                &tree,
+                &case.points,
+                effort.samples,
+            ));
+            on_devices(
+                &case,
+                "instances",
+                &Compared::Moving(&scene),
+                &lights,
+                devices,
+                found,
+            )
+        }
+    }
+}
+
+fn world(
+    case: &Case,
+    triangles: &[EmissiveTriangle],
+    effort: &Effort,
+    devices: &[&Device],
+    found: &mut Found,
+) -> Result<(), HostError> {
+    let lights = door(&case.name, triangles.to_vec())?;
+    // Few points do for very many lights: each asks for all their probabilities.
+    let samples = if case.large {
+        50 * effort.samples
+    } else {
+        effort.samples
+    };
+    for sampler in [Sampler::SingleLevel, Sampler::TwoLevel] {
+        let bvh: Bvh = workload::build(&lights, sampler, &case.params);
+        let tree = walked(&bvh, &lights);
+        found.rows.extend(checks::check(
+            &case.name,
+            sampler.name(),
+            &tree,
+            &case.points,
+            samples,
+        ));
+        on_devices(
+            case,
+            sampler.name(),
+            &Compared::Bvh(&bvh),
+            &lights,
+            devices,
+            found,
+        )?;
+    }
+    if !case.large {
+        narrow::<CompactNode<2>>(case, &lights, samples, found);
+        narrow::<FullNode<2>>(case, &lights, samples, found);
+    }
+    Ok(())
+}
+
+/// Trees of two-wide nodes, the deepest there are: on the CPU alone, since kernels are compiled for one layout.
+fn narrow<N: LightNode<2>>(case: &Case, lights: &Lights, samples: u32, found: &mut Found) {
+    let bvh: LightBvh<N, 2, Instance> = LightBvh::two_level(lights, &case.params).with_leaves();
+    let structure = format!("two-level {} 2-wide", N::NAME);
+    let tree = walked(&bvh, lights);
+    if case.least_depth > 0 {
+        let missing = f64::from(case.least_depth.saturating_sub(tree.depth()));
+        found
+            .rows
+            .push(Row::new(&case.name, &structure, Check::Depth, missing, 0.0));
+    }
+    found.rows.extend(checks::check(
+        &case.name,
+        &structure,
+        &tree,
+        &case.points,
+        samples,
+    ));
+}
+
+/// A tree over triangles in the world.
+#[must_use]
+pub fn walked<'a, N: LightNode<W>, L: MeshLeaf, const W: usize>(
+    bvh: &'a LightBvh<N, W, L>,
+    lights: &'a Lights,
+) -> Walked<'a, N, L, W> {
+    Walked {
+        tree: bvh.tree(),
+        lights: lights.triangles(),
+        depth: bvh.depth(),
+    }
+}
+
+fn on_devices(
+    case: &Case,
+    structure: &str,
+    compared: &Compared<'_>,
+    lights: &Lights,
+    devices: &[&Device],
+    found: &mut Found,
+) -> Result<(), HostError> {
+    for device in devices {
+        match words::compare(&case.name, structure, compared, lights, &case.points, device)? {
+            Some(rows) => found.rows.extend(rows),
+            None => {
+                let names = [&case.name, structure, device.name()].map(str::to_owned);
+                let [extreme, structure, device] = names;
+                found.too_large.push((extreme, structure, device));
+            }
+        }
+    }
+    Ok(())
+}

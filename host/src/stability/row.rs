@@ -1,0 +1,173 @@
+//! What is checked, against which bound, and what came out.
+
+use serde::Serialize;
+
+/// A check; every row is one of them for one extreme, one structure and one device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Check {
+    /// Probabilities that are not numbers in [0, 1].
+    Finite,
+    /// |Σ pmf − 1| where any light has a probability.
+    Sum,
+    /// Samples whose pmf is not, to the bit, the one evaluated for the light; and samples without a light where one has a
+    /// probability.
+    Equal,
+    /// Lights that can contribute and have no probability.
+    Starved,
+    /// χ² of the frequencies of lights, over its threshold.
+    Frequencies,
+    /// The error of direct light estimated from samples, over what its variance allows.
+    Bias,
+    /// Levels that the tree falls short of the depth that the extreme is about.
+    Depth,
+    /// Probabilities that change in any bit.
+    SameBits,
+    /// Total variation between probabilities: the greatest share of samples that goes elsewhere.
+    Variation,
+    /// Standard deviation of the estimate over that of the scene it was made from, or the reverse, whichever is greater.
+    Deviation,
+    /// Words of refitted nodes that a device computes otherwise than the CPU.
+    RefitWords,
+    /// The same of sampled lights and their probabilities.
+    SampleWords,
+    /// The same of evaluated probabilities.
+    PmfWords,
+}
+
+impl Check {
+    /// All of them.
+    pub const ALL: [Self; 13] = [
+        Self::Finite,
+        Self::Sum,
+        Self::Equal,
+        Self::Starved,
+        Self::Frequencies,
+        Self::Bias,
+        Self::Depth,
+        Self::SameBits,
+        Self::Variation,
+        Self::Deviation,
+        Self::RefitWords,
+        Self::SampleWords,
+        Self::PmfWords,
+    ];
+
+    /// As in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Finite => "finite",
+            Self::Sum => "sum",
+            Self::Equal => "equal",
+            Self::Starved => "starved",
+            Self::Frequencies => "frequencies",
+            Self::Bias => "bias",
+            Self::Depth => "depth",
+            Self::SameBits => "same-bits",
+            Self::Variation => "variation",
+            Self::Deviation => "deviation",
+            Self::RefitWords => "refit-words",
+            Self::SampleWords => "sample-words",
+            Self::PmfWords => "pmf-words",
+        }
+    }
+
+    /// What is measured, and why the bound is what it is.
+    #[must_use]
+    pub fn reason(self) -> &'static str {
+        match self {
+            Self::Finite => "probabilities that are not numbers in [0, 1]; none may be",
+            Self::Sum => {
+                "|sum of pmf - 1|; each factor of a pmf is rounded by 2^-24 at most and adopted masses as often again: \
+                 (4 depth + 8) 2^-24"
+            }
+            Self::Equal => {
+                "samples whose pmf differs from the evaluated one in any bit, or without a light though one can be reached; \
+                 both are the same products in the same order, so none"
+            }
+            Self::Starved => {
+                "lights that can contribute by geometry in f64, by more than 1e-6 of the distance, and have no probability; \
+                 bounds are rounded outward, so none"
+            }
+            Self::Frequencies => {
+                "chi-square of lights drawn against probabilities, over its quantile with a tail of 1e-6"
+            }
+            Self::Bias => {
+                "error of unshadowed direct light by samples against the sum over all lights, over Bernstein's bound with \
+                 the exact variance and a tail of 1e-9 per point, 1e-5 relative added for rounding and grazing light"
+            }
+            Self::Depth => "levels missing to what the extreme is to have",
+            Self::SameBits => {
+                "probabilities that differ in any bit; the arithmetic is that of significands, so none"
+            }
+            Self::Variation => {
+                "share of samples that goes to other lights; new rounding of coordinates moves outward quantisation by a \
+                 step (1/128 of a box, 1/254 of a cone) here and there: 2 %"
+            }
+            Self::Deviation => {
+                "standard deviation of the estimate (root mean square over points), against the untouched scene; other \
+                 boxes and another tree may be worse, within a factor of 1.5"
+            }
+            Self::RefitWords | Self::SampleWords | Self::PmfWords => {
+                "words that the device computes otherwise than the CPU; none may be"
+            }
+        }
+    }
+}
+
+/// One line of the report.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// Extreme, structure and check.
+    pub name: String,
+    /// The extreme.
+    pub extreme: String,
+    /// What was walked.
+    pub structure: String,
+    /// The check.
+    pub check: Check,
+    /// `cpu`, or the name of a device.
+    pub device: String,
+    /// The worst that was found.
+    pub worst: f64,
+    /// The most that is allowed.
+    pub bound: f64,
+    /// Whether it is.
+    pub pass: bool,
+    /// Where the worst was found, in a row that fails.
+    pub at: Option<String>,
+}
+
+impl Row {
+    /// A row on the CPU.
+    #[must_use]
+    pub fn new(extreme: &str, structure: &str, check: Check, worst: f64, bound: f64) -> Self {
+        Self {
+            name: format!("{extreme}, {structure}: {}", check.name()),
+            extreme: extreme.to_owned(),
+            structure: structure.to_owned(),
+            check,
+            device: "cpu".to_owned(),
+            // JSON has neither NaN nor infinity.
+            worst: if worst.is_finite() { worst } else { f64::MAX },
+            bound,
+            pass: worst <= bound,
+            at: None,
+        }
+    }
+
+    /// The same on a device.
+    #[must_use]
+    pub fn on(mut self, device: &str) -> Self {
+        device.clone_into(&mut self.device);
+        self
+    }
+
+    /// With the place of the worst, which is kept if the row fails.
+    #[must_use]
+    pub fn at(mut self, place: Option<String>) -> Self {
+        self.at = place.filter(|_| !self.pass);
+        self
+    }
+}

@@ -1,0 +1,140 @@
+//! Words of a device against those of the CPU.
+
+use bytemuck::cast_slice;
+use lightbvh::{INVALID, Lights, ShadingPoint};
+use lightbvh_kernels::bvh::Node;
+use lightbvh_kernels::query::Query;
+
+use super::random::{Random, adversarial};
+use super::row::{Check, Row};
+use crate::backend::{
+    Backend, Bvh, CpuBackend, DeviceBackend, LightScene, NODE_RECORD, PMF_RECORD, SAMPLED_RECORD,
+};
+use crate::compare::{Record, compare_words};
+use crate::error::HostError;
+use crate::vulkan::{Device, VulkanError};
+
+/// Random numbers per point, beside the adversarial ones.
+const NUMBERS: u32 = 96;
+/// Levels for which adversarial random numbers are made.
+const ADVERSARIAL_LEVELS: u32 = 4;
+
+/// What a device is compared in.
+pub enum Compared<'a> {
+    /// A tree over triangles in the world, refitted.
+    Bvh(&'a Bvh),
+    /// Moving lights, planned but not refitted.
+    Moving(&'a LightScene),
+}
+
+/// Compares refit, samples and probabilities. `None` where the device has no buffers as large.
+///
+/// # Errors
+/// [`HostError`] when the device fails otherwise.
+pub fn compare(
+    extreme: &str,
+    structure: &str,
+    compared: &Compared<'_>,
+    lights: &Lights,
+    points: &[ShadingPoint],
+    device: &Device,
+) -> Result<Option<Vec<Row>>, HostError> {
+    match rows(extreme, structure, compared, lights, points, device) {
+        Err(HostError::Vulkan(VulkanError::BufferTooLarge { .. })) => Ok(None),
+        rows => rows.map(Some),
+    }
+}
+
+fn rows(
+    extreme: &str,
+    structure: &str,
+    compared: &Compared<'_>,
+    lights: &Lights,
+    points: &[ShadingPoint],
+    device: &Device,
+) -> Result<Vec<Row>, HostError> {
+    let (mut cpu, mut other, nodes, found) = match compared {
+        Compared::Bvh(bvh) => {
+            let mut cpu = CpuBackend::new((*bvh).clone(), lights.clone());
+            let mut other = DeviceBackend::new(device, bvh, lights)?;
+            other.write_nodes(&without_bounds(bvh.nodes()))?;
+            let nodes = cpu.refit(lights)?.value;
+            let found = other.refit(lights)?.value;
+            (cpu, other, nodes, found)
+        }
+        Compared::Moving(scene) => {
+            let mut cpu = CpuBackend::new((*scene).clone(), lights.clone());
+            let mut other = DeviceBackend::of_scene(device, scene, lights)?;
+            cpu.follow(scene, lights)?;
+            other.follow(scene, lights)?;
+            let (nodes, found) = (cpu.nodes()?, other.nodes()?);
+            (cpu, other, nodes, found)
+        }
+    };
+    let row = |check, record: &Record, cpu: &[u32], device_words: &[u32]| -> Result<Row, HostError> {
+        let comparison = compare_words(record, cpu, device_words)?;
+        let place = comparison.first.map(|first| first.to_string());
+        let row = Row::new(extreme, structure, check, comparison.different as f64, 0.0);
+        Ok(row.on(device.name()).at(place))
+    };
+    let mut out = vec![row(
+        Check::RefitWords,
+        &NODE_RECORD,
+        cast_slice(&nodes),
+        cast_slice(&found),
+    )?];
+
+    let mut queries = queries(points);
+    let sampled = cpu.sample(&queries)?.value;
+    let found = other.sample(&queries)?.value;
+    out.push(row(
+        Check::SampleWords,
+        &SAMPLED_RECORD,
+        cast_slice(&sampled),
+        cast_slice(&found),
+    )?);
+    let count = lights.triangles().len() as u32;
+    for (i, (query, sampled)) in (0..).zip(queries.iter_mut().zip(&sampled)) {
+        let any = sampled.light == INVALID || i % 2 == 1;
+        query.random_or_light = if any {
+            lightbvh::exact::hash(i) % count
+        } else {
+            sampled.light
+        };
+    }
+    let (pmfs, found) = (cpu.pmf(&queries)?.value, other.pmf(&queries)?.value);
+    out.push(row(
+        Check::PmfWords,
+        &PMF_RECORD,
+        cast_slice(&pmfs),
+        cast_slice(&found),
+    )?);
+    Ok(out)
+}
+
+/// Nodes with links alone, so that a refit has everything to compute.
+fn without_bounds(nodes: &[Node]) -> Vec<Node> {
+    use lightbvh::LightNode;
+    let mut out = nodes.to_vec();
+    for node in &mut out {
+        for slot in 0..lightbvh_kernels::bvh::WIDTH {
+            node.set_child(slot, node.kind(slot), node.link(slot));
+        }
+    }
+    out
+}
+
+fn queries(points: &[ShadingPoint]) -> Vec<Query> {
+    let random = &mut Random::new(77);
+    let mut out = Vec::new();
+    for &point in points {
+        let numbers = (0..NUMBERS)
+            .map(|_| random.bits())
+            .chain(adversarial(ADVERSARIAL_LEVELS));
+        out.extend(numbers.map(|random_or_light| Query {
+            point,
+            random_or_light,
+        }));
+    }
+    out
+}

@@ -1,0 +1,70 @@
+//! `lightbvh stability`: it passes, and it fails where it should.
+
+use std::process::Command;
+
+use lightbvh::{BuildParams, LightBvh, Lights};
+use lightbvh_host::stability::cases::scattered;
+use lightbvh_host::stability::row::{Check, Row};
+use lightbvh_host::stability::{case, checks, walked};
+use lightbvh_kernels::bvh::{Node, WIDTH};
+use serde_json::Value;
+
+#[test]
+fn every_extreme_is_survived_on_the_cpu() {
+    let output = Command::new(env!("CARGO_BIN_EXE_lightbvh"))
+        .args(["stability", "--quick", "--json"])
+        // Devices have a longer run of their own.
+        .env("VK_DRIVER_FILES", "/nonexistent")
+        .env_remove("LIGHTBVH_REQUIRE_VULKAN")
+        .output()
+        .expect("the program starts");
+    let report: Value = serde_json::from_slice(&output.stdout).expect("one JSON object");
+    let rows = report["rows"].as_array().expect("rows");
+    let failed: Vec<_> = rows.iter().filter(|row| row["pass"] != true).collect();
+    assert!(failed.is_empty(), "{failed:#?}");
+    assert!(output.status.success());
+    assert!(rows.len() > 1000, "only {} rows", rows.len());
+    for row in rows {
+        assert_eq!(row["device"], "cpu");
+        assert!(
+            row["name"].is_string() && row["worst"].as_f64() <= row["bound"].as_f64(),
+            "{row}"
+        );
+    }
+}
+
+fn rows(break_it: impl Fn(&mut LightBvh<Node, WIDTH>)) -> Vec<Row> {
+    let lights = Lights::new(scattered(100, 1)).expect("within the domain");
+    let mut bvh = LightBvh::<Node, WIDTH>::single_level(&lights, &BuildParams::default());
+    break_it(&mut bvh);
+    let points = case::Case::new("", lights.triangles().to_vec()).points;
+    checks::check("broken", "single-level", &walked(&bvh, &lights), &points, 20_000)
+}
+
+fn failed(rows: &[Row]) -> Vec<Check> {
+    rows.iter().filter(|row| !row.pass).map(|row| row.check).collect()
+}
+
+#[test]
+fn broken_trees_are_found() {
+    use lightbvh::LightNode;
+    assert_eq!(failed(&rows(|_| ())), []);
+
+    // A child without flux: its lights are starved, and what they contribute is missing.
+    let dark = rows(|bvh| {
+        let node = &mut bvh.nodes_mut()[0];
+        let mut bounds = node.bounds(1);
+        bounds.phi = 0.0;
+        node.set_bounds(1, &bounds);
+    });
+    assert!(failed(&dark).contains(&Check::Starved), "{dark:#?}");
+    assert!(failed(&dark).contains(&Check::Bias), "{dark:#?}");
+    assert!(dark.iter().filter(|row| !row.pass).all(|row| row.at.is_some()));
+
+    // Two lights with each other's trails: what is sampled is not what is evaluated.
+    let swapped = rows(|bvh| {
+        let trails = bvh.parts_mut().trails;
+        trails.swap(3, 60);
+    });
+    assert!(failed(&swapped).contains(&Check::Equal), "{swapped:#?}");
+}
