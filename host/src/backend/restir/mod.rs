@@ -82,7 +82,7 @@ pub struct RestirOptions {
 impl RestirOptions {
     /// The settings of Bitterli et al. 2020, section 5: 32 candidates, a history of 20 times as many, neighbours within 30
     /// pixels — three of them and one pass where each costs a shadow ray, five and two passes where none does. From a
-    /// light BVH a quarter as many: with 32 the street's error is another 7 % lower (`lightbvh compare`, frames 0 and 60,
+    /// light BVH a quarter as many: with 32 the street's error is 8 % lower (`lightbvh compare`, frames 0 and 60,
     /// 192 × 108), but llvmpipe then ends loops early in the scene `carousel`: `lightbvh verify` found 7,363 words different.
     #[must_use]
     pub fn new(source: CandidateSource, combination: Combination) -> Self {
