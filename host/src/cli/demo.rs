@@ -21,8 +21,6 @@ use crate::workload::{Shot, arrays_at, build, lights_at, queries};
 const SCENE: &str = "street";
 /// Frames shown: those of the paper's Table 1.
 const FRAMES: [u32; 4] = [0, 50, 100, 150];
-const WIDTH: u32 = 384;
-const HEIGHT: u32 = 216;
 /// Light samples per pixel of the frames, and of the reference that the last one is measured against.
 const SAMPLES: u32 = 4;
 const REFERENCE_SAMPLES: u32 = 64;
@@ -34,6 +32,12 @@ pub(super) struct Args {
     /// Folder for the images; made if it is not there.
     #[arg(long, default_value = "out", value_name = "DIR")]
     out: PathBuf,
+    /// Columns of the images, 1 to 16384.
+    #[arg(long, default_value_t = 384)]
+    width: u32,
+    /// Rows of the images, 1 to 16384.
+    #[arg(long, default_value_t = 216)]
+    height: u32,
 }
 
 /// A row of the table.
@@ -69,6 +73,16 @@ struct Run {
 }
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
+    let (width, height) = (args.width, args.height);
+    for (option, value) in [("--width", width), ("--height", height)] {
+        if !(1..=16_384).contains(&value) {
+            return Err(HostError::Range {
+                option,
+                value: value.into(),
+                expected: "1 to 16384",
+            });
+        }
+    }
     std::fs::create_dir_all(&args.out).map_err(|source| HostError::Folder {
         path: args.out.clone(),
         source,
@@ -90,17 +104,17 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let mut exposure = None;
     for frame in FRAMES {
         eprintln!("frame {frame}");
-        let arrays = arrays_at(&scene, frame, WIDTH, HEIGHT)?;
+        let arrays = arrays_at(&scene, frame, width, height)?;
         let shot = Shot {
             frame,
-            width: WIDTH,
-            height: HEIGHT,
+            width,
+            height,
             samples: SAMPLES,
             seed: frame,
         };
         frame_on_all(&scene, &arrays, &shot, &mut cpu, &mut on_devices, &mut records)?;
 
-        let film = Film::new(WIDTH, HEIGHT, records[0].image.clone())?;
+        let film = Film::new(width, height, records[0].image.clone())?;
         // One exposure for all frames, so that they can be compared.
         let exposure = *exposure.get_or_insert_with(|| film.auto_exposure());
         written.push(write(
@@ -113,18 +127,18 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
 
     eprintln!("reference");
     let last = FRAMES[FRAMES.len() - 1];
-    let arrays = arrays_at(&scene, last, WIDTH, HEIGHT)?;
+    let arrays = arrays_at(&scene, last, width, height)?;
     let shot = Shot {
         frame: last,
-        width: WIDTH,
-        height: HEIGHT,
+        width,
+        height,
         samples: REFERENCE_SAMPLES,
         seed: u32::MAX,
     };
     let params = shot.params(scene.frame(last).background);
     let reference = Film::new(
-        WIDTH,
-        HEIGHT,
+        width,
+        height,
         cpu.render(&arrays, &params, Sampler::TwoLevel)?.value,
     )?;
     let name = format!("{SCENE}-{last:03}-reference.png");
@@ -147,7 +161,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                 render_ms: median(&record.render),
                 compared: record.compared,
                 different: record.different,
-                mse: Film::new(WIDTH, HEIGHT, record.image.clone())?.mean_squared_error(&reference)?,
+                mse: Film::new(width, height, record.image.clone())?.mean_squared_error(&reference)?,
             })
         })
         .collect::<Result<Vec<_>, HostError>>()?;
