@@ -248,7 +248,7 @@ impl MeshLeaf for Instance {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn inside(&self, point: &ShadingPoint) -> LocalPoint {
         let per_scale = self.per_scale;
         let back = self.turn_back(flushed(point.position() - self.origin())) * (per_scale * per_scale);

@@ -53,7 +53,8 @@ fn find_live<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const ANY: bool, 
     // Positions below this one are retraced.
     let mut retrace = first_position;
     let (mut other_position, mut other_slot) = (INVALID, 0);
-    let mut receiver = tree.receiver(point, mesh);
+    // Most neighbours in the small trees of instances are lights: those are not worth a way into their mesh's space.
+    let mut receiver = tree.receiver(point, if done { INVALID } else { mesh });
     let mut steps = search_bound(tree.nodes.len() as u32, 2 * max_levels(W));
     while !done && steps > 0 {
         steps -= 1;
