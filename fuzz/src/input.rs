@@ -11,7 +11,7 @@ const USUAL: u8 = 12;
 
 /// How coordinates come about.
 #[derive(Clone, Copy)]
-enum Coordinates {
+pub enum Coordinates {
     /// Whole multiples of a power of two, few of them: much coincides, is collinear or has no area.
     Grid(f32),
     /// Any magnitude of the domain.
@@ -19,7 +19,8 @@ enum Coordinates {
 }
 
 impl Coordinates {
-    fn choose(u: &mut Unstructured<'_>) -> Result<Self> {
+    /// One of the two, with its step.
+    pub fn choose(u: &mut Unstructured<'_>) -> Result<Self> {
         if u.arbitrary()? {
             Ok(Self::Grid(pow2(u.int_in_range(-60..=30)?)))
         } else {
@@ -37,7 +38,8 @@ impl Coordinates {
         }
     }
 
-    fn vertex(self, u: &mut Unstructured<'_>) -> Result<[f32; 3]> {
+    /// A vertex, or a vector.
+    pub fn vertex(self, u: &mut Unstructured<'_>) -> Result<[f32; 3]> {
         Ok([self.one(u)?, self.one(u)?, self.one(u)?])
     }
 }
@@ -70,6 +72,15 @@ fn count(u: &mut Unstructured<'_>) -> Result<u8> {
 pub fn triangles(u: &mut Unstructured<'_>) -> Result<Vec<EmissiveTriangle>> {
     let coordinates = Coordinates::choose(u)?;
     let count = count(u)?;
+    triangles_within(u, coordinates, count)
+}
+
+/// `count` triangles within the domain, in mesh lights of any sizes.
+pub fn triangles_within(
+    u: &mut Unstructured<'_>,
+    coordinates: Coordinates,
+    count: u8,
+) -> Result<Vec<EmissiveTriangle>> {
     let mut mesh = 0;
     (0..count)
         .map(|i| {
@@ -130,9 +141,9 @@ pub fn moved(u: &mut Unstructured<'_>, lights: &Lights) -> Result<Lights> {
 }
 
 /// A point on a light, beside one, or anywhere; with a normal along an axis, across one, or none.
-pub fn point(u: &mut Unstructured<'_>, lights: &Lights) -> Result<ShadingPoint> {
+pub fn point(u: &mut Unstructured<'_>, lights: &[EmissiveTriangle]) -> Result<ShadingPoint> {
     let coordinates = Coordinates::choose(u)?;
-    let near = u.choose(lights.triangles())?.p[0];
+    let near = u.choose(lights)?.p[0];
     let p = match u.arbitrary::<u8>()? % 3 {
         0 => near,
         1 => {

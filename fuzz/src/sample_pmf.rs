@@ -10,7 +10,10 @@ pub fn sample_pmf(data: &[u8], forms: Forms) {
     let run = |u: &mut Unstructured<'_>| -> Result<()> {
         let params = input::params(u)?;
         let lights = input::lights(u)?;
-        let points = [input::point(u, &lights)?, input::point(u, &lights)?];
+        let points = [
+            input::point(u, lights.triangles())?,
+            input::point(u, lights.triangles())?,
+        ];
         let random: u32 = u.arbitrary()?;
         for form in forms.of(data, 2) {
             if form == 0 {
