@@ -1,4 +1,6 @@
 //! See [`lightbvh_fuzz::build_validate`].
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|data: &[u8]| lightbvh_fuzz::build_validate(data));
+use lightbvh_fuzz::Forms;
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| lightbvh_fuzz::build_validate(data, Forms::One));

@@ -1,4 +1,6 @@
 //! See [`lightbvh_fuzz::node_words`].
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|data: &[u8]| lightbvh_fuzz::node_words(data));
+use lightbvh_fuzz::Forms;
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| lightbvh_fuzz::node_words(data, Forms::One));

@@ -4,12 +4,14 @@ use arbitrary::{Error, Result, Unstructured};
 use lightbvh::exact::pow2;
 use lightbvh::{BuildParams, CompactNode, EmissiveTriangle, Heuristic, LightNode, Lights, ShadingPoint};
 
-/// Most triangles of an input: enough for several levels, few enough for many runs per second.
-const MOST: u32 = 40;
+/// Most triangles of an input: enough for several levels.
+const MOST: u8 = 40;
+/// Most triangles of most inputs: few enough for many runs per second.
+const USUAL: u8 = 12;
 
 /// How coordinates come about.
 #[derive(Clone, Copy)]
-enum Coordinates {
+pub enum Coordinates {
     /// Whole multiples of a power of two, few of them: much coincides, is collinear or has no area.
     Grid(f32),
     /// Any magnitude of the domain.
@@ -17,7 +19,8 @@ enum Coordinates {
 }
 
 impl Coordinates {
-    fn choose(u: &mut Unstructured<'_>) -> Result<Self> {
+    /// One of the two, with its step.
+    pub fn choose(u: &mut Unstructured<'_>) -> Result<Self> {
         if u.arbitrary()? {
             Ok(Self::Grid(pow2(u.int_in_range(-60..=30)?)))
         } else {
@@ -35,7 +38,8 @@ impl Coordinates {
         }
     }
 
-    fn vertex(self, u: &mut Unstructured<'_>) -> Result<[f32; 3]> {
+    /// A vertex, or a vector.
+    pub fn vertex(self, u: &mut Unstructured<'_>) -> Result<[f32; 3]> {
         Ok([self.one(u)?, self.one(u)?, self.one(u)?])
     }
 }
@@ -57,10 +61,26 @@ fn radiance(u: &mut Unstructured<'_>) -> Result<f32> {
     Ok(if e < -100 { 0.0 } else { pow2(e) })
 }
 
+/// Number of triangles: seldom more than the usual.
+fn count(u: &mut Unstructured<'_>) -> Result<u8> {
+    const MANY: u8 = u8::MAX - MOST + 1;
+    let byte: u8 = u.arbitrary()?;
+    Ok(1 + if byte < MANY { byte % USUAL } else { byte - MANY })
+}
+
 /// Triangles within the domain, in mesh lights of any sizes.
 pub fn triangles(u: &mut Unstructured<'_>) -> Result<Vec<EmissiveTriangle>> {
     let coordinates = Coordinates::choose(u)?;
-    let count = u.int_in_range(1..=MOST)?;
+    let count = count(u)?;
+    triangles_within(u, coordinates, count)
+}
+
+/// `count` triangles within the domain, in mesh lights of any sizes.
+pub fn triangles_within(
+    u: &mut Unstructured<'_>,
+    coordinates: Coordinates,
+    count: u8,
+) -> Result<Vec<EmissiveTriangle>> {
     let mut mesh = 0;
     (0..count)
         .map(|i| {
@@ -121,9 +141,9 @@ pub fn moved(u: &mut Unstructured<'_>, lights: &Lights) -> Result<Lights> {
 }
 
 /// A point on a light, beside one, or anywhere; with a normal along an axis, across one, or none.
-pub fn point(u: &mut Unstructured<'_>, lights: &Lights) -> Result<ShadingPoint> {
+pub fn point(u: &mut Unstructured<'_>, lights: &[EmissiveTriangle]) -> Result<ShadingPoint> {
     let coordinates = Coordinates::choose(u)?;
-    let near = u.choose(lights.triangles())?.p[0];
+    let near = u.choose(lights)?.p[0];
     let p = match u.arbitrary::<u8>()? % 3 {
         0 => near,
         1 => {

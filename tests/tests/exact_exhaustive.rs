@@ -9,7 +9,8 @@ use lightbvh::exact::{
 const FRACTION: u32 = 0x007f_ffff;
 const SIGN_AND_FRACTION: u32 = 0x807f_ffff;
 
-/// IEEE division with the documented change: no denormals in or out.
+/// IEEE division with the documented change: no denormals in or out. In f64, whose exponents tell of the exact quotient
+/// whether it is below 2^-126.
 fn native_div(a: f32, b: f32) -> f32 {
     let a = if a.abs() < f32::MIN_POSITIVE {
         0.0_f32.copysign(a)
@@ -17,7 +18,7 @@ fn native_div(a: f32, b: f32) -> f32 {
         a
     };
     let q = a / b;
-    if q.abs() < f32::MIN_POSITIVE {
+    if (f64::from(a) / f64::from(b)).abs() < f64::from(f32::MIN_POSITIVE) {
         0.0_f32.copysign(q)
     } else {
         q
@@ -187,6 +188,26 @@ fn quotients_at_the_ends_of_the_range() {
                 (f32::from_bits(7), b),
             ] {
                 assert_quotient(a, b);
+            }
+        }
+    }
+}
+
+/// With the longest significand over a power of two the quotient can be just below the normal numbers, where the processor
+/// itself rounds it up to the least of them; found by the fuzz target `exact`.
+#[test]
+fn quotients_just_below_the_normal_numbers_are_zero() {
+    for exponent in 1..255_u32 {
+        // (2 - 2^-23) 2^(e - 127) over 2^e.
+        let a = f32::from_bits(exponent << 23 | FRACTION);
+        let b = 2f32.powi(exponent as i32);
+        for (a, b) in [(a, b), (-a, b), (a, -b), (-a, -b)] {
+            if b.is_finite() {
+                assert_quotient(a, b);
+                assert_eq!(div(a, b).to_bits() << 1, 0, "{a:e} / {b:e}");
+                // Its neighbours stay as they are.
+                assert_quotient(f32::from_bits(a.to_bits() + 1), b);
+                assert_quotient(f32::from_bits(a.to_bits() - 1), b);
             }
         }
     }

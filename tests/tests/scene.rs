@@ -421,6 +421,52 @@ fn bad_edits_change_nothing() {
     assert_eq!(format!("{scene:?}"), before);
 }
 
+/// A mesh may not reach out of the domain by any order of edits: also where an instance of the same batch is what is too far.
+#[test]
+fn deforming_a_mesh_counts_instances_of_the_same_batch() {
+    let random = &mut Random::new(10);
+    let mut scene = Tree::default();
+    let triangles = mesh(random);
+    let mut large = triangles.clone();
+    for triangle in &mut large {
+        triangle.p = triangle.p.map(|p| p.map(|x| x * 2f32.powi(30)));
+    }
+    let mesh = scene
+        .update(vec![Edit::AddMesh { triangles }])
+        .expect("a mesh")
+        .meshes[0];
+    let far = Edit::AddInstance {
+        mesh,
+        transform: Transform::at([1.0995e12, 0.0, 0.0]),
+        radiance: 1.0,
+    };
+    let deform = Edit::Deform {
+        mesh,
+        triangles: large.clone(),
+    };
+    let near = Edit::AddInstance {
+        mesh,
+        transform: Transform::IDENTITY,
+        radiance: 1.0,
+    };
+    scene.refit();
+    let before = format!("{scene:?}");
+    for batch in [
+        vec![far.clone(), deform.clone()],
+        vec![deform.clone(), far.clone()],
+        vec![near.clone(), far.clone(), deform.clone()],
+    ] {
+        let last = batch.len() - 1;
+        let error = scene.update(batch).expect_err("it would reach beyond 2^40 m");
+        assert_eq!(error.edit, last);
+        assert!(matches!(error.reason, EditReason::Transform(_)), "{error}");
+        assert_eq!(format!("{scene:?}"), before);
+    }
+    scene.update(vec![near, deform]).expect("within 2^40 m");
+    scene.refit();
+    scene.validate().expect("valid");
+}
+
 #[test]
 fn thousands_of_edits_in_one_frame() {
     let random = &mut Random::new(9);

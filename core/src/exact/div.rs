@@ -17,10 +17,14 @@ pub fn div(a: f32, b: f32) -> f32 {
     }
     #[cfg(not(any(target_arch = "spirv", feature = "emulated")))]
     {
-        // Equal to `div_emulated` because both round to nearest: no quotient of two 24-bit significands lies close
-        // enough below a power of two to round up to it, so the two agree about which quotients are below 2^-126.
+        // Equal to `div_emulated`, as both round to nearest: but for one significand no quotient lies close enough below
+        // 2^-126 to be rounded up to it. (2 - 2^-23) 2^-127 does, since a processor has one bit less there; only the longest
+        // significand over a power of two gives it.
         let quotient = a / b;
-        if super::abs(a) < f32::MIN_POSITIVE || super::abs(quotient) < f32::MIN_POSITIVE {
+        let rounded_up = (super::abs(quotient) == f32::MIN_POSITIVE)
+            & (a.to_bits() & FRACTION == FRACTION)
+            & (b.to_bits() & FRACTION == 0);
+        if super::abs(a) < f32::MIN_POSITIVE || super::abs(quotient) < f32::MIN_POSITIVE || rounded_up {
             f32::from_bits((a.to_bits() ^ b.to_bits()) & SIGN)
         } else {
             quotient

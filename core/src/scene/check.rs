@@ -21,9 +21,10 @@ struct Batch {
     removed_meshes: BTreeSet<MeshId>,
     /// Change of a mesh's number of instances.
     uses: BTreeMap<MeshId, i64>,
-    /// Extents of deformed meshes, and transforms of moved instances.
+    /// Extents of deformed meshes, and transforms of moved instances and of added ones, which have no id yet.
     extents: BTreeMap<MeshId, Extent>,
     transforms: BTreeMap<InstanceId, Transform>,
+    added: BTreeMap<MeshId, Vec<Transform>>,
     /// Whether a later edit may ask for those.
     deforms: bool,
     lights: usize,
@@ -66,6 +67,9 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
                     .map_err(EditReason::Transform)?;
                 factor(radiance)?;
                 *batch.uses.entry(mesh).or_default() += 1;
+                if batch.deforms {
+                    batch.added.entry(mesh).or_default().push(transform);
+                }
                 // It may need triangles of its own.
                 batch.lights += count;
                 batch.triangles += count;
@@ -102,6 +106,9 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
                         let transform = batch.transforms.get(&id).unwrap_or(&placed.transform);
                         transform.check(&extent).map_err(EditReason::Transform)?;
                     }
+                }
+                for transform in batch.added.get(mesh).into_iter().flatten() {
+                    transform.check(&extent).map_err(EditReason::Transform)?;
                 }
                 batch.extents.insert(*mesh, extent);
                 batch.deformed.push(extent);

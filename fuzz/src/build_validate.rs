@@ -1,0 +1,42 @@
+//! Lights of any words, refused or built into valid trees.
+
+use arbitrary::{Result, Unstructured};
+use lightbvh::{BuildParams, CompactNode, FullNode, LightBvh, LightNode, Lights};
+
+use crate::{Forms, input};
+
+/// Any lights at all, refused or built into valid trees of each width.
+pub fn build_validate(data: &[u8], forms: Forms) {
+    let run = |u: &mut Unstructured<'_>| -> Result<()> {
+        let params = input::params(u)?;
+        let triangles = if u.ratio(1, 4)? {
+            input::any_triangles(u)?
+        } else {
+            input::triangles(u)?
+        };
+        if let Ok(lights) = Lights::new(triangles) {
+            for form in forms.of(data, 6) {
+                match form / 2 {
+                    0 => valid::<CompactNode<2>, 2>(&lights, &params, form),
+                    1 => valid::<CompactNode<4>, 4>(&lights, &params, form),
+                    _ => valid::<FullNode<16>, 16>(&lights, &params, form),
+                }
+            }
+        }
+        Ok(())
+    };
+    let _ = run(&mut Unstructured::new(data));
+}
+
+/// Even forms have two levels, odd ones one.
+fn valid<N: LightNode<W>, const W: usize>(lights: &Lights, params: &BuildParams, form: u32) {
+    let bvh = if form % 2 == 0 {
+        LightBvh::<N, W>::two_level(lights, params)
+    } else {
+        LightBvh::<N, W>::single_level(lights, params)
+    };
+    let stats = bvh
+        .validate(lights)
+        .unwrap_or_else(|violation| panic!("{violation}"));
+    assert!(stats.bytes > 0 && stats.depth > 0);
+}

@@ -1,0 +1,167 @@
+//! Scenes under any edits, with rebuilds that end at any time.
+
+mod batch;
+mod model;
+mod placing;
+
+use arbitrary::{Result, Unstructured};
+use lightbvh::scene::{Rebuild, RebuildParams, Rebuilt};
+use lightbvh::{CompactNode, Eq4, FullNode, INVALID, InstanceId, LightNode, Scene};
+
+use self::model::Model;
+use crate::{Forms, input};
+
+/// Most rebuilds that are under way at once.
+const FLYING: usize = 2;
+
+/// A scene whose meshes and instances come, move, shine, bend and go, in batches that may hold refused edits, while trees
+/// are built anew: a refused batch changes nothing and names an edit that is wrong; after every frame the scene is valid
+/// and its lights are where the edits put them; in the end a scene built from scratch holds the same.
+pub fn edits(data: &[u8], forms: Forms) {
+    for form in forms.of(data, 3) {
+        let u = &mut Unstructured::new(data);
+        let _ = match form {
+            0 => frames::<CompactNode<4>, 4>(u, forms),
+            1 => frames::<CompactNode<2>, 2>(u, forms),
+            _ => frames::<FullNode<4>, 4>(u, forms),
+        };
+    }
+}
+
+/// A rebuild under way: not begun, or waiting to be swapped in.
+enum Flying<N, const W: usize> {
+    Planned(Rebuild<N, W>),
+    Built(Rebuilt<N, W>),
+}
+
+fn frames<N: LightNode<W> + std::fmt::Debug, const W: usize>(
+    u: &mut Unstructured<'_>,
+    forms: Forms,
+) -> Result<()> {
+    let mut scene = Scene::<N, W>::new(input::params(u)?);
+    let mut model = Model::default();
+    let mut flying: Vec<Flying<N, W>> = Vec::new();
+    let count = 1 + u.arbitrary::<u8>()? % 6;
+    for frame in 0..count {
+        let bits: u8 = u.arbitrary()?;
+        if bits & 1 != 0 {
+            land(&mut scene, &mut flying, bits & 2 != 0);
+        }
+        // Comparing all that a scene is takes its time.
+        let thorough = forms == Forms::All || bits & 0xf0 == 0;
+        batch::edit(u, &mut model, &mut scene, frame == 0, thorough)?;
+        if bits & 4 != 0 {
+            land(&mut scene, &mut flying, bits & 2 != 0);
+        }
+        scene.refit();
+        check(&model, &scene);
+        if bits & 8 != 0 && flying.len() < FLYING {
+            let bits: u8 = u.arbitrary()?;
+            let params = RebuildParams {
+                top: bits & 3 != 0,
+                drift: [1.0001, 1.5, 0.0, f64::INFINITY][usize::from(bits >> 2 & 3)],
+            };
+            let rebuild = scene.rebuild(&params);
+            flying.push(if bits & 16 == 0 {
+                Flying::Built(rebuild.run())
+            } else {
+                Flying::Planned(rebuild)
+            });
+        }
+    }
+    while !flying.is_empty() {
+        land(&mut scene, &mut flying, false);
+    }
+    scene.refit();
+    check(&model, &scene);
+    sampled(u, &model, &scene)?;
+
+    let (scratch, ids) = model.from_scratch::<N, W>();
+    let mut anew = model.clone();
+    anew.renamed(&ids, &scratch);
+    check(&anew, &scratch);
+    assert_eq!(scene.light_count(), scratch.light_count());
+    sampled(u, &anew, &scratch)
+}
+
+/// Swaps in the first rebuild, or the last.
+fn land<N: LightNode<W>, const W: usize>(
+    scene: &mut Scene<N, W>,
+    flying: &mut Vec<Flying<N, W>>,
+    last: bool,
+) {
+    if flying.is_empty() {
+        return;
+    }
+    match flying.remove(if last { flying.len() - 1 } else { 0 }) {
+        Flying::Planned(rebuild) => scene.adopt(rebuild.run()),
+        Flying::Built(rebuilt) => scene.adopt(rebuilt),
+    }
+}
+
+/// Every invariant, and every light against the model.
+fn check<N: LightNode<W>, const W: usize>(model: &Model, scene: &Scene<N, W>) {
+    let stats = scene.validate().unwrap_or_else(|violation| panic!("{violation}"));
+    assert_eq!(stats.instances as usize, model.instances.len());
+    assert_eq!(stats.lights as usize, scene.light_count());
+    model.check_lights(scene);
+}
+
+/// Probabilities sum to one, samples come with them, and there is a sample wherever a light has importance.
+fn sampled<N: LightNode<W>, const W: usize>(
+    u: &mut Unstructured<'_>,
+    model: &Model,
+    scene: &Scene<N, W>,
+) -> Result<()> {
+    let mut world = scene.world_lights();
+    let depth = scene
+        .validate()
+        .unwrap_or_else(|violation| panic!("{violation}"))
+        .depth;
+    if world.is_empty() {
+        world.push(lightbvh::EmissiveTriangle {
+            p: [[0.0; 3]; 3],
+            radiance: [0.0; 3],
+            mesh: INVALID,
+            flags: 0,
+        });
+    }
+    let point = input::point(u, &world)?;
+    let random: u32 = u.arbitrary()?;
+    let mut pmfs = vec![0f32; scene.light_end() as usize];
+    for instance in &model.instances {
+        for light in instance.lights.clone() {
+            pmfs[light as usize] = scene.pmf::<Eq4>(&point, light, instance.id);
+        }
+    }
+    for &gone in &model.gone_instances {
+        assert_eq!(scene.lights_of(gone), None);
+        assert_eq!(scene.pmf::<Eq4>(&point, 0, gone), 0.0);
+        assert_eq!(scene.light(0, gone), None);
+    }
+    let sum: f64 = pmfs.iter().map(|&p| f64::from(p)).sum();
+    assert!(pmfs.iter().all(|&p| p >= 0.0 && p.is_finite()));
+    let reachable = pmfs.iter().any(|&p| p > 0.0);
+    let tolerance = f64::from(depth * 4 + 8) / 16_777_216.0;
+    assert!(
+        !reachable || (sum - 1.0).abs() <= tolerance,
+        "sum {sum} at {point:?}"
+    );
+    for i in 0..4_u32 {
+        let sampled = scene.sample::<Eq4>(&point, random.wrapping_add(i.wrapping_mul(0x9e37_79b9)));
+        if reachable {
+            assert_ne!(sampled.light, INVALID, "{point:?}");
+            assert_eq!(
+                sampled.pmf.to_bits(),
+                pmfs[sampled.light as usize].to_bits(),
+                "{point:?}"
+            );
+        } else {
+            assert_eq!(sampled.light, INVALID, "{point:?}");
+        }
+    }
+    Ok(())
+}
+
+/// Ids of instances, for the model.
+type Ids = Vec<InstanceId>;

@@ -1,0 +1,215 @@
+//! The permitted arithmetic against the processor's own, in `f32` and in `f64`.
+
+use arbitrary::{Result, Unstructured};
+use lightbvh::exact;
+
+use crate::Forms;
+
+/// Three numbers and two words through every function of [`lightbvh::exact`], each within its documented domain: both forms
+/// of division and root are the IEEE results, the cheap ones keep their bounds, the rest is exact.
+pub fn exact(data: &[u8], _: Forms) {
+    fn run(u: &mut Unstructured<'_>) -> Result<()> {
+        let a = number(u)?;
+        let b = number(u)?;
+        let (a, b) = related(u, a, b)?;
+        let c = number(u)?;
+        let words: [u32; 2] = u.arbitrary()?;
+
+        for (x, y) in [(a, b), (b, a), (a, c), (1.0, a)] {
+            quotient(x, y);
+        }
+        for x in [a, b, exact::abs(a), exact::abs(b)] {
+            root(x);
+            reciprocals(x);
+            parts(x);
+            floors(x);
+        }
+        order(a, b, c);
+        order(b, a, a);
+        for x in [a, b, c] {
+            flushed(x, exact::max(exact::abs(c), f32::MIN_POSITIVE));
+        }
+        integers(words);
+        Ok(())
+    }
+    let _ = run(&mut Unstructured::new(data));
+}
+
+/// A finite number: of any bits, with few of them, or a few steps from a remarkable one.
+fn number(u: &mut Unstructured<'_>) -> Result<f32> {
+    let kind: u8 = u.arbitrary()?;
+    let word: u32 = match kind % 4 {
+        0 | 1 => u.arbitrary()?,
+        2 => u.arbitrary::<u32>()? & 0xffff_8000,
+        _ => {
+            let remarkable = [
+                0.0,
+                f32::from_bits(1),
+                f32::MIN_POSITIVE,
+                2f32.powi(-100),
+                0.5,
+                1.0,
+                2.0,
+                4_194_304.0,
+                16_777_216.0,
+                2f32.powi(40),
+                2f32.powi(125),
+                f32::MAX,
+            ];
+            let from = remarkable[usize::from(u.arbitrary::<u8>()?) % remarkable.len()];
+            let step = u32::from(u.arbitrary::<u8>()?) % 9;
+            let sign = u32::from(kind >> 7) << 31;
+            f32::to_bits(from).wrapping_add(step).wrapping_sub(4) & 0x7fff_ffff | sign
+        }
+    };
+    let x = f32::from_bits(word);
+    // NaN and infinity are outside of every domain.
+    Ok(if x.is_finite() {
+        x
+    } else {
+        f32::from_bits(word & 0xbfff_ffff)
+    })
+}
+
+/// The two as they are, a few steps apart, or so that their quotient lies next to a tie.
+fn related(u: &mut Unstructured<'_>, a: f32, b: f32) -> Result<(f32, f32)> {
+    let kind: u8 = u.arbitrary()?;
+    let other = match kind % 4 {
+        0 | 1 => a,
+        2 => f32::from_bits(b.to_bits().wrapping_add(u32::from(kind >> 2)).wrapping_sub(32)),
+        _ => {
+            // Halfway between two numbers of 24 bits.
+            let middle = 1.0 + f64::from(a.to_bits() & 0x00ff_ffff | 1) * 2f64.powi(-24);
+            (middle * f64::from(b)) as f32
+        }
+    };
+    Ok(if other.is_finite() { (other, b) } else { (a, b) })
+}
+
+/// A subnormal number as zero of its sign.
+fn normal_or_zero(x: f32) -> f32 {
+    if x.abs() < f32::MIN_POSITIVE {
+        0f32.copysign(x)
+    } else {
+        x
+    }
+}
+
+fn quotient(a: f32, b: f32) {
+    if normal_or_zero(b) == 0.0 {
+        return;
+    }
+    let a = normal_or_zero(a);
+    // Rounding twice, to 53 bits and to 24, is rounding once for a quotient; its own 53 bits tell what is below 2^-126.
+    let quotient = f64::from(a) / f64::from(b);
+    let expected = if quotient.abs() < f64::from(f32::MIN_POSITIVE) {
+        0f32.copysign(quotient as f32)
+    } else {
+        assert_eq!(
+            (a / b).to_bits(),
+            (quotient as f32).to_bits(),
+            "{a:e} / {b:e} on this processor"
+        );
+        quotient as f32
+    }
+    .to_bits();
+    assert_eq!(expected, exact::div(a, b).to_bits(), "{a:e} / {b:e}");
+    assert_eq!(
+        expected,
+        exact::div_emulated(a, b).to_bits(),
+        "{a:e} / {b:e}, emulated"
+    );
+}
+
+fn root(x: f32) {
+    let expected = if x < f32::MIN_POSITIVE { 0.0 } else { x.sqrt() }.to_bits();
+    let twice = if x < f32::MIN_POSITIVE {
+        0.0
+    } else {
+        f64::from(x).sqrt() as f32
+    };
+    assert_eq!(expected, twice.to_bits(), "root of {x:e} on this processor");
+    assert_eq!(expected, exact::sqrt(x).to_bits(), "root of {x:e}");
+    assert_eq!(
+        expected,
+        exact::sqrt_emulated(x).to_bits(),
+        "root of {x:e}, emulated"
+    );
+}
+
+/// The cheap ones, against the bounds in their documentation.
+fn reciprocals(x: f32) {
+    let off = |found: f32, exact: f64| (f64::from(found) / exact - 1.0).abs();
+    let magnitude = x.abs();
+    if (f32::MIN_POSITIVE..=2f32.powi(125)).contains(&magnitude) {
+        let expected = 1.0 / f64::from(x);
+        assert!(off(exact::recip(x), expected) < 7e-6, "recip {x:e}");
+        assert!(off(exact::recip_rough(x), expected) < 3e-3, "recip_rough {x:e}");
+    }
+    if x >= 2f32.powi(-125) {
+        let expected = 1.0 / f64::from(x).sqrt();
+        assert!(off(exact::rsqrt(x), expected) < 5e-6, "rsqrt {x:e}");
+        assert!(off(exact::rsqrt_rough(x), expected) < 6.6e-4, "rsqrt_rough {x:e}");
+    }
+}
+
+/// Exponent and significand make the number again.
+fn parts(x: f32) {
+    let e = exact::exponent(x);
+    if x.abs() < f32::MIN_POSITIVE {
+        assert_eq!(e, -127, "{x:e}");
+        return;
+    }
+    assert_eq!(f64::from(exact::pow2(e)), 2f64.powi(e), "{x:e}");
+    let s = exact::significand(x.abs());
+    assert!((1.0..2.0).contains(&s), "{x:e}");
+    assert_eq!(f64::from(s) * 2f64.powi(e), f64::from(x.abs()));
+}
+
+fn floors(x: f32) {
+    if (0.0..=16_777_216.0).contains(&x) {
+        assert_eq!(f64::from(exact::floor_u32(x)), f64::from(x).floor(), "{x:e}");
+    }
+    if (0.0..4_194_304.0).contains(&x) {
+        assert_eq!(exact::floor_small(x), exact::floor_u32(x), "{x:e}");
+    }
+}
+
+fn order(a: f32, b: f32, c: f32) {
+    // Of equal ones the second, which matters for zeros.
+    let (less, more) = (if a < b { a } else { b }, if a > b { a } else { b });
+    assert_eq!(exact::min(a, b).to_bits(), less.to_bits(), "min {a:e} {b:e}");
+    assert_eq!(exact::max(a, b).to_bits(), more.to_bits(), "max {a:e} {b:e}");
+    assert_eq!(exact::min(a, b), a.min(b));
+    assert_eq!(exact::max(a, b), a.max(b));
+    assert_eq!(exact::abs(a).to_bits(), a.abs().to_bits());
+    assert_eq!(
+        exact::order_key(a).cmp(&exact::order_key(b)),
+        a.total_cmp(&b),
+        "{a:e} {b:e}"
+    );
+    let clamped = exact::clamp(c, a, b);
+    if a <= b {
+        assert_eq!(clamped, c.clamp(a, b), "{c:e} in {a:e}..={b:e}");
+    } else {
+        assert!(clamped == a || clamped == b, "{c:e} in {a:e}..={b:e}");
+    }
+}
+
+fn flushed(x: f32, tiny: f32) {
+    let expected = if x.abs() < tiny { 0.0 } else { x };
+    assert_eq!(
+        exact::flush(x, tiny).to_bits(),
+        expected.to_bits(),
+        "{x:e} below {tiny:e}"
+    );
+}
+
+fn integers([a, b]: [u32; 2]) {
+    assert_eq!(exact::hash(a) == exact::hash(b), a == b, "a permutation");
+    let unit = exact::unit_f32(a);
+    assert_eq!(f64::from(unit), f64::from(a >> 8) / 16_777_216.0, "{a:08x}");
+    assert!((0.0..1.0).contains(&unit));
+    let e = a as i32;
+    assert_eq!(f64::from(exact::pow2(e)), 2f64.powi(e.clamp(-126, 127)), "{e}");
+}
