@@ -15,7 +15,7 @@ pub fn gltf(data: &[u8], forms: Forms) {
     let run = |u: &mut Unstructured<'_>| -> Result<()> {
         let kind: u8 = u.arbitrary()?;
         let bytes = match kind % 8 {
-            0 => u.take_rest().to_vec(),
+            0 => u.bytes(u.len())?.to_vec(),
             1..=4 => Document::new(u)?.glb(),
             5 | 6 => Document::new(u)?.json(),
             _ => {
