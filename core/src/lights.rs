@@ -41,7 +41,7 @@ impl Lights {
             let next = starts.len() as u32;
             if triangle.mesh == next {
                 starts.push(index as u32);
-            } else if triangle.mesh.wrapping_add(1) != next {
+            } else if next == 0 || triangle.mesh != next - 1 {
                 return Err(LightsError::Order {
                     index,
                     expected: next,

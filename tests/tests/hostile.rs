@@ -6,8 +6,8 @@ use lightbvh::importance::{Cluster, Importance};
 use lightbvh::node::kind;
 use lightbvh::trail::max_levels;
 use lightbvh::{
-    CompactNode, Eq4, FullNode, INVALID, ImportanceModel, LightBounds, LightNode, LightTree, MeshLight,
-    Receiver, refit, traverse,
+    CompactNode, EmissiveTriangle, Eq4, FullNode, INVALID, ImportanceModel, LightBounds, LightNode,
+    LightTree, Lights, LightsError, MeshLight, Receiver, refit, traverse,
 };
 use lightbvh_tests::generate::{self, Random, extreme_triangle};
 use proptest::prelude::*;
@@ -256,4 +256,27 @@ fn large_cycles_end() {
     let calls = walk::<_, 2>(&tree, &mut random, 6);
     assert!(calls > 1000, "only {calls}: nothing was searched");
     println!("{calls} importances, at most {}", bound(nodes.len(), 2));
+}
+
+/// Before the first mesh light there is none that a triangle could go on with, not even by a number that wraps; found by the
+/// fuzz target `build_validate`.
+#[test]
+fn a_first_triangle_of_no_mesh_light_is_refused() {
+    let triangle = |mesh| EmissiveTriangle {
+        p: [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        radiance: [1.0; 3],
+        mesh,
+        flags: 0,
+    };
+    for mesh in [1, 2, u32::MAX - 1, u32::MAX] {
+        let error = Lights::new(vec![triangle(mesh)]).expect_err("no such mesh light");
+        let expected = LightsError::Order {
+            index: 0,
+            expected: 0,
+            found: mesh,
+        };
+        assert_eq!(error, expected);
+    }
+    let error = Lights::new(vec![triangle(u32::MAX), triangle(0)]).expect_err("no such mesh light");
+    assert!(matches!(error, LightsError::Order { index: 0, .. }), "{error}");
 }

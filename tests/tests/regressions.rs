@@ -2,15 +2,17 @@
 
 use std::path::Path;
 
+use lightbvh_fuzz::{Forms, TARGETS};
+
 #[test]
 fn fuzz_inputs() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/regressions");
-    for (name, target) in lightbvh_fuzz::TARGETS {
+    for (name, target) in TARGETS {
         let mut count = 0;
         for entry in std::fs::read_dir(folder.join(name)).expect("a folder for each target") {
             let path = entry.expect("a readable folder").path();
             println!("{}", path.display());
-            target(&std::fs::read(&path).expect("a readable file"));
+            target(&std::fs::read(&path).expect("a readable file"), Forms::All);
             count += 1;
         }
         assert!(count > 0, "no input for {name}");
@@ -23,8 +25,8 @@ fn random_inputs() {
     let mut random = lightbvh_tests::generate::Random::new(1);
     for i in 0..400 {
         let bytes: Vec<u8> = (0..4 * i).flat_map(|_| random.bits().to_le_bytes()).collect();
-        for (_, target) in lightbvh_fuzz::TARGETS {
-            target(&bytes);
+        for (_, target) in TARGETS {
+            target(&bytes, Forms::All);
         }
     }
 }

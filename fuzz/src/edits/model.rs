@@ -1,0 +1,179 @@
+//! What a scene should hold.
+
+use std::ops::Range;
+
+use lightbvh::{Edit, EmissiveTriangle, InstanceId, LightNode, MeshId, Scene, Transform};
+
+use super::Ids;
+
+/// What a scene should hold.
+#[derive(Clone, Default)]
+pub struct Model {
+    pub meshes: Vec<Mesh>,
+    pub instances: Vec<Placed>,
+    pub gone_meshes: Vec<MeshId>,
+    pub gone_instances: Ids,
+}
+
+/// Triangles in the mesh's own space.
+#[derive(Clone)]
+pub struct Mesh {
+    pub id: MeshId,
+    pub triangles: Vec<EmissiveTriangle>,
+}
+
+/// A mesh in the world.
+#[derive(Clone)]
+pub struct Placed {
+    pub id: InstanceId,
+    pub mesh: MeshId,
+    pub transform: Transform,
+    pub radiance: f32,
+    pub lights: Range<u32>,
+}
+
+/// 2^40.
+const MOST: f64 = 1_099_511_627_776.0;
+
+impl Model {
+    pub fn triangles(&self, id: MeshId) -> &[EmissiveTriangle] {
+        let mesh = self.meshes.iter().find(|mesh| mesh.id == id);
+        &mesh.expect("an instance's mesh stays").triangles
+    }
+
+    /// A scene built at once, and its instances in the order of the model's.
+    pub fn from_scratch<N: LightNode<W>, const W: usize>(&self) -> (Scene<N, W>, Ids) {
+        let mut scene = Scene::<N, W>::default();
+        let meshes = self.meshes.iter().map(|mesh| Edit::AddMesh {
+            triangles: mesh.triangles.clone(),
+        });
+        let added = scene.update(meshes.collect()).expect("meshes of a scene").meshes;
+        let instances = self.instances.iter().map(|placed| {
+            let mesh = self.meshes.iter().position(|mesh| mesh.id == placed.mesh);
+            Edit::AddInstance {
+                mesh: added[mesh.expect("an instance's mesh stays")],
+                transform: placed.transform,
+                radiance: placed.radiance,
+            }
+        });
+        let added = scene
+            .update(instances.collect())
+            .expect("instances of a scene")
+            .instances;
+        scene.refit();
+        (scene, added)
+    }
+
+    /// The same under the names of another scene.
+    pub fn renamed<N: LightNode<W>, const W: usize>(&mut self, ids: &Ids, scene: &Scene<N, W>) {
+        self.gone_instances.clear();
+        for (placed, &id) in self.instances.iter_mut().zip(ids) {
+            placed.id = id;
+            placed.lights = scene.lights_of(id).expect("just added");
+        }
+    }
+
+    /// The scene's lights against the exact maps in `f64`.
+    pub fn check_lights<N: LightNode<W>, const W: usize>(&self, scene: &Scene<N, W>) {
+        let world = scene.world_lights();
+        for placed in &self.instances {
+            let lights = scene.lights_of(placed.id).expect("it lives");
+            assert_eq!(lights, placed.lights, "numbers stay");
+            let local = self.triangles(placed.mesh);
+            assert_eq!(lights.len(), local.len());
+            let instance = &scene.instances()[placed.id.index() as usize];
+            for (light, local) in lights.zip(local) {
+                let found = scene.light(light, placed.id).expect("one of its lights");
+                assert_eq!(bytes(&found), bytes(&world[light as usize]));
+                assert_eq!(found.mesh, placed.id.index());
+                assert_eq!(found.flags, local.flags);
+                check_vertices(&placed.transform, local, &found, f64::from(instance.error));
+                check_radiance(local.radiance, placed.radiance, found.radiance);
+            }
+        }
+    }
+}
+
+fn bytes(triangle: &EmissiveTriangle) -> &[u8] {
+    bytemuck::bytes_of(triangle)
+}
+
+/// The vertices under the map, two of them exchanged where it mirrors; off by no more than the instance says and rounding.
+fn check_vertices(map: &Transform, local: &EmissiveTriangle, found: &EmissiveTriangle, error: f64) {
+    let [x, y, z] = map.columns.map(|column| column.map(f64::from));
+    let determinant = x[0] * (y[1] * z[2] - y[2] * z[1]) - y[0] * (x[1] * z[2] - x[2] * z[1])
+        + z[0] * (x[1] * y[2] - x[2] * y[1]);
+    let [a, b, c] = local.p;
+    let near = |order: [[f32; 3]; 3]| {
+        order.iter().zip(&found.p).all(|(p, found)| {
+            let terms: [[f64; 4]; 3] = std::array::from_fn(|row| {
+                let across: [f64; 3] =
+                    std::array::from_fn(|k| f64::from(map.columns[k][row]) * f64::from(p[k]));
+                [across[0], across[1], across[2], f64::from(map.translation[row])]
+            });
+            let size: f64 = terms.iter().flatten().map(|term| term.abs()).sum();
+            // Lengths below 2^-75 m count as zero.
+            let tolerance = 4.0 * error + size * 2f64.powi(-20) + 2f64.powi(-72);
+            terms
+                .iter()
+                .zip(found)
+                .all(|(terms, &found)| (terms.iter().sum::<f64>() - f64::from(found)).abs() <= tolerance)
+        })
+    };
+    let lengths = [x, y, z].map(|c| c.iter().map(|x| x * x).sum::<f64>().sqrt());
+    // Of a map as flat as that nobody can tell whether it mirrors.
+    let unclear = determinant.abs() <= 1e-12 * lengths.iter().product::<f64>();
+    let (straight, mirrored) = (near([a, b, c]), near([a, c, b]));
+    let expected = if determinant < 0.0 { mirrored } else { straight };
+    assert!(
+        expected || unclear && (straight || mirrored),
+        "{local:?} under {map:?} is {found:?}, off by more than {error:e}"
+    );
+    assert!(
+        found
+            .p
+            .iter()
+            .flatten()
+            .all(|x| f64::from(x.abs()) <= MOST * 1.000_001),
+        "{found:?}"
+    );
+}
+
+fn check_radiance(local: [f32; 3], factor: f32, found: [f32; 3]) {
+    let (least, most) = (2f32.powi(-100), 2f32.powi(100));
+    for (local, found) in local.into_iter().zip(found) {
+        let exact = f64::from(local) * f64::from(factor);
+        let expected = if exact == 0.0 {
+            0.0
+        } else {
+            exact.clamp(least.into(), most.into())
+        };
+        // A light without area, or turned off, is dark.
+        let same = (f64::from(found) - expected).abs() <= expected * 2f64.powi(-23);
+        assert!(same || found == 0.0, "{local:e} times {factor:e} is {found:e}");
+    }
+}
+
+/// Whether a mesh under a map stays in the domain; `None` where rounding decides.
+pub fn within(map: &Transform, triangles: &[EmissiveTriangle]) -> Option<bool> {
+    let entries = map.columns.iter().flatten().chain(&map.translation);
+    if !entries.clone().all(|x| f64::from(x.abs()) <= MOST) {
+        return Some(false);
+    }
+    let radius = triangles.iter().flat_map(|triangle| triangle.p).map(|p| {
+        let [x, y, z] = p.map(f64::from);
+        (x * x + y * y + z * z).sqrt()
+    });
+    let radius = radius.fold(0.0, f64::max);
+    let farthest = (0..3).map(|row| {
+        let across: f64 = map
+            .columns
+            .iter()
+            .map(|column| f64::from(column[row].abs()))
+            .sum();
+        across * radius + f64::from(map.translation[row].abs())
+    });
+    let farthest = farthest.fold(0.0, f64::max);
+    let unclear = (farthest / MOST - 1.0).abs() < 1e-9;
+    (!unclear).then_some(farthest <= MOST)
+}

@@ -1,0 +1,341 @@
+//! Small glTF documents: sound but for what the input changes.
+
+use std::fmt::Write;
+
+use arbitrary::{Result, Unstructured};
+
+/// A white and a black texel.
+#[rustfmt::skip]
+const PNG: [u8; 75] = [
+    137, 80, 78, 71, 13, 10, 26, 10, 0, 0, 0, 13, 73, 72, 68, 82, 0, 0, 0, 2,
+    0, 0, 0, 1, 8, 2, 0, 0, 0, 123, 64, 232, 221, 0, 0, 0, 18, 73, 68, 65,
+    84, 120, 1, 1, 7, 0, 248, 255, 0, 255, 255, 255, 0, 0, 0, 14, 248, 2, 254, 106,
+    163, 121, 81, 0, 0, 0, 0, 73, 69, 78, 68, 174, 66, 96, 130,
+];
+
+/// A change of a value: the number of its place in the document, how, and to what.
+type Change = (u8, u8, u8);
+
+/// A document in the making.
+pub struct Document {
+    text: String,
+    buffer: Vec<u8>,
+    changes: Vec<Change>,
+    place: u8,
+}
+
+impl Document {
+    /// What there is by the bits of `shape`, with up to five values changed and up to sixteen bytes of the buffer.
+    pub fn new(u: &mut Unstructured<'_>) -> Result<Self> {
+        let shape: u32 = u.arbitrary()?;
+        let mut changes = Vec::new();
+        for _ in 0..u.arbitrary::<u8>()? % 6 {
+            changes.push(u.arbitrary()?);
+        }
+        let mut buffer = buffer();
+        for _ in 0..16 {
+            if let Ok((place, by)) = u.arbitrary::<(u8, u8)>() {
+                let place = usize::from(place) % buffer.len();
+                buffer[place] ^= by;
+            }
+        }
+        let mut document = Self {
+            text: String::with_capacity(2048),
+            buffer,
+            changes,
+            place: 0,
+        };
+        document.write(shape);
+        Ok(document)
+    }
+
+    /// As a container.
+    pub fn glb(mut self) -> Vec<u8> {
+        self.text.push('}');
+        while self.text.len() % 4 != 0 {
+            self.text.push(' ');
+        }
+        self.buffer.resize(self.buffer.len().next_multiple_of(4), 0);
+        let length = 28 + self.text.len() + self.buffer.len();
+        let mut out = Vec::with_capacity(length);
+        out.extend(b"glTF\x02\0\0\0");
+        out.extend((length as u32).to_le_bytes());
+        out.extend((self.text.len() as u32).to_le_bytes());
+        out.extend(b"JSON");
+        out.extend(self.text.as_bytes());
+        out.extend((self.buffer.len() as u32).to_le_bytes());
+        out.extend(b"BIN\0");
+        out.extend(&self.buffer);
+        out
+    }
+
+    /// As text, the buffer embedded.
+    pub fn json(mut self) -> Vec<u8> {
+        // The buffer is the last member of the last list.
+        self.text.truncate(self.text.len() - 2);
+        self.text.push_str(",\"uri\":\"data:;base64,");
+        for chunk in self.buffer.chunks(3) {
+            let word = [0, 1, 2].map(|i| u32::from(chunk.get(i).copied().unwrap_or(0)));
+            let word = word[0] << 16 | word[1] << 8 | word[2];
+            for digit in 0..=chunk.len() {
+                let digits = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+                self.text
+                    .push(char::from(digits[(word >> (18 - 6 * digit) & 63) as usize]));
+            }
+        }
+        self.text.push_str("\"}]}");
+        self.text.into_bytes()
+    }
+
+    fn raw(&mut self, text: &str) {
+        self.text.push_str(text);
+    }
+
+    /// The change of the next place, if there is one.
+    fn change(&mut self) -> Option<(u8, u8)> {
+        self.place = self.place.wrapping_add(1);
+        let found = self.changes.iter().find(|change| change.0 == self.place);
+        found.map(|&(_, how, to)| (how, to))
+    }
+
+    /// `before`, then a number that is to be `sound`.
+    fn number(&mut self, before: &str, sound: f64) {
+        self.raw(before);
+        let change = self.change();
+        let out = &mut self.text;
+        let _ = match change {
+            None => write!(out, "{sound}"),
+            Some((how, to)) => match how % 16 {
+                0..=2 => write!(out, "{}", to % 9),
+                3 => write!(out, "{}", sound + 1.0),
+                4 => write!(out, "{}", sound - 1.0),
+                5 => write!(out, "{}", 5120 + u32::from(to % 8)),
+                6 => write!(out, "{to}"),
+                7 => write!(out, "-{to}"),
+                8 => write!(out, "{}", sound * f64::from(to) / 16.0),
+                9 => write!(out, "{}", u64::MAX >> (to % 64)),
+                10 => write!(out, "1e{}", i32::from(to) - 128),
+                11 => write!(out, "-0"),
+                12 => write!(out, "null"),
+                13 => write!(out, "\"{to}\""),
+                14 => write!(out, "[{to}]"),
+                _ => write!(out, "{{}}"),
+            },
+        };
+    }
+
+    /// `before`, then a word in quotes.
+    fn word(&mut self, before: &str, sound: &str) {
+        const WORDS: [&str; 16] = [
+            "SCALAR",
+            "VEC2",
+            "VEC3",
+            "VEC4",
+            "MAT3",
+            "MAT4",
+            "LINEAR",
+            "STEP",
+            "CUBICSPLINE",
+            "translation",
+            "rotation",
+            "scale",
+            "weights",
+            "2.0",
+            "KHR_draco_mesh_compression",
+            "data:,",
+        ];
+        let word = match self.change() {
+            None => sound,
+            Some((_, to)) => WORDS[usize::from(to % 16)],
+        };
+        let _ = write!(self.text, "{before}\"{word}\"");
+    }
+
+    /// `before`, then a list.
+    fn numbers(&mut self, before: &str, sound: &[f64]) {
+        self.raw(before);
+        for (i, &x) in sound.iter().enumerate() {
+            self.number(if i == 0 { "[" } else { "," }, x);
+        }
+        self.raw("]");
+    }
+
+    fn write(&mut self, shape: u32) {
+        let has = |bit: u32| shape >> bit & 1 != 0;
+        let nodes = 1 + (shape & 3) as usize;
+        self.word("{\"asset\":{\"version\":", "2.0");
+        self.number("},\"scene\":", 0.0);
+        self.raw(",\"scenes\":[{\"nodes\":[");
+        // A chain, or all of them roots.
+        let chain = has(2);
+        for node in 0..if chain { 1 } else { nodes } {
+            self.number(if node == 0 { "" } else { "," }, node as f64);
+        }
+        self.raw("]");
+        if has(3) {
+            self.numbers(",\"extras\":{\"lightbvh_background\":", &[0.1, 0.2, 0.3]);
+            self.raw("}");
+        }
+        self.raw("}],\"nodes\":[");
+        for node in 0..nodes {
+            self.number(if node == 0 { "{\"mesh\":" } else { ",{\"mesh\":" }, 0.0);
+            if chain && node + 1 < nodes {
+                self.number(",\"children\":[", (node + 1) as f64);
+                self.raw("]");
+            }
+            if has(4) && node == 0 {
+                self.number(",\"camera\":", 0.0);
+            }
+            if has(5) && node == 1 {
+                let m = [
+                    1.0, 0.5, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 2.0, 3.0, 4.0, 1.0,
+                ];
+                self.numbers(",\"matrix\":", &m);
+            } else if has(6) {
+                self.numbers(",\"translation\":", &[1.0, 2.0, 3.0]);
+                self.numbers(",\"rotation\":", &[0.0, 0.6, 0.0, 0.8]);
+                self.numbers(",\"scale\":", &[1.0, -2.0, 1.0]);
+            }
+            self.raw("}");
+        }
+        self.mesh(shape);
+        if has(4) {
+            self.number(
+                "],\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":",
+                0.7,
+            );
+            self.number(",\"znear\":", 0.1);
+            self.raw("}}");
+        }
+        if has(7) {
+            self.animation(shape, nodes);
+        }
+        self.accessors(shape);
+    }
+
+    fn mesh(&mut self, shape: u32) {
+        let has = |bit: u32| shape >> bit & 1 != 0;
+        self.number(
+            "],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":",
+            0.0,
+        );
+        if has(8) {
+            self.number(",\"TEXCOORD_0\":", 6.0);
+        }
+        if has(9) {
+            self.number(",\"_RADIANCE\":", 7.0);
+        }
+        self.raw("}");
+        if !has(10) {
+            self.number(",\"indices\":", 1.0);
+        }
+        self.number(",\"material\":", 0.0);
+        self.number(",\"mode\":", 4.0);
+        self.numbers("}]}],\"materials\":[{\"emissiveFactor\":", &[1.0, 0.5, 0.25]);
+        if has(8) {
+            self.number(",\"emissiveTexture\":{\"index\":", 0.0);
+            self.number(",\"texCoord\":", 0.0);
+            self.raw("}");
+        }
+        if has(11) {
+            let before = ",\"extensions\":{\"KHR_materials_emissive_strength\":{\"emissiveStrength\":";
+            self.number(before, 5.0);
+            self.raw("}}");
+        }
+        self.numbers(
+            ",\"pbrMetallicRoughness\":{\"baseColorFactor\":",
+            &[0.1, 0.2, 0.3, 1.0],
+        );
+        self.number(",\"metallicFactor\":", 0.5);
+        self.raw("}}");
+        if has(8) {
+            self.number("],\"textures\":[{\"source\":", 0.0);
+            self.number("}],\"images\":[{\"bufferView\":", 4.0);
+            self.raw(",\"mimeType\":\"image/png\"}");
+        }
+    }
+
+    fn animation(&mut self, shape: u32, nodes: usize) {
+        let property = (shape >> 12 & 3) as usize % 3;
+        let kind = (shape >> 14 & 3) as usize % 3;
+        self.number("],\"animations\":[{\"channels\":[{\"sampler\":", 0.0);
+        self.number(",\"target\":{\"node\":", (nodes - 1) as f64);
+        self.word(",\"path\":", ["translation", "rotation", "scale"][property]);
+        self.number("}}],\"samplers\":[{\"input\":", 2.0);
+        let output = if property == 1 { 4.0 } else { 3.0 } + if kind == 2 { 5.0 } else { 0.0 };
+        self.number(",\"output\":", output);
+        self.word(",\"interpolation\":", ["LINEAR", "STEP", "CUBICSPLINE"][kind]);
+        self.raw("}]}");
+    }
+
+    fn accessors(&mut self, shape: u32) {
+        let float = 5126.0;
+        let list = [
+            (0.0, float, 4.0, "VEC3"),
+            (1.0, 5123.0, 6.0, "SCALAR"),
+            (2.0, float, 3.0, "SCALAR"),
+            (3.0, float, 3.0, "VEC3"),
+            (3.0, float, 3.0, "VEC4"),
+            (0.0, float, 4.0, "VEC3"),
+            (0.0, float, 4.0, "VEC2"),
+            (0.0, float, 4.0, "VEC3"),
+            (3.0, float, 9.0, "VEC3"),
+            (3.0, float, 9.0, "VEC4"),
+        ];
+        self.raw("],\"accessors\":[");
+        for (i, (view, component, count, kind)) in list.into_iter().enumerate() {
+            self.raw(if i == 0 { "{" } else { ",{" });
+            // Without a view an accessor holds zeros.
+            if i > 0 || shape >> 16 & 3 != 3 {
+                self.number("\"bufferView\":", view);
+                self.number(",\"byteOffset\":", 0.0);
+                self.raw(",");
+            }
+            self.number("\"componentType\":", component);
+            self.number(",\"count\":", count);
+            self.word(",\"type\":", kind);
+            if i == 0 && shape >> 16 & 2 != 0 {
+                self.number(",\"sparse\":{\"count\":", 2.0);
+                self.number(",\"indices\":{\"bufferView\":", 1.0);
+                self.number(",\"byteOffset\":", 0.0);
+                self.number(",\"componentType\":", 5123.0);
+                self.number("},\"values\":{\"bufferView\":", 3.0);
+                self.number(",\"byteOffset\":", 0.0);
+                self.raw("}}");
+            }
+            if i < 2 && shape >> 18 & 3 == 3 {
+                self.raw(",\"normalized\":true");
+            }
+            self.raw("}");
+        }
+        self.raw("],\"bufferViews\":[");
+        let views = [(0, 48), (48, 12), (60, 12), (72, 144), (216, PNG.len())];
+        for (i, (start, length)) in views.into_iter().enumerate() {
+            self.number(if i == 0 { "{\"buffer\":" } else { ",{\"buffer\":" }, 0.0);
+            self.number(",\"byteOffset\":", start as f64);
+            self.number(",\"byteLength\":", length as f64);
+            if i == 0 && shape >> 20 & 1 != 0 {
+                self.number(",\"byteStride\":", 12.0);
+            }
+            self.raw("}");
+        }
+        let length = self.buffer.len() as f64;
+        self.number("],\"buffers\":[{\"byteLength\":", length);
+        self.raw("}]");
+    }
+}
+
+/// Four positions, two triangles, three times, nine values of four numbers, an image.
+fn buffer() -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(300);
+    let mut floats = |list: &[f32]| bytes.extend(list.iter().flat_map(|x| x.to_le_bytes()));
+    floats(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
+    bytes.extend([0_u16, 1, 2, 0, 3, 1].iter().flat_map(|i| i.to_le_bytes()));
+    let mut floats = |list: &[f32]| bytes.extend(list.iter().flat_map(|x| x.to_le_bytes()));
+    floats(&[0.0, 0.25, 1.0]);
+    for i in 0..9_u8 {
+        floats(&[f32::from(i) * 0.25, 0.5, 0.0, 1.0]);
+    }
+    bytes.extend(PNG);
+    bytes
+}
