@@ -38,14 +38,8 @@ pub mod stability {
 mod bounds;
 #[path = "../tests/tests/climb.rs"]
 mod climb;
-#[path = "../tests/tests/deep.rs"]
-mod deep;
 #[path = "../tests/tests/encoding.rs"]
 mod encoding;
-#[path = "../tests/tests/exact_exhaustive.rs"]
-mod exact_exhaustive;
-#[path = "../tests/tests/hostile.rs"]
-mod hostile;
 #[path = "../tests/tests/importance.rs"]
 mod importance;
 #[path = "../tests/tests/instance.rs"]
@@ -58,7 +52,15 @@ mod rebuilder;
 mod refit;
 #[path = "../tests/tests/regressions.rs"]
 mod regressions;
-#[path = "../tests/tests/sampling.rs"]
-mod sampling;
 #[path = "../tests/tests/scene.rs"]
 mod scene;
+
+// Tests run in the order of their names, and stop at the first failure: those that take seconds come last.
+#[path = "../tests/tests/deep.rs"]
+mod slow_deep;
+#[path = "../tests/tests/exact_exhaustive.rs"]
+mod slow_exact;
+#[path = "../tests/tests/hostile.rs"]
+mod slow_hostile;
+#[path = "../tests/tests/sampling.rs"]
+mod slow_sampling;
