@@ -40,27 +40,33 @@ mod bounds;
 mod climb;
 #[path = "../tests/tests/encoding.rs"]
 mod encoding;
-#[path = "../tests/tests/importance.rs"]
-mod importance;
 #[path = "../tests/tests/instance.rs"]
 mod instance;
-#[path = "../tests/tests/lanes.rs"]
-mod lanes;
-#[path = "../tests/tests/rebuilder.rs"]
-mod rebuilder;
 #[path = "../tests/tests/refit.rs"]
 mod refit;
 #[path = "../tests/tests/regressions.rs"]
 mod regressions;
-#[path = "../tests/tests/scene.rs"]
-mod scene;
 
-// Tests run in the order of their names, and stop at the first failure: those that take seconds come last.
+// Tests run in the order of their names and stop at the first failure, so those that see most come early.
+#[path = "../tests/tests/known_words.rs"]
+mod first_known_words;
+#[path = "../tests/tests/messages.rs"]
+mod first_messages;
+
+// Those that take seconds: for the mutants that the others let pass.
 #[path = "../tests/tests/deep.rs"]
 mod slow_deep;
 #[path = "../tests/tests/exact_exhaustive.rs"]
-mod slow_exact;
+mod slow_exact_exhaustive;
 #[path = "../tests/tests/hostile.rs"]
 mod slow_hostile;
+#[path = "../tests/tests/importance.rs"]
+mod slow_importance;
+#[path = "../tests/tests/lanes.rs"]
+mod slow_lanes;
+#[path = "../tests/tests/rebuilder.rs"]
+mod slow_rebuilder;
 #[path = "../tests/tests/sampling.rs"]
 mod slow_sampling;
+#[path = "../tests/tests/scene.rs"]
+mod slow_scene;
