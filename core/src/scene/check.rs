@@ -202,3 +202,6 @@ fn factor(radiance: f32) -> Result<(), EditReason> {
         Err(EditReason::Radiance { value: radiance })
     }
 }
+
+#[cfg(test)]
+mod tests;

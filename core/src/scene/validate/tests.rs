@@ -76,7 +76,20 @@ fn broken_trees_are_found() {
     finds(What::Root, |s| s.roots[0].node += 1);
     finds(What::Link, |s| s.nodes[at].relink(0, 9999));
     let end = scene().nodes.len() as u32;
-    finds(What::Link, |s| s.nodes[at].relink(1, end));
+    let mut broken = scene();
+    broken.nodes[at].relink(1, end);
+    assert_eq!(
+        broken.validate(),
+        Err(bad(root, INVALID, What::Link, end - 1, end))
+    );
+    let end = scene().placed.len() as u32;
+    let mut broken = scene();
+    let leaf = broken.placed[2].clone();
+    broken.nodes[leaf.node as usize].relink(leaf.slot as usize, end);
+    assert_eq!(
+        broken.validate(),
+        Err(bad(leaf.node, leaf.slot, What::Mesh, INVALID, end))
+    );
     finds(What::Reached, |s| s.nodes[at].relink(0, root));
     finds(What::Reached, |s| {
         let blas = s.blases[0].nodes.start;
