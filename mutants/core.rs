@@ -38,6 +38,8 @@ pub mod stability {
 mod bounds;
 #[path = "../tests/tests/climb.rs"]
 mod climb;
+#[path = "../tests/tests/dead.rs"]
+mod dead;
 #[path = "../tests/tests/encoding.rs"]
 mod encoding;
 #[path = "../tests/tests/instance.rs"]
