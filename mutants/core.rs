@@ -40,6 +40,8 @@ mod bounds;
 mod climb;
 #[path = "../tests/tests/dead.rs"]
 mod dead;
+#[path = "../tests/tests/deep_scene.rs"]
+mod deep_scene;
 #[path = "../tests/tests/encoding.rs"]
 mod encoding;
 #[path = "../tests/tests/instance.rs"]
