@@ -39,9 +39,9 @@ mod bounds;
 #[path = "../tests/tests/climb.rs"]
 mod climb;
 #[path = "../tests/tests/dead.rs"]
-mod dead;
+mod later_dead;
 #[path = "../tests/tests/deep_scene.rs"]
-mod deep_scene;
+mod later_deep_scene;
 #[path = "../tests/tests/encoding.rs"]
 mod encoding;
 #[path = "../tests/tests/instance.rs"]
