@@ -38,14 +38,14 @@ pub mod stability {
 mod bounds;
 #[path = "../tests/tests/climb.rs"]
 mod climb;
-#[path = "../tests/tests/dead.rs"]
-mod later_dead;
-#[path = "../tests/tests/deep_scene.rs"]
-mod later_deep_scene;
 #[path = "../tests/tests/encoding.rs"]
 mod encoding;
 #[path = "../tests/tests/instance.rs"]
 mod instance;
+#[path = "../tests/tests/dead.rs"]
+mod later_dead;
+#[path = "../tests/tests/deep_scene.rs"]
+mod later_deep_scene;
 #[path = "../tests/tests/refit.rs"]
 mod refit;
 #[path = "../tests/tests/regressions.rs"]
