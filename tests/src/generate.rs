@@ -144,6 +144,27 @@ pub fn any_cone(random: &mut Random) -> Cone {
     }
 }
 
+/// The lights elsewhere, every one of them.
+///
+/// # Panics
+/// If one leaves the domain.
+#[must_use]
+pub fn moved(lights: &Lights, seed: u32) -> Lights {
+    let mut random = Random::new(seed);
+    let triangles = lights.triangles().iter().map(|t| {
+        let by = [0; 3].map(|_| random.between(1.0, 5.0));
+        let fade = exact::pow2(random.below(4) as i32);
+        EmissiveTriangle {
+            p: t.p.map(|v| [v[0] + by[0], v[1] + by[1], v[2] + by[2]]),
+            radiance: t.radiance.map(|x| x * fade),
+            ..*t
+        }
+    });
+    let mut later = lights.clone();
+    later.update(triangles.collect()).expect("the same mesh lights");
+    later
+}
+
 /// How a generated set of triangles is degenerate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {

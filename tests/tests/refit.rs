@@ -155,6 +155,8 @@ fn check<N: LightNode<W>, const W: usize>(
     let meshes = if two { lights.mesh_count() } else { 0 };
     assert_eq!(stats.leaves as usize, lights.triangles().len() + meshes);
     assert_eq!((stats.depth, stats.bytes), (bvh.depth(), bvh.bytes()));
+    let per_light = bvh.bytes() as f32 / lights.triangles().len() as f32;
+    assert_eq!(stats.bytes_per_light, per_light);
 
     bvh.refit(lights);
     assert_eq!(first, parts(&bvh), "refit of unchanged lights changes a word");

@@ -163,4 +163,42 @@ mod tests {
             );
         }
     }
+
+    #[test]
+    fn drift_is_the_cost_of_the_children_over_that_of_all() {
+        use crate::FullNode;
+        let bounds = |size: [f32; 3], cos_theta_o: f32, phi: f32| LightBounds {
+            min: glam::Vec3::new(1.0, -2.0, 3.0),
+            max: glam::Vec3::new(1.0 + size[0], size[1] - 2.0, 3.0 + size[2]),
+            cos_theta_o,
+            phi,
+            ..LightBounds::EMPTY
+        };
+        let mut node = FullNode::<2>::EMPTY;
+        for (slot, size, cos, phi) in [(0, [1.0, 2.0, 3.0], -1.0, 3.0), (1, [2.0, 0.0, 5.0], 1.0, 5.0)] {
+            node.set_child(slot, kind::LIGHT, 0);
+            node.set_bounds(slot, &bounds(size, cos, phi));
+        }
+        // M_Ω is 4π for a sphere and π for one direction; k_r is left out.
+        let (a, b) = (11.0 + 6.0 / 1024.0, 10.0 + 7.0 / 1024.0);
+        let all = 74.0 + 15.0 / 1024.0;
+        let expected = (3.0 * a * 4.0 + 5.0 * b) / (8.0 * all * 4.0);
+        let whole = bounds([4.0, 5.0, 6.0], -1.0, 8.0);
+        let found = drift(&[node], &whole);
+        assert!(
+            (found / expected - 1.0).abs() < 1e-5,
+            "{found}, expected {expected}"
+        );
+        assert_eq!(drift(&[node, node], &whole), 2.0 * found);
+        // What an empty slot holds is nothing, whatever its bounds.
+        node.set_child(1, kind::EMPTY, 0);
+        node.set_bounds(1, &whole);
+        let found = drift(&[node], &whole);
+        let expected = 3.0 * a / (8.0 * all);
+        assert!(
+            (found / expected - 1.0).abs() < 1e-5,
+            "{found}, expected {expected}"
+        );
+        assert_eq!(drift(&[node], &LightBounds { phi: 0.0, ..whole }), 0.0);
+    }
 }

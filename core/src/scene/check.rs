@@ -209,3 +209,6 @@ fn factor(radiance: f32) -> Result<(), EditReason> {
         Err(EditReason::Radiance { value: radiance })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -308,3 +308,6 @@ fn bad(node: u32, slot: u32, what: What, expected: u32, found: u32) -> Violation
         found,
     }
 }
+
+#[cfg(test)]
+mod tests;

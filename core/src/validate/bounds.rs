@@ -183,3 +183,6 @@ fn contains(outer: Cone, inner: Cone) -> bool {
     };
     outer.cos_theta_o <= cos_sum + COSINE_SLACK
 }
+
+#[cfg(test)]
+mod tests;

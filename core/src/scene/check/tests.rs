@@ -1,0 +1,167 @@
+//! The limits of a batch, which no real scene comes near, and what edits of one batch know of each other.
+
+use alloc::vec;
+
+use super::*;
+use crate::light::LightError;
+use crate::transform::TransformError;
+use crate::{CompactNode, InstanceId};
+
+type Tree = Scene<CompactNode<4>, 4>;
+
+/// Triangles of the one mesh.
+const COUNT: usize = 1 << 12;
+
+fn triangles(count: usize, size: f32) -> Vec<EmissiveTriangle> {
+    let lamp = |i: usize| EmissiveTriangle {
+        p: [
+            [(i % 64) as f32, (i / 64) as f32, 0.0],
+            [size, 0.0, 0.0],
+            [0.0, size, 0.0],
+        ],
+        radiance: [1.0; 3],
+        mesh: 0,
+        flags: 0,
+    };
+    (0..count).map(lamp).collect()
+}
+
+fn scene(count: usize) -> (Tree, MeshId, InstanceId) {
+    let mut scene = Tree::default();
+    let triangles = triangles(count, 1.0);
+    let added = scene.update(vec![Edit::AddMesh { triangles }]).expect("a mesh");
+    let mesh = added.meshes[0];
+    let added = scene.update(vec![add(mesh)]).expect("an instance");
+    (scene, mesh, added.instances[0])
+}
+
+fn add(mesh: MeshId) -> Edit {
+    Edit::AddInstance {
+        mesh,
+        transform: Transform::IDENTITY,
+        radiance: 1.0,
+    }
+}
+
+fn move_to(instance: InstanceId, x: f32) -> Edit {
+    Edit::Move {
+        instance,
+        transform: Transform::at([x, 0.0, 0.0]),
+    }
+}
+
+/// That the batch is just not too large, and too large with another of its last edit.
+#[track_caller]
+fn limit(scene: &Tree, mut edits: Vec<Edit>) {
+    scene.check(&mut edits).expect("just not too many");
+    let last = edits.len();
+    edits.push(edits[last - 1].clone());
+    let error = scene.check(&mut edits).expect_err("one too many");
+    assert_eq!((error.edit, error.reason), (last, EditReason::TooMany));
+}
+
+#[test]
+fn triangles_are_limited() {
+    let (scene, mesh, instance) = scene(COUNT);
+    // The mesh's own are there already, and the lights of one instance.
+    let most = MAX_LIGHTS / COUNT - 1;
+    limit(&scene, vec![move_to(instance, 1.0); most]);
+    let triangles = triangles(3 * COUNT, 1.0);
+    let mut edits = vec![Edit::AddMesh { triangles }];
+    edits.resize(most - 2, move_to(instance, 1.0));
+    limit(&scene, edits);
+    let mut edits = vec![add(mesh); 5];
+    edits.resize(most, move_to(instance, 1.0));
+    limit(&scene, edits);
+}
+
+#[test]
+fn lights_are_limited() {
+    let (mut scene, mesh, _) = scene(COUNT);
+    scene.lights.take((MAX_LIGHTS - 4 * COUNT) as u32);
+    limit(&scene, vec![add(mesh); 3]);
+}
+
+#[test]
+fn edits_know_of_those_before() {
+    let (scene, mesh, instance) = scene(2);
+    let deform = |size| Edit::Deform {
+        mesh,
+        triangles: triangles(2, size),
+    };
+    let check = |mut edits: Vec<Edit>| {
+        scene
+            .check(&mut edits)
+            .map_err(|error| (error.edit, error.reason))
+    };
+    let too_far = |result: Result<Vec<Extent>, (usize, EditReason)>, edit: usize| matches!(result, Err((at, EditReason::Transform(TransformError::TooFar { .. }))) if at == edit);
+    // Just within 2^40 m; 2^30 m more are not.
+    let (far, large) = (1.099e12, 1.0e9);
+    assert_eq!(
+        check(vec![move_to(instance, far), deform(1.0)])
+            .expect("small")
+            .len(),
+        1
+    );
+    assert_eq!(check(vec![deform(large), deform(1.0)]).expect("near").len(), 2);
+    assert!(too_far(check(vec![move_to(instance, far), deform(large)]), 1));
+    assert!(too_far(check(vec![deform(large), move_to(instance, far)]), 1));
+    check(vec![deform(large), deform(1.0), move_to(instance, far)]).expect("small again");
+    let gone = Edit::RemoveInstance(instance);
+    check(vec![move_to(instance, far), gone.clone(), deform(large)]).expect("nothing is there");
+
+    assert_eq!(
+        check(vec![gone.clone(), move_to(instance, 1.0)]),
+        Err((1, EditReason::UnknownInstance(instance)))
+    );
+    assert_eq!(
+        check(vec![add(mesh), Edit::RemoveMesh(mesh)]),
+        Err((1, EditReason::InUse { instances: 2 }))
+    );
+    check(vec![gone.clone(), Edit::RemoveMesh(mesh)]).expect("not in use");
+    assert_eq!(
+        check(vec![gone, Edit::RemoveMesh(mesh), add(mesh)]),
+        Err((2, EditReason::UnknownMesh(mesh)))
+    );
+}
+
+#[test]
+fn wrong_triangles_are_named_wherever_they_are() {
+    for (count, wrong) in [(1, 0), (9000, 17), (9000, 4500), (9000, 8999)] {
+        let mut triangles = triangles(count, 1.0);
+        triangles[wrong].p[2][1] = f32::NAN;
+        // Not the first that is found, but the first that there is.
+        triangles[count - 1].radiance[0] = -1.0;
+        let Err(EditReason::Light { index, error }) = checked(&mut triangles) else {
+            panic!("{count} {wrong}");
+        };
+        assert_eq!(index, wrong);
+        assert!(matches!(
+            error,
+            LightError::Coordinate {
+                vertex: 2,
+                axis: 1,
+                ..
+            }
+        ));
+    }
+    // What is within the domain is brought to its normal form on the way.
+    let mut triangles = triangles(9000, 1.0);
+    triangles[8000].p[0][0] = -0.0;
+    triangles[5].p[0][0] = 1e-40;
+    checked(&mut triangles).expect("sound");
+    for i in [5, 8000] {
+        assert_eq!(triangles[i].p[0][0].to_bits(), 0);
+    }
+}
+
+#[test]
+fn factors_on_radiance() {
+    let [least, most] = RADIANCE_FACTORS;
+    for good in [0.0, -0.0, least, most, 1.0] {
+        factor(good).expect("within the range");
+    }
+    for bad in [-1.0, least * 0.5, most * 2.0, f32::NAN, f32::INFINITY, 1e-40] {
+        factor(bad).expect_err("beyond it");
+    }
+}

@@ -1,0 +1,84 @@
+//! Scenes whose trees become deeper than a word of trail is long, while shallow ones are there already.
+
+use lightbvh::{
+    BuildParams, CompactNode, Edit, EmissiveTriangle, Eq4, FullNode, Heuristic, LightNode, Scene,
+    ShadingPoint, Transform, exact,
+};
+use lightbvh_tests::generate::{self, Random};
+use lightbvh_tests::oracle::sum_tolerance;
+
+/// Each light at half the distance from the origin of the one before.
+fn halving(count: i32) -> Vec<EmissiveTriangle> {
+    let light = |i: i32| {
+        let x = exact::pow2(20 - i);
+        EmissiveTriangle {
+            p: [[x, 0.0, 0.0], [x, 0.125 * x, 0.0], [x, 0.0, 0.125 * x]],
+            radiance: [exact::pow2(2 * i - 20); 3],
+            mesh: 0,
+            flags: 1,
+        }
+    };
+    (0..count).map(light).collect()
+}
+
+fn check<N: LightNode<W>, const W: usize>() {
+    let mut scene = Scene::<N, W>::new(BuildParams {
+        heuristic: Heuristic::Sah,
+        buckets: 2,
+    });
+    let mut random = Random::new(1);
+    let mut instances = Vec::new();
+    for (count, words) in [(5, 1), (60, 2), (7, 2)] {
+        let triangles = if count < 60 {
+            generate::small_triangles(count as u32, 100, 1.0, 0.1, false, 3)
+        } else {
+            halving(count)
+        };
+        let mesh = scene
+            .update(vec![Edit::AddMesh { triangles }])
+            .expect("a mesh")
+            .meshes[0];
+        let add = Edit::AddInstance {
+            mesh,
+            transform: Transform::at([0.0, 0.0, count as f32]),
+            radiance: 1.0,
+        };
+        instances.extend(scene.update(vec![add]).expect("an instance").instances);
+        scene.refit();
+        let stats = scene.validate().unwrap_or_else(|violation| panic!("{violation}"));
+        assert_eq!(scene.tree().trail_words, words, "{} levels", stats.depth);
+        assert_eq!(
+            scene.tree().trails.len(),
+            scene.triangles().len() * words as usize
+        );
+        for _ in 0..20 {
+            let point = ShadingPoint {
+                n: [0.0; 3],
+                ..generate::point(&mut random, 4.0)
+            };
+            let mut sum = 0.0;
+            for &id in &instances {
+                for light in scene.lights_of(id).expect("it is there") {
+                    sum += f64::from(scene.pmf::<Eq4>(&point, light, id));
+                }
+            }
+            assert!((sum - 1.0).abs() < sum_tolerance(stats.depth), "{sum}");
+            let sampled = scene.sample::<Eq4>(&point, random.bits());
+            let pmf = instances
+                .iter()
+                .map(|&id| scene.pmf::<Eq4>(&point, sampled.light, id));
+            assert_eq!(pmf.fold(0.0, f32::max).to_bits(), sampled.pmf.to_bits());
+        }
+    }
+}
+
+#[test]
+fn width_2() {
+    check::<CompactNode<2>, 2>();
+    check::<FullNode<2>, 2>();
+}
+
+#[test]
+fn width_4() {
+    check::<CompactNode<4>, 4>();
+}

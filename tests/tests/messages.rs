@@ -1,0 +1,236 @@
+//! Refusals say what was found, what was expected, and what to do.
+
+use std::error::Error;
+
+use lightbvh::light::MAX_RADIANCE;
+use lightbvh::scene::{EditError, EditReason};
+use lightbvh::transform::TransformError;
+use lightbvh::validate::{Violation, What};
+use lightbvh::{
+    CompactNode, Edit, EmissiveTriangle, INVALID, LightError, Lights, LightsError, RebuildError, Scene,
+    Transform,
+};
+
+#[track_caller]
+fn says(error: &dyn Error, words: &[&str]) {
+    let text = error.to_string();
+    for word in words {
+        assert!(text.contains(word), "{text:?} without {word:?}");
+    }
+}
+
+const LAMP: EmissiveTriangle = EmissiveTriangle {
+    p: [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+    radiance: [1.0; 3],
+    mesh: 0,
+    flags: 0,
+};
+
+#[test]
+fn lights() {
+    let far = |vertex: usize, axis: usize| {
+        let mut lamp = LAMP;
+        lamp.p[vertex][axis] = 1e20;
+        lamp.checked().expect_err("beyond the domain")
+    };
+    assert_eq!(
+        far(2, 1),
+        LightError::Coordinate {
+            vertex: 2,
+            axis: 1,
+            value: 1e20
+        }
+    );
+    says(
+        &far(0, 0),
+        &[
+            "coordinate x of vertex 0",
+            "100000000000000000000",
+            "2^40",
+            "scale the scene",
+        ],
+    );
+    says(&far(1, 2), &["coordinate z of vertex 1"]);
+    for (channel, name) in ["red", "green", "blue"].into_iter().enumerate() {
+        let mut lamp = LAMP;
+        lamp.radiance[channel] = -3.0;
+        let error = lamp.checked().expect_err("negative");
+        assert_eq!(error, LightError::Radiance { channel, value: -3.0 });
+        says(&error, &[name, "-3", "2^-100 to 2^100", "repair"]);
+        lamp.radiance[channel] = 2.0 * MAX_RADIANCE;
+        lamp.checked().expect_err("too bright");
+    }
+
+    says(
+        &Lights::new(Vec::new()).expect_err("none"),
+        &["no emissive triangle"],
+    );
+    says(
+        &LightsError::TooMany { count: 5 << 30 },
+        &["5368709120", "2^30", "split"],
+    );
+    let mut lamps = vec![LAMP; 4];
+    lamps[2].p[0][0] = f32::NAN;
+    says(
+        &Lights::new(lamps).expect_err("NaN"),
+        &["emissive triangle 2", "coordinate x", "NaN"],
+    );
+    let mut lamps = vec![LAMP; 4];
+    lamps[3].mesh = 7;
+    says(
+        &Lights::new(lamps).expect_err("a gap"),
+        &[
+            "emissive triangle 3",
+            "mesh light 7",
+            "expected 1 or the one before",
+        ],
+    );
+    let mut lights = Lights::new(vec![LAMP; 4]).expect("lights");
+    says(
+        &lights.update(vec![LAMP; 5]).expect_err("one more"),
+        &["update has 5", "the 4 before"],
+    );
+}
+
+#[test]
+fn edits() {
+    let mut scene = Scene::<CompactNode<4>, 4>::default();
+    let triangles = vec![LAMP; 3];
+    let mesh = scene
+        .update(vec![Edit::AddMesh { triangles }])
+        .expect("a mesh")
+        .meshes[0];
+    let add = |transform, radiance| Edit::AddInstance {
+        mesh,
+        transform,
+        radiance,
+    };
+    let here = Transform::IDENTITY;
+    let instance = scene.update(vec![add(here, 1.0)]).expect("an instance").instances[0];
+    let mut refused = |edit: Edit, words: &[&str]| {
+        // After one that is sound, so that its index shows.
+        let error = scene.update(vec![add(here, 1.0), edit]).expect_err("refused");
+        assert_eq!(error.edit, 1);
+        says(&error, &["edit 1: "]);
+        says(&error, words);
+        error.reason
+    };
+    refused(
+        Edit::AddMesh {
+            triangles: Vec::new(),
+        },
+        &["without emissive triangles"],
+    );
+    let mut triangles = vec![LAMP; 3];
+    triangles[1].radiance[2] = f32::NAN;
+    refused(
+        Edit::AddMesh { triangles },
+        &["emissive triangle 1", "blue", "NaN"],
+    );
+    let triangles = vec![LAMP; 2];
+    let count = refused(Edit::Deform { mesh, triangles }, &["2 triangles for a mesh of 3"]);
+    assert_eq!(
+        count,
+        EditReason::Count {
+            expected: 3,
+            found: 2
+        }
+    );
+    refused(
+        add(here, 2.0f32.powi(61)),
+        &["factor on radiance", "2^-60 to 2^60"],
+    );
+    refused(add(here, 2.0f32.powi(-61)), &["factor on radiance"]);
+    refused(Edit::RemoveMesh(mesh), &["still has 2 instances"]);
+    let mut tall = here;
+    tall.columns[1][2] = f32::INFINITY;
+    refused(add(tall, 1.0), &["row 2, column 1", "inf", "2^40"]);
+    refused(add(Transform::at([0.0, 1.1e12, 0.0]), 1.0), &["row 1, column 3"]);
+    // All within 2^40, but not what they make together.
+    let mut far = Transform::at([1.0e12, 0.0, 0.0]);
+    far.columns[0][0] = 1.0e12;
+    let reason = refused(add(far, 1.0), &["as far as", "2^40 m", "scale the scene"]);
+    let EditReason::Transform(TransformError::TooFar { metres }) = reason else {
+        panic!("{reason:?}");
+    };
+    assert!((metres - 2.0e12).abs() < 1e7, "{metres}");
+
+    let mut scene = Scene::<CompactNode<4>, 4>::default();
+    let error = scene.update(vec![Edit::RemoveMesh(mesh)]).expect_err("no mesh");
+    assert_eq!(
+        error,
+        EditError {
+            edit: 0,
+            reason: EditReason::UnknownMesh(mesh)
+        }
+    );
+    says(&error, &["edit 0: no mesh 0 of generation 0"]);
+    let error = scene
+        .update(vec![Edit::RemoveInstance(instance)])
+        .expect_err("no instance");
+    says(&error, &["no instance 0 of generation 0"]);
+    says(
+        &EditError {
+            edit: 7,
+            reason: EditReason::TooMany,
+        },
+        &["edit 7: more than 2^30"],
+    );
+}
+
+#[test]
+fn violations() {
+    let say = |what: What| {
+        let violation = Violation {
+            node: 3,
+            slot: INVALID,
+            what,
+            expected: 1.5f32.to_bits(),
+            found: 7,
+        };
+        assert_eq!(
+            what.is_float(),
+            matches!(what, What::Bounds(_) | What::Containment(_))
+        );
+        violation.to_string()
+    };
+    let whole = [
+        (What::MeshCount, "number of mesh lights"),
+        (What::RootCount, "number of bottom levels"),
+        (What::Blas, "bottom level of the mesh light"),
+        (What::TrailCount, "number of trail words"),
+        (What::TrailWords, "words per trail"),
+        (What::Root, "index of the root"),
+        (What::Kind, "kind of child"),
+        (What::Link, "link"),
+        (What::Reached, "times reached"),
+        (What::Level, "level"),
+        (What::Triangle, "times that the triangle is a leaf"),
+        (What::Mesh, "times that the mesh light is a leaf"),
+        (What::First, "first triangle of the mesh light"),
+        (What::Owner, "mesh light of the triangle"),
+        (What::TrailLow, "low word of the leaf's trail"),
+        (What::TrailHigh, "high word of the leaf's trail"),
+        (What::Depth, "depth"),
+        (What::Listed, "times in the list of levels"),
+        (What::ListedLevel, "level in the list of levels"),
+        (What::Word(5), "word 5 of the child"),
+    ];
+    for (what, name) in whole {
+        assert_eq!(say(what), format!("node 3, {name}: expected 1069547520, found 7"));
+    }
+    assert_eq!(
+        say(What::Bounds(4)),
+        "node 3, greatest y of the refitted bounds: expected 1.5e0, found 1e-44"
+    );
+    assert_eq!(
+        say(What::Containment(9)),
+        "node 3, cos θ_o within the parent's bounds: expected 1.5e0, found 1e-44"
+    );
+    says(
+        &RebuildError::Panicked {
+            message: String::from("out of luck"),
+        },
+        &["panicked: out of luck", "keeps its refitted tree"],
+    );
+}
