@@ -12,7 +12,7 @@ pub const MIN_PHI: f32 = pow2(-100);
 /// Largest flux of one light, W; larger ones count as this much.
 pub const MAX_PHI: f32 = pow2(100);
 /// Largest flux of a set of lights, W: 2^126. Sums stop there.
-const MAX_SUM: f32 = pow2(126);
+pub(crate) const MAX_SUM: f32 = pow2(126);
 
 /// Bounds of the emission of a set of lights (Conty Estevez & Kulla 2018, section 4.1; pbrt-v4 `LightBounds`).
 ///
@@ -47,7 +47,8 @@ impl LightBounds {
     /// Bounds of one emissive triangle: its box, its normal, and Φ = π · area · luminance, twice that for two sides
     /// (a diffuse emitter: pbrt-v4 `DiffuseAreaLight::Phi`).
     ///
-    /// The triangle has no flux when its luminance is zero or its area is below 2^-100 of its longest edge squared.
+    /// The triangle has no flux when its luminance is zero, or when the `f32` cross product of its edges is below about 2^-100
+    /// of its longest edge squared: that of every area so small is, and rounding can make it so from 2^-22 on.
     #[inline(always)]
     #[must_use]
     pub fn of_triangle(triangle: &EmissiveTriangle) -> Self {

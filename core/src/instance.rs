@@ -11,7 +11,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use crate::bounds::{LightBounds, MAX_PHI, MIN_PHI};
+use crate::bounds::{LightBounds, MAX_PHI, MAX_SUM, MIN_PHI};
 use crate::cone::{normalized, widened};
 use crate::exact::{self, exponent, flush, pow2, significand};
 use crate::light::{EmissiveTriangle, MIN_COORDINATE};
@@ -33,8 +33,6 @@ const NEAR: f32 = 2048.0;
 const LEAST_TURN: f32 = pow2(-11);
 /// Greatest magnitude of a coordinate in a mesh's space, 2^60: only points farther off than any accepted one are cut there.
 const FAR: f32 = pow2(60);
-/// Largest flux of a set of lights, W.
-const MAX_SUM: f32 = pow2(126);
 
 /// A leaf of the top level: where a mesh stands, and which lights its triangles are there.
 ///

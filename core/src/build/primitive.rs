@@ -1,15 +1,12 @@
 //! What the builder sorts: a triangle or a mesh light, as two boxes.
 
-use crate::bounds::LightBounds;
+use crate::bounds::{LightBounds, MAX_SUM};
 use crate::cone::sine_of;
-use crate::exact::{self, pow2};
+use crate::exact;
 
 /// Lanes of a box pair: x, y, z of position, one unused, x, y, z of the normals, one unused. Eight lanes become whole
 /// vector registers.
 pub(super) type Lanes = [f32; 8];
-
-/// Where sums of flux stop, as in [`LightBounds::merge`].
-const MAX_SUM: f32 = pow2(126);
 
 /// A light to be sorted into a tree. Beside the box of its points it carries the box of its *normals*: unions of boxes
 /// are cheap and independent of order, and the box of normals bounds their cone (see [`cost`](super::cost)).
