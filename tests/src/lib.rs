@@ -5,6 +5,7 @@ pub mod direct;
 pub mod edits;
 pub mod generate;
 pub mod gltf_files;
+pub mod known;
 pub mod oracle;
 pub mod placing;
 pub mod slowed;
