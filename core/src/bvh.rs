@@ -79,15 +79,18 @@ impl<N: LightNode<W>, const W: usize, L: MeshLeaf> LightBvh<N, W, L> {
         }
     }
 
-    /// Chooses a light for `point`; see [`traverse::sample`].
+    /// Chooses a light for `point`, which is within the domain of [`ShadingPoint::checked`]; see [`traverse::sample`].
     #[must_use]
     pub fn sample<I: ImportanceModel>(&self, point: &ShadingPoint, random: u32) -> SampledLight {
+        debug_assert!(point.is_within_reach(), "not a shading point: {point:?}");
         traverse::sample::<N, I, L, W>(&self.tree(), point, random)
     }
 
-    /// Probability of triangle `light` of `lights` at `point`; see [`traverse::pmf`].
+    /// Probability of triangle `light` of `lights` at `point`, a point as for [`sample`](Self::sample); see
+    /// [`traverse::pmf`].
     #[must_use]
     pub fn pmf<I: ImportanceModel>(&self, lights: &Lights, point: &ShadingPoint, light: u32) -> f32 {
+        debug_assert!(point.is_within_reach(), "not a shading point: {point:?}");
         let mesh = match lights.triangles().get(light as usize) {
             Some(triangle) if self.is_two_level() => triangle.mesh,
             Some(_) => INVALID,

@@ -131,6 +131,6 @@ pub use importance::{Eq4, FluxOverDistance, ImportanceModel};
 pub use instance::Instance;
 pub use light::{EmissiveTriangle, LightError};
 pub use node::{CompactNode, FullNode, LightNode};
-pub use point::{Receiver, ShadingPoint};
+pub use point::{PointError, Receiver, ShadingPoint};
 pub use traverse::SampledLight;
 pub use tree::{INVALID, LightTree, MeshLeaf, MeshLight};

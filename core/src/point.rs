@@ -3,18 +3,71 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
+use crate::exact;
+use crate::light::{MAX_COORDINATE, MIN_COORDINATE};
+use crate::vector::length_squared;
+
+/// By how much the squared length of a normal may differ from 1: 2^-7, so that normals of 8-bit components divided by a rough
+/// root pass.
+pub const NORMAL_TOLERANCE: f32 = exact::pow2(-7);
+/// Magnitude of a coordinate, metres, beyond which squares overflow and numbers mean nothing: 2^60. Up to here trees over
+/// triangles in the world keep every guarantee, though [`ShadingPoint::checked`] accepts 2^40 only, as of lights.
+pub const MAX_REACH: f32 = exact::pow2(60);
+
 /// A point to be lit (pbrt's `LightSampleContext`).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct ShadingPoint {
-    /// Position, metres, magnitude at most 2^40.
+    /// Position, metres, magnitude at most 2^40 ([`ShadingPoint::checked`]).
     pub p: [f32; 3],
-    /// Unit normal of an opaque surface: only light from its side counts. Zero for a point in a volume, which
-    /// receives from everywhere.
+    /// Unit normal of an opaque surface, its length within 2^-8 of 1: only light from its side counts. Zero for a point in a
+    /// volume, which receives from everywhere.
     pub n: [f32; 3],
 }
 
 impl ShadingPoint {
+    /// Brings the point into the domain of this crate, or says why it cannot be. Sampling and pmf do not check again.
+    ///
+    /// Components smaller than [`MIN_COORDINATE`] become zero (with the sign of zero dropped); nothing else changes.
+    ///
+    /// # Errors
+    /// [`PointError`] for a coordinate that is not finite or beyond [`MAX_COORDINATE`], and for a normal that is neither of
+    /// length 1 (up to [`NORMAL_TOLERANCE`]) nor zero.
+    pub fn checked(mut self) -> Result<Self, PointError> {
+        for axis in 0..3 {
+            let value = self.p[axis];
+            // NaN is in no range.
+            if !(-MAX_COORDINATE..=MAX_COORDINATE).contains(&value) {
+                return Err(PointError::Coordinate { axis, value });
+            }
+            self.p[axis] = exact::flush(value, MIN_COORDINATE);
+            self.n[axis] = exact::flush(self.n[axis], MIN_COORDINATE);
+        }
+        if self.has_sound_normal() {
+            Ok(self)
+        } else {
+            Err(PointError::Normal { n: self.n })
+        }
+    }
+
+    /// Whether sampling means anything here: what debug builds assert where a point comes in. Wider than
+    /// [`checked`](Self::checked), up to [`MAX_REACH`].
+    #[cfg(feature = "alloc")]
+    pub(crate) fn is_within_reach(&self) -> bool {
+        let mut within = self.has_sound_normal();
+        for axis in 0..3 {
+            within &= (-MAX_REACH..=MAX_REACH).contains(&self.p[axis]);
+        }
+        within
+    }
+
+    /// Whether the normal is zero or of length 1.
+    fn has_sound_normal(&self) -> bool {
+        let n = self.normal();
+        let excess = length_squared(n) - 1.0;
+        n == Vec3::ZERO || (-NORMAL_TOLERANCE..=NORMAL_TOLERANCE).contains(&excess)
+    }
+
     /// Position.
     #[inline]
     #[must_use]
@@ -29,6 +82,42 @@ impl ShadingPoint {
         Vec3::new(self.n[0], self.n[1], self.n[2])
     }
 }
+
+/// Why a shading point is refused.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PointError {
+    /// A coordinate is NaN, infinite or beyond [`MAX_COORDINATE`].
+    Coordinate {
+        /// Which coordinate: x, y, z as 0, 1, 2.
+        axis: usize,
+        /// What was found.
+        value: f32,
+    },
+    /// The normal is neither of length 1 nor zero, or not finite.
+    Normal {
+        /// What was found.
+        n: [f32; 3],
+    },
+}
+
+impl core::fmt::Display for PointError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match *self {
+            Self::Coordinate { axis, value } => write!(
+                f,
+                "coordinate {} of a shading point is {value}, expected a finite number of magnitude at most 2^40; \
+                 bring the scene nearer to its origin",
+                ['x', 'y', 'z'][axis]
+            ),
+            Self::Normal { n: [x, y, z] } => write!(
+                f,
+                "the normal of a shading point is ({x}, {y}, {z}), expected length 1, or zero in a volume; normalize it"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for PointError {}
 
 /// A receiver in the space of the tree that is walked, and how exactly it is known there.
 ///
@@ -77,5 +166,83 @@ impl Receiver for ShadingPoint {
     #[inline(always)]
     fn tilt(&self) -> f32 {
         0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const UP: [f32; 3] = [0.0, 1.0, 0.0];
+
+    #[test]
+    fn points_of_the_domain_are_accepted_as_they_are() {
+        let far = MAX_COORDINATE;
+        let slanted = [0.6, -0.64, 0.48];
+        for p in [[0.0; 3], [far, -far, far], [MIN_COORDINATE, -MIN_COORDINATE, 1.0]] {
+            for n in [
+                [0.0; 3],
+                UP,
+                slanted,
+                slanted.map(|x| x * 1.003),
+                slanted.map(|x| x * 0.997),
+            ] {
+                let point = ShadingPoint { p, n };
+                assert_eq!(point.checked(), Ok(point));
+            }
+        }
+    }
+
+    #[test]
+    fn tiny_components_and_minus_zero_become_zero() {
+        let tiny = MIN_COORDINATE.next_down();
+        let point = ShadingPoint {
+            p: [tiny, -0.0, f32::from_bits(1)],
+            n: [-0.0, 1.0, -tiny],
+        };
+        let words = point.checked().map(|point| bytemuck::cast::<_, [u32; 6]>(point));
+        assert_eq!(words, Ok([0, 0, 0, 0, 1.0_f32.to_bits(), 0]));
+        // A normal of nothing but those is none.
+        let volume = ShadingPoint {
+            p: [1.0; 3],
+            n: [tiny; 3],
+        };
+        assert_eq!(volume.checked().map(|point| point.n), Ok([0.0; 3]));
+    }
+
+    #[test]
+    fn what_is_out_of_the_domain_is_refused_by_name() {
+        for value in [
+            f32::NAN,
+            f32::INFINITY,
+            f32::NEG_INFINITY,
+            MAX_COORDINATE.next_up(),
+            f32::MIN,
+        ] {
+            for axis in 0..3 {
+                let mut p = [1.0; 3];
+                p[axis] = value;
+                let error = ShadingPoint { p, n: UP }.checked();
+                assert!(
+                    matches!(error, Err(PointError::Coordinate { axis: a, value: v }) if a == axis && v.to_bits() == value.to_bits()),
+                    "{error:?}"
+                );
+            }
+        }
+        for n in [
+            [1.0; 3],
+            [0.0, 0.99, 0.0],
+            [0.0, 1.01, 0.0],
+            [f32::NAN, 0.0, 0.0],
+            [0.0, f32::INFINITY, 0.0],
+            [f32::MAX; 3],
+            [MIN_COORDINATE; 3],
+        ] {
+            let error = ShadingPoint { p: [0.0; 3], n }.checked();
+            assert!(
+                matches!(error, Err(PointError::Normal { .. })),
+                "{n:?}: {error:?}"
+            );
+        }
     }
 }

@@ -1,10 +1,12 @@
 //! Generators, oracles, statistics and devices shared by the tests.
 
+pub mod broken;
 pub mod devices;
 pub mod direct;
 pub mod edits;
 pub mod generate;
 pub mod gltf_files;
+pub mod known;
 pub mod oracle;
 pub mod placing;
 pub mod slowed;

@@ -162,16 +162,19 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         scene
     }
 
-    /// Chooses a light for `point`; see [`traverse::sample`]. Without lights none is chosen.
+    /// Chooses a light for `point`, which is within the domain of [`ShadingPoint::checked`]; see [`traverse::sample`]. Without
+    /// lights none is chosen.
     #[must_use]
     pub fn sample<I: ImportanceModel>(&self, point: &ShadingPoint, random: u32) -> SampledLight {
+        debug_assert!(point.is_within_reach(), "not a shading point: {point:?}");
         traverse::sample::<N, I, Instance, W>(&self.tree(), point, random)
     }
 
-    /// Probability of `light` of `instance` at `point`; see [`traverse::pmf`]. 0 for an unknown instance, or a light of
-    /// another one.
+    /// Probability of `light` of `instance` at `point`, a point as for [`sample`](Self::sample); see [`traverse::pmf`]. 0 for an
+    /// unknown instance, or a light of another one.
     #[must_use]
     pub fn pmf<I: ImportanceModel>(&self, point: &ShadingPoint, light: u32, instance: InstanceId) -> f32 {
+        debug_assert!(point.is_within_reach(), "not a shading point: {point:?}");
         match live(&self.placed, instance) {
             Some(placed) if placed.lights.contains(&light) => {
                 traverse::pmf::<N, I, Instance, W>(&self.tree(), point, light, instance.index)

@@ -2,7 +2,7 @@
 
 use super::device::Device;
 use super::error::{CallContext, VulkanError};
-use super::modules::{MODULES, words};
+use super::modules::{MODULES, Module, words};
 use super::shared::Shared;
 use super::spirv_interface::Interface;
 use super::spirv_modes::set_float_modes;
@@ -52,13 +52,7 @@ impl Device {
     /// # Errors
     /// [`VulkanError::UnknownKernel`], or those of [`Device::kernel_from_words`].
     pub fn kernel(&self, name: &str) -> Result<Arc<Kernel>, VulkanError> {
-        let Some(module) = MODULES.iter().find(|module| module.name == name) else {
-            let known: Vec<&str> = MODULES.iter().map(|module| module.name).collect();
-            return Err(VulkanError::UnknownKernel {
-                name: name.into(),
-                known: known.join(", "),
-            });
-        };
+        let module = built_in(name)?;
         let mut kernels = self.shared.kernels();
         if let Some(kernel) = kernels.built_in.get(name) {
             return Ok(Arc::clone(kernel));
@@ -68,6 +62,23 @@ impl Device {
         drop(kernels);
         self.shared.check_validation()?;
         Ok(kernel)
+    }
+
+    /// Puts a module of the caller's in the place of the built-in kernel of that name, for all that this device runs from now
+    /// on. Tests run deliberately broken kernels by it, to see that the self-test and every comparison find them.
+    ///
+    /// # Errors
+    /// [`VulkanError::UnknownKernel`], or those of [`Device::kernel_from_words`].
+    #[doc(hidden)]
+    pub fn replace_kernel(&self, name: &str, words: &[u32]) -> Result<(), VulkanError> {
+        let module = built_in(name)?;
+        let kernel = Arc::new(Kernel::new(&self.shared, name, words)?);
+        let mut kernels = self.shared.kernels();
+        // A pass may still name the old one's pipeline; it goes when the device does.
+        let old = kernels.built_in.insert(module.name, kernel);
+        kernels.others.extend(old);
+        drop(kernels);
+        self.shared.check_validation()
     }
 
     /// A kernel from a SPIR-V module with one compute entry point; `name` is for messages.
@@ -84,6 +95,17 @@ impl Device {
         self.shared.check_validation()?;
         Ok(kernel)
     }
+}
+
+/// The built-in module of that name.
+fn built_in(name: &str) -> Result<&'static Module, VulkanError> {
+    MODULES.iter().find(|module| module.name == name).ok_or_else(|| {
+        let known: Vec<&str> = MODULES.iter().map(|module| module.name).collect();
+        VulkanError::UnknownKernel {
+            name: name.into(),
+            known: known.join(", "),
+        }
+    })
 }
 
 impl Kernel {

@@ -1,0 +1,157 @@
+//! Inputs of the image: a room with a box in it, lit by three meshes of small lights.
+
+use lightbvh::{BuildParams, EmissiveTriangle, Lights};
+use lightbvh_host::backend::Sampler;
+use lightbvh_host::render::{RayBvh, View, camera};
+use lightbvh_host::workload::build;
+use lightbvh_kernels::bvh::TreePush;
+use lightbvh_kernels::render::RenderParams;
+use lightbvh_kernels::shading::material::Material;
+use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
+
+use super::super::Table;
+use super::array;
+use crate::generate::Random;
+
+/// Columns and rows.
+const SIZE: u32 = 64;
+
+/// The image.
+pub fn image() -> (&'static str, Vec<Table>) {
+    let random = &mut Random::new(0x6b6e_6f09);
+    let mut surfaces = Vec::new();
+    let mut quad = |corner: [f32; 3], u: [f32; 3], v: [f32; 3], material: u32| {
+        let at = |s: f32, t: f32| std::array::from_fn(|k| corner[k] + s * u[k] + t * v[k]);
+        for p in [
+            [at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0)],
+            [at(0.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)],
+        ] {
+            surfaces.push(SurfaceTriangle {
+                p,
+                material,
+                light: NONE,
+            });
+        }
+    };
+    // Floor, back, left; a box that throws shadows.
+    quad([-4.0, 0.0, 4.0], [8.0, 0.0, 0.0], [0.0, 0.0, -8.0], 0);
+    quad([-4.0, 0.0, -4.0], [8.0, 0.0, 0.0], [0.0, 5.0, 0.0], 1);
+    quad([-4.0, 0.0, 4.0], [0.0, 0.0, -8.0], [0.0, 5.0, 0.0], 2);
+    quad([-0.8, 0.0, 0.8], [1.6, 0.0, 0.0], [0.0, 1.5, 0.0], 2);
+    quad([0.8, 0.0, 0.8], [0.0, 0.0, -1.6], [0.0, 1.5, 0.0], 2);
+    quad([-0.8, 1.5, 0.8], [1.6, 0.0, 0.0], [0.0, 0.0, -1.6], 3);
+    let triangles: Vec<EmissiveTriangle> = (0..24)
+        .map(|i| {
+            let mesh = i / 8;
+            let center = [[-2.0, 3.5, 0.0], [2.5, 3.0, -2.0], [1.5, 0.6, 2.0]][mesh as usize];
+            let mut vertex = || center.map(|c: f32| c + random.between(-0.4, 0.4));
+            let p = [vertex(), vertex(), vertex()];
+            let radiance = [[20.0, 16.0, 9.0], [6.0, 9.0, 22.0], [12.0, 3.0, 2.0]][mesh as usize];
+            EmissiveTriangle {
+                p,
+                radiance,
+                mesh,
+                flags: u32::from(i % 3 == 0),
+            }
+        })
+        .collect();
+    let lights = Lights::new(triangles).expect("within the domain");
+    surfaces.extend(
+        lights
+            .triangles()
+            .iter()
+            .enumerate()
+            .map(|(i, light)| SurfaceTriangle {
+                p: light.p,
+                material: 0,
+                light: i as u32,
+            }),
+    );
+    let rays = RayBvh::build(&surfaces).expect("within the domain");
+    let material = |albedo, specular, exponent_log2| Material {
+        albedo,
+        specular,
+        exponent_log2,
+    };
+    let materials = [
+        material([0.7, 0.7, 0.65], 0.0, 0),
+        material([0.3, 0.5, 0.7], 0.1, 4),
+        material([0.7, 0.25, 0.2], 0.04, 2),
+        material([0.1, 0.1, 0.1], 0.8, 10),
+    ];
+    let view = View {
+        eye: [0.5, 2.2, 6.0],
+        right: [1.0, 0.0, 0.0],
+        up: [0.0, 0.98, -0.2],
+        forward: [0.0, -0.2, -0.98],
+        yfov: 0.9,
+    };
+    let bvh = build(&lights, Sampler::TwoLevel, &BuildParams::default());
+    let tree = bvh.tree();
+    let params = RenderParams {
+        width: SIZE,
+        height: SIZE,
+        samples: 2,
+        seed: 1,
+        jitter: 7,
+        background: [0.02, 0.03, 0.05],
+    };
+    let push = TreePush {
+        root: tree.root,
+        trail_words: tree.trail_words,
+        two_level: 1,
+    };
+    let mut pixels = Table::new(
+        "pixels",
+        "pixel by pixel from the upper left: radiance, linear RGB",
+        0,
+        3,
+        &[],
+    );
+    pixels.words = vec![0; (SIZE * SIZE * 3) as usize];
+    let tables = vec![
+        array(
+            "params",
+            "width height samples seed jitter background[3]",
+            &[params],
+        ),
+        array(
+            "tree",
+            "root node, words per trail, 1 where there are two levels",
+            &[push],
+        ),
+        array(
+            "camera",
+            "origin[3] right[3] up[3] forward[3]",
+            &[camera(&view, SIZE, SIZE)],
+        ),
+        array("materials", "albedo[3] specular exponent_log2", &materials),
+        array("ray_nodes", "min[3] skip max[3] 16 first + count", &rays.nodes),
+        array("surfaces", "p0[3] p1[3] p2[3] material light", &rays.triangles),
+        array(
+            "lights",
+            "p0[3] p1[3] p2[3] radiance[3] mesh flags",
+            lights.triangles(),
+        ),
+        array(
+            "nodes",
+            "CompactNode<4>, refitted; see tree_two_levels.txt",
+            tree.nodes,
+        ),
+        array(
+            "instances",
+            "leaves of the top level; see tree_instances.txt",
+            tree.meshes,
+        ),
+        array(
+            "trails",
+            "bit trails of the triangles, low word first",
+            tree.trails,
+        ),
+        pixels,
+    ];
+    (
+        "A 64x64 image: direct light of two samples per pixel, pass `render_bvh`.",
+        tables,
+    )
+}

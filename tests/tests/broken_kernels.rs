@@ -1,0 +1,216 @@
+//! Kernels that are wrong on purpose, on every device: the self-test says what is wrong with them, and the comparison of whole
+//! results counts differing words. What a device may do on its own, it may not do unseen.
+
+use std::sync::OnceLock;
+
+use bytemuck::cast_slice;
+use lightbvh::BuildParams;
+use lightbvh_host::backend::{
+    Backend, CpuBackend, DeviceBackend, NODE_RECORD, PMF_RECORD, SAMPLED_RECORD, Sampler,
+};
+use lightbvh_host::compare::compare_words;
+use lightbvh_host::scene::Scene;
+use lightbvh_host::vulkan::{Device, DeviceInfo, Exactness, Options};
+use lightbvh_host::workload::{arrays_at, build, lights_at, queries};
+use lightbvh_kernels_builder::verify::verify;
+use lightbvh_tests::broken::{Variant, module};
+use lightbvh_tests::devices::{devices, open};
+
+/// What a sample costs a software device with kernels ten times as long.
+const QUERIES: u32 = 4000;
+const KERNELS: [&str; 7] = [
+    "self_test",
+    "refit_leaves",
+    "refit_level",
+    "refit_roots",
+    "refit_instances",
+    "sample",
+    "pmf",
+];
+
+/// Differing words of nodes, samples, pmfs; and the verdict of the self-test.
+struct Seen {
+    verdict: Exactness,
+    different: [u64; 3],
+}
+
+fn see(info: &DeviceInfo, variant: Variant) -> Seen {
+    let device = open(info, Options::default());
+    for name in KERNELS {
+        device
+            .replace_kernel(name, &module(name, variant))
+            .unwrap_or_else(|e| panic!("{variant:?} {name}: {e}"));
+    }
+    let seen = Seen {
+        verdict: device.self_test().expect("a verdict"),
+        different: different(&device),
+    };
+    device.close().expect("a clean tear-down");
+    println!(
+        "{}, {variant:?}: {}; different: {:?}",
+        info.probe.name, seen.verdict, seen.different
+    );
+    seen
+}
+
+/// As `lightbvh verify`: a tree of the first frame refitted to a later one, samples, pmfs.
+fn different(device: &Device) -> [u64; 3] {
+    let scene = Scene::open("street").expect("a built-in scene");
+    let lights = lights_at(&scene, 0).expect("lights");
+    let bvh = build(&lights, Sampler::TwoLevel, &BuildParams::default());
+    let mut cpu = CpuBackend::new(bvh.clone(), lights.clone());
+    let mut other = DeviceBackend::new(device, &bvh, &lights).expect("an upload");
+    let lights = lights_at(&scene, 40).expect("lights");
+    let nodes = cpu.refit(&lights).expect("a refit").value;
+    let found = other.refit(&lights).expect("a refit").value;
+    let of_nodes =
+        compare_words(&NODE_RECORD, cast_slice(&nodes), cast_slice(&found)).expect("whole records");
+    // Each kernel by itself: samples are of the right nodes.
+    other.write_nodes(&nodes).expect("an upload");
+    let arrays = arrays_at(&scene, 40, 16, 16).expect("arrays");
+    let mut asked = queries(&arrays, 1, 0, QUERIES);
+    let sampled = cpu.sample(&asked).expect("samples").value;
+    let found = other.sample(&asked).expect("samples").value;
+    let of_samples =
+        compare_words(&SAMPLED_RECORD, cast_slice(&sampled), cast_slice(&found)).expect("whole records");
+    for (query, sampled) in asked.iter_mut().zip(&sampled) {
+        query.random_or_light = sampled.light;
+    }
+    let pmfs = cpu.pmf(&asked).expect("pmfs").value;
+    let found = other.pmf(&asked).expect("pmfs").value;
+    let of_pmfs = compare_words(&PMF_RECORD, cast_slice(&pmfs), cast_slice(&found)).expect("whole records");
+    [of_nodes, of_samples, of_pmfs].map(|comparison| comparison.different)
+}
+
+/// Names of the checks of the self-test that failed.
+fn failed(verdict: &Exactness) -> Vec<&'static str> {
+    verdict.defects.iter().map(|finding| finding.check).collect()
+}
+
+/// On every device that is exact with the kernels as they are.
+fn on_each(test: impl Fn(&DeviceInfo)) {
+    static EXACT: OnceLock<Vec<usize>> = OnceLock::new();
+    let list = devices().devices;
+    let exact = EXACT.get_or_init(|| {
+        let exact = |info: &&DeviceInfo| {
+            let seen = see(info, Variant::Unchanged);
+            // What the self-test calls exact, gives no word otherwise.
+            assert!(
+                !seen.verdict.exact || seen.different == [0; 3],
+                "{}",
+                info.probe.name
+            );
+            seen.verdict.exact
+        };
+        list.iter().filter(exact).map(|info| info.index).collect()
+    });
+    for info in list.iter().filter(|info| exact.contains(&info.index)) {
+        test(info);
+    }
+}
+
+/// What is wrong, is found by the self-test under its name, and in refit, samples and pmfs by their words.
+fn is_found(variant: Variant, checks: &[&str]) {
+    on_each(|info| {
+        let seen = see(info, variant);
+        let failed = failed(&seen.verdict);
+        assert!(!seen.verdict.exact, "{}: {variant:?}", info.probe.name);
+        for check in checks {
+            assert!(
+                failed.contains(check),
+                "{}: {variant:?}: {failed:?}",
+                info.probe.name
+            );
+        }
+        for (different, of) in seen.different.into_iter().zip(["nodes", "samples", "pmfs"]) {
+            assert!(different > 0, "{}: {variant:?}: {of}", info.probe.name);
+        }
+    });
+}
+
+#[test]
+fn contraction_is_found() {
+    is_found(
+        Variant::Contracted,
+        &[
+            "multiply_add",
+            "multiply_subtract",
+            "negated_multiply_add",
+            "sum_of_squares",
+            "horner",
+        ],
+    );
+}
+
+#[test]
+fn re_association_is_found() {
+    is_found(
+        Variant::Reassociated,
+        &["sum_from_the_left", "product_from_the_left"],
+    );
+}
+
+#[test]
+fn another_rounding_is_found() {
+    is_found(Variant::Truncated, &["sum", "difference"]);
+}
+
+/// Flushing that Vulkan does not allow.
+#[test]
+fn flushing_of_normal_numbers_is_found() {
+    on_each(|info| {
+        let seen = see(info, Variant::FlushedNormal);
+        assert!(!seen.verdict.exact, "{}", info.probe.name);
+        assert!(seen.different.iter().sum::<u64>() > 0, "{}", info.probe.name);
+    });
+}
+
+/// Flushing that Vulkan allows is named and changes nothing, on a device that does not flush by itself either.
+#[test]
+fn flushing_of_subnormal_numbers_changes_no_word() {
+    on_each(|info| {
+        let seen = see(info, Variant::FlushedSubnormal);
+        assert!(seen.verdict.exact, "{}: {}", info.probe.name, seen.verdict);
+        assert!(
+            seen.verdict.freedoms.iter().any(|f| f.check == "denormal_result"),
+            "{}: {}",
+            info.probe.name,
+            seen.verdict
+        );
+        assert_eq!(seen.different, [0; 3], "{}", info.probe.name);
+    });
+}
+
+/// What the device makes of kernels that forbid it nothing, and of its own `Fma`, is its own business: but where words come out
+/// otherwise, the self-test has found it.
+#[test]
+fn nothing_that_a_device_does_when_it_may_goes_unseen() {
+    on_each(|info| {
+        for variant in [Variant::Undecorated, Variant::Fma] {
+            let seen = see(info, variant);
+            if seen.different != [0; 3] {
+                assert!(!seen.verdict.exact, "{}: {variant:?}", info.probe.name);
+            }
+            if variant == Variant::Fma && !seen.verdict.exact {
+                let failed = failed(&seen.verdict);
+                assert!(
+                    failed.contains(&"multiply_add"),
+                    "{}: {failed:?}",
+                    info.probe.name
+                );
+            }
+        }
+    });
+}
+
+/// None of them would be shipped.
+#[test]
+fn the_verifier_refuses_what_it_can_see() {
+    for name in KERNELS {
+        assert!(verify(name, &module(name, Variant::Unchanged)).is_ok(), "{name}");
+        for variant in [Variant::Undecorated, Variant::Fma] {
+            let refused = verify(name, &module(name, variant));
+            assert!(refused.is_err() || name == "refit_roots", "{name}: {variant:?}");
+        }
+    }
+}
