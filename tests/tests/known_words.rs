@@ -491,6 +491,12 @@ fn scene<N: LightNode<W>, const W: usize>(known: u64) {
             digest.word(sampled.light);
             digest.float(sampled.pmf);
         }
+        let world = scene.world_lights();
+        for &id in &ids {
+            for light in scene.lights_of(id).expect("it is there") {
+                assert_eq!(scene.light(light, id), Some(world[light as usize]));
+            }
+        }
         for &id in &ids {
             let lights = scene.lights_of(id).expect("it is there");
             let point = generate::point(&mut random, 20.0);
