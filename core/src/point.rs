@@ -200,7 +200,7 @@ mod tests {
             p: [tiny, -0.0, f32::from_bits(1)],
             n: [-0.0, 1.0, -tiny],
         };
-        let words = point.checked().map(|point| bytemuck::cast::<_, [u32; 6]>(point));
+        let words = point.checked().map(bytemuck::cast::<_, [u32; 6]>);
         assert_eq!(words, Ok([0, 0, 0, 0, 1.0_f32.to_bits(), 0]));
         // A normal of nothing but those is none.
         let volume = ShadingPoint {

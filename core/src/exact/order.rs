@@ -16,7 +16,7 @@ pub fn max(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
-/// `x` moved into `[lo, hi]`. `lo` wins where they cross; nothing panics.
+/// `x` moved into `[lo, hi]`: `lo` below it, `hi` above it. Where the ends cross nothing panics; a NaN stays one.
 #[inline]
 #[must_use]
 pub fn clamp(x: f32, lo: f32, hi: f32) -> f32 {
