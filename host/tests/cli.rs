@@ -411,7 +411,8 @@ fn animations_of_moving_lights_give_the_same_files_on_both_processors() {
 
 #[test]
 fn bench_reports_every_case() {
-    let report = json(&["bench", "--json", "--lights", "2000", "--no-trade"]);
+    let small = ["--lights", "2000", "--queries", "5000", "--no-trade"];
+    let report = json(&[&["bench", "--json"][..], &small[..]].concat());
     let cases = report["cases"].as_array().expect("cases");
     for structure in ["single-level", "two-level"] {
         for what in ["build", "refit", "sample", "pmf"] {
@@ -511,8 +512,10 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
         said.contains("--height 0") && !folder.0.join("images").exists(),
         "{said}"
     );
-    let said = refused(&["bench", "--lights", "0"]);
-    assert!(said.contains("--lights 0"), "{said}");
+    for option in ["--lights", "--queries"] {
+        let said = refused(&["bench", option, "0"]);
+        assert!(said.contains(&format!("{option} 0")), "{said}");
+    }
     let said = refused(&["bench", "--dynamic", "--instances", "0"]);
     assert!(said.contains("--instances 0"), "{said}");
     let said = refused(&["bench", "--dynamic", "--mesh-triangles", "100000"]);

@@ -26,14 +26,14 @@ const EDGE: f32 = 0.1;
 const CELLS: u32 = 10;
 /// Runs of each measurement; the median counts.
 const RUNS: usize = 5;
-/// Queries of one run.
-const QUERIES: u32 = 200_000;
-
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     /// Number of emissive triangles, 1 to 10^8.
     #[arg(long, default_value_t = 100_000)]
     lights: u32,
+    /// Samples, and pmfs, of one run, 1 to 10^8.
+    #[arg(long, default_value_t = 200_000)]
+    queries: u32,
     /// Leave out the table of accuracy against speed.
     #[arg(long)]
     no_trade: bool,
@@ -71,17 +71,18 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     if args.dynamic {
         return run_dynamic(context, args);
     }
-    if args.lights == 0 || args.lights > 100_000_000 {
-        let value = args.lights.into();
-        return Err(HostError::Range {
-            option: "--lights",
-            value,
-            expected: "1 to 100000000",
-        });
+    for (option, value) in [("--lights", args.lights), ("--queries", args.queries)] {
+        if !(1..=100_000_000).contains(&value) {
+            return Err(HostError::Range {
+                option,
+                value: value.into(),
+                expected: "1 to 100000000",
+            });
+        }
     }
     let opened = devices::open(context)?;
     let lights = random_lights(args.lights);
-    let queries = random_queries(QUERIES);
+    let queries = random_queries(args.queries);
     let one = rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .build()
@@ -131,8 +132,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         }
         for (threads, times) in &results {
             push(LEVELS, "cpu", *threads, &times.refit, args.lights);
-            push(("sample", None), "cpu", *threads, &times.sample, QUERIES);
-            push(("pmf", None), "cpu", *threads, &times.pmf, QUERIES);
+            push(("sample", None), "cpu", *threads, &times.sample, args.queries);
+            push(("pmf", None), "cpu", *threads, &times.pmf, args.queries);
         }
         let once = one.install(|| passes(&mut cpu, &lights, &queries))?.refit_once;
         push(SINGLE, "cpu", 1, &once, args.lights);
@@ -141,8 +142,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             let times = passes(&mut device, &lights, &queries)?;
             push(LEVELS, o.device.name(), 0, &times.refit, args.lights);
             push(SINGLE, o.device.name(), 0, &times.refit_once, args.lights);
-            push(("sample", None), o.device.name(), 0, &times.sample, QUERIES);
-            push(("pmf", None), o.device.name(), 0, &times.pmf, QUERIES);
+            push(("sample", None), o.device.name(), 0, &times.sample, args.queries);
+            push(("pmf", None), o.device.name(), 0, &times.pmf, args.queries);
         }
     }
     devices::close(opened)?;
