@@ -17,19 +17,26 @@ pub fn div(a: f32, b: f32) -> f32 {
     }
     #[cfg(not(any(target_arch = "spirv", feature = "emulated")))]
     {
-        // Equal to `div_emulated`, as both round to nearest: but for one significand no quotient lies close enough below
-        // 2^-126 to be rounded up to it. (2 - 2^-23) 2^-127 does, since a processor has one bit less there; only the longest
-        // significand over a power of two gives it.
+        // Equal to `div_emulated`, as both round to nearest: but for `rounded_up` no quotient lies close enough below 2^-126 to
+        // be rounded up to it. One branch, seldom taken, since quotients of ordinary numbers are larger.
+        const LEAST: f32 = f32::MIN_POSITIVE;
         let quotient = a / b;
-        let rounded_up = (super::abs(quotient) == f32::MIN_POSITIVE)
-            & (a.to_bits() & FRACTION == FRACTION)
-            & (b.to_bits() & FRACTION == 0);
-        if super::abs(a) < f32::MIN_POSITIVE || super::abs(quotient) < f32::MIN_POSITIVE || rounded_up {
-            f32::from_bits((a.to_bits() ^ b.to_bits()) & SIGN)
+        if super::abs(a) < LEAST || super::abs(quotient) <= LEAST {
+            let is_least = super::abs(a) >= LEAST && super::abs(quotient) == LEAST && !rounded_up(a, b);
+            let sign = (a.to_bits() ^ b.to_bits()) & SIGN;
+            f32::from_bits(if is_least { quotient.to_bits() } else { sign })
         } else {
             quotient
         }
     }
+}
+
+/// Whether `a / b`, which a processor gave as 2^-126, is (2 - 2^-23) 2^-127: below 2^-126 it has one bit less. Only the longest
+/// significand over a power of two is that quotient.
+#[cfg(not(any(target_arch = "spirv", feature = "emulated")))]
+#[inline]
+fn rounded_up(a: f32, b: f32) -> bool {
+    (a.to_bits() & FRACTION == FRACTION) & (b.to_bits() & FRACTION == 0)
 }
 
 /// [`div`] as devices compute it, public so that tests can hold it against the native quotient.
