@@ -18,33 +18,20 @@ fn words(step: usize, test: impl Fn(u32) + Sync) {
     });
 }
 
-fn is_normal(x: f32) -> bool {
-    x.is_normal()
-}
-
 /// Square root and its device form are IEEE's; +0 below the normal numbers.
 fn root(word: u32) {
     let x = f32::from_bits(word);
     if x.is_finite() {
-        let expected = if x < f32::MIN_POSITIVE {
-            0.0
-        } else {
-            native_root(x)
-        };
+        let expected = if x < f32::MIN_POSITIVE { 0.0 } else { x.sqrt() };
         assert_eq!(sqrt(x).to_bits(), expected.to_bits(), "sqrt {word:08x}");
         assert_eq!(sqrt_emulated(x).to_bits(), expected.to_bits(), "sqrt {word:08x}");
     }
 }
 
-#[expect(clippy::disallowed_methods, reason = "the root to compare with")]
-fn native_root(x: f32) -> f32 {
-    x.sqrt()
-}
-
 /// So is one over a number, and a number over three; zero below the normal numbers.
 fn quotient(word: u32) {
     let x = f32::from_bits(word);
-    if is_normal(x) {
+    if x.is_normal() {
         for (a, b) in [(1.0, x), (x, 3.0)] {
             let q: f32 = a / b;
             let expected = if q.abs() < f32::MIN_POSITIVE {
@@ -62,7 +49,7 @@ fn quotient(word: u32) {
 fn cheap(word: u32) {
     let x = f32::from_bits(word);
     let relative = |y: f32, exact: f64| ((f64::from(y) - exact) / exact).abs();
-    if is_normal(x) && x.abs() <= pow2(125) {
+    if x.is_normal() && x.abs() <= pow2(125) {
         let exact = 1.0 / f64::from(x);
         assert!(relative(recip(x), exact) < 7e-6, "recip {x:e}");
         assert!(relative(recip_rough(x), exact) < 3e-3, "recip_rough {x:e}");
@@ -96,7 +83,7 @@ fn conversion(word: u32) {
     if (0.0..4_194_304.0).contains(&x) && word != 0x8000_0000 {
         assert_eq!(floor_small(x), x as u32, "{x:e}");
     }
-    if is_normal(x) {
+    if x.is_normal() {
         let again = f64::from(significand(abs(x))) * 2f64.powi(exponent(x));
         assert_eq!(again, f64::from(x.abs()), "{x:e}");
         assert!((1.0..2.0).contains(&significand(abs(x))));
