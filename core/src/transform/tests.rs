@@ -93,7 +93,7 @@ fn what_was_baked_is_undone() {
         ] {
             let (found, expected) = (since.point(baked.point(p)), now.point(p));
             for k in 0..3 {
-                let off = (found[k] - expected[k]).abs();
+                let off = exact::abs(found[k] - expected[k]);
                 assert!(off < 0.02, "{seed} {p:?}: {found:?}, expected {expected:?}");
             }
         }
@@ -123,14 +123,14 @@ fn entries_and_reach_are_limited() {
                     ..SMOOTH
                 };
                 match transform.check(&point) {
-                    Ok(()) => assert_eq!(value.abs(), most),
+                    Ok(()) => assert_eq!(exact::abs(value), most),
                     Err(TransformError::Entry {
                         row: r,
                         column: c,
                         value: v,
                     }) => {
                         assert_eq!((r, c, v.to_bits()), (row, column, value.to_bits()));
-                        assert!(value.abs() != most);
+                        assert!(exact::abs(value) != most);
                     }
                     Err(error) => panic!("{error}"),
                 }
@@ -151,7 +151,7 @@ fn entries_and_reach_are_limited() {
         let TransformError::TooFar { metres } = error else {
             panic!("{error}");
         };
-        assert!((metres / most - 1.000_375).abs() < 1e-6, "{metres}");
+        assert!(exact::abs(metres / most - 1.000_375) < 1e-6, "{metres}");
     }
 }
 
