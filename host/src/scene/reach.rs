@@ -56,17 +56,21 @@ pub(super) fn check(data: &SceneData) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// World-space bounds at frame 0, of a scene that passed [`check`].
+/// World-space bounds of the triangles at frame 0, of a scene that passed [`check`]; vertices of none do not count. The origin
+/// where there is no triangle.
 pub(super) fn bounds(data: &SceneData) -> ([f64; 3], [f64; 3]) {
     let world = world_transforms(data, 0.0);
     let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for (node, to_world) in data.nodes.iter().zip(&world) {
         let Some(mesh) = node.mesh else { continue };
-        for position in data.meshes[mesh as usize]
+        let corners = data.meshes[mesh as usize]
             .primitives
             .iter()
-            .flat_map(|primitive| &primitive.positions)
-        {
+            .flat_map(|primitive| {
+                let vertices = primitive.triangles.as_flattened().iter();
+                vertices.map(|&vertex| primitive.positions[vertex as usize])
+            });
+        for position in corners {
             let p = to_world.point(position.map(f64::from));
             for axis in 0..3 {
                 min[axis] = min[axis].min(p[axis]);
@@ -74,7 +78,11 @@ pub(super) fn bounds(data: &SceneData) -> ([f64; 3], [f64; 3]) {
             }
         }
     }
-    (min, max)
+    if min[0] <= max[0] {
+        (min, max)
+    } else {
+        ([0.0; 3], [0.0; 3])
+    }
 }
 
 /// Largest distance of a vertex from the mesh's origin.
