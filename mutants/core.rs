@@ -52,7 +52,7 @@ mod refit;
 mod regressions;
 
 // Tests run in the order of their names and stop at the first failure, so those that see most come early.
-#[path = "../tests/tests/known_words.rs"]
+#[path = "../tests/tests/known_words/main.rs"]
 mod first_known_words;
 #[path = "../tests/tests/messages.rs"]
 mod first_messages;
@@ -74,3 +74,5 @@ mod slow_rebuilder;
 mod slow_sampling;
 #[path = "../tests/tests/scene.rs"]
 mod slow_scene;
+#[path = "../tests/tests/scene_edits.rs"]
+mod slow_scene_edits;

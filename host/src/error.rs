@@ -101,7 +101,7 @@ pub enum HostError {
         /// What was given.
         value: u64,
         /// What would do.
-        expected: &'static str,
+        expected: String,
     },
     /// An option that means nothing beside the others.
     #[error("{option} needs {needs}")]

@@ -46,6 +46,35 @@ impl Model {
     }
 }
 
+/// A new mesh of `scene`.
+///
+/// # Panics
+/// Where the scene refuses it.
+pub fn add_mesh<N: LightNode<W>, const W: usize>(
+    scene: &mut Scene<N, W>,
+    triangles: Vec<EmissiveTriangle>,
+) -> MeshId {
+    let add = Edit::AddMesh { triangles };
+    scene.update(vec![add]).expect("a mesh").meshes[0]
+}
+
+/// A new instance of `mesh`, as bright as the mesh itself.
+///
+/// # Panics
+/// Where the scene refuses it.
+pub fn add_instance<N: LightNode<W>, const W: usize>(
+    scene: &mut Scene<N, W>,
+    mesh: MeshId,
+    transform: Transform,
+) -> InstanceId {
+    let add = Edit::AddInstance {
+        mesh,
+        transform,
+        radiance: 1.0,
+    };
+    scene.update(vec![add]).expect("an instance").instances[0]
+}
+
 /// A mesh of up to twelve triangles around its origin.
 pub fn mesh(random: &mut Random) -> Vec<EmissiveTriangle> {
     let count = 1 + random.below(12);

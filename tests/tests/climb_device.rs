@@ -10,6 +10,7 @@ use lightbvh_host::workload::build;
 use lightbvh_kernels::bvh::Node;
 use lightbvh_kernels::refit::{RefitPush, refit_climb, refit_climb_top};
 use lightbvh_tests::devices::on_each_device;
+use lightbvh_tests::edits::add_mesh;
 use lightbvh_tests::generate::{self, Random, moved};
 use lightbvh_tests::placing;
 use std::time::Duration;
@@ -174,12 +175,7 @@ fn devices_follow_edits_by_climbing() {
         let (mut meshes, mut ids) = (Vec::new(), Vec::new());
         let mut scene = LightScene::new(BuildParams::default());
         let triangles = generate::small_triangles(24, 24, 2.0, 0.4, true, 5);
-        meshes.extend(
-            scene
-                .update(vec![Edit::AddMesh { triangles }])
-                .expect("a mesh")
-                .meshes,
-        );
+        meshes.push(add_mesh(&mut scene, triangles));
         let add = |random: &mut Random| Edit::AddInstance {
             mesh: meshes[0],
             transform: placing::transform(random, placing::Kind::Rigid, 30.0),

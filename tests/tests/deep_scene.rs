@@ -1,9 +1,10 @@
 //! Scenes whose trees become deeper than a word of trail is long, while shallow ones are there already.
 
 use lightbvh::{
-    BuildParams, CompactNode, Edit, EmissiveTriangle, Eq4, FullNode, Heuristic, LightNode, Scene,
-    ShadingPoint, Transform, exact,
+    BuildParams, CompactNode, EmissiveTriangle, Eq4, FullNode, Heuristic, LightNode, Scene, ShadingPoint,
+    Transform, exact,
 };
+use lightbvh_tests::edits::{add_instance, add_mesh};
 use lightbvh_tests::generate::{self, Random};
 use lightbvh_tests::oracle::sum_tolerance;
 
@@ -34,16 +35,9 @@ fn check<N: LightNode<W>, const W: usize>() {
         } else {
             halving(count)
         };
-        let mesh = scene
-            .update(vec![Edit::AddMesh { triangles }])
-            .expect("a mesh")
-            .meshes[0];
-        let add = Edit::AddInstance {
-            mesh,
-            transform: Transform::at([0.0, 0.0, count as f32]),
-            radiance: 1.0,
-        };
-        instances.extend(scene.update(vec![add]).expect("an instance").instances);
+        let mesh = add_mesh(&mut scene, triangles);
+        let place = Transform::at([0.0, 0.0, count as f32]);
+        instances.push(add_instance(&mut scene, mesh, place));
         scene.refit();
         let stats = scene.validate().unwrap_or_else(|violation| panic!("{violation}"));
         assert_eq!(scene.tree().trail_words, words, "{} levels", stats.depth);

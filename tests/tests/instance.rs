@@ -6,9 +6,10 @@ use lightbvh::exact::pow2;
 use lightbvh::importance::ImportanceModel;
 use lightbvh::node::kind;
 use lightbvh::{
-    CompactNode, Edit, EmissiveTriangle, Eq4, FullNode, Instance, LightBounds, LightNode, MeshLeaf, Scene,
+    CompactNode, EmissiveTriangle, Eq4, FullNode, Instance, LightBounds, LightNode, MeshLeaf, Scene,
     ShadingPoint, Transform,
 };
+use lightbvh_tests::edits::{add_instance, add_mesh};
 use lightbvh_tests::generate::{self, Random};
 use lightbvh_tests::oracle::{Triangle, angle, can_contribute, half_angle, vector};
 use lightbvh_tests::placing::{self, Kind};
@@ -32,16 +33,8 @@ fn local_triangle(random: &mut Random) -> EmissiveTriangle {
 /// The triangle as a mesh of its own, placed by the scene; `None` where it was given a bottom level of its own.
 fn placed(triangle: &EmissiveTriangle, transform: Transform) -> Option<(Instance, EmissiveTriangle)> {
     let mut scene = Scene::<CompactNode<2>, 2>::default();
-    let mesh = Edit::AddMesh {
-        triangles: vec![*triangle],
-    };
-    let mesh = scene.update(vec![mesh]).expect("a mesh").meshes[0];
-    let add = Edit::AddInstance {
-        mesh,
-        transform,
-        radiance: 1.0,
-    };
-    let id = scene.update(vec![add]).expect("an instance").instances[0];
+    let mesh = add_mesh(&mut scene, vec![*triangle]);
+    let id = add_instance(&mut scene, mesh, transform);
     scene.refit();
     let stats = scene.validate().expect("valid");
     let light = scene.lights_of(id).expect("there").start;

@@ -7,6 +7,7 @@ use lightbvh::{
     CompactNode, Edit, EmissiveTriangle, FullNode, Instance, LightBounds, LightNode, MeshLeaf, MeshLight,
     Scene,
 };
+use lightbvh_tests::edits::add_mesh;
 use lightbvh_tests::generate::{self, Random, any_bounds, extreme_triangle};
 use lightbvh_tests::placing;
 use proptest::prelude::*;
@@ -62,10 +63,7 @@ fn words<N: LightNode<W>, const W: usize>(nodes: &[N], pass: impl Fn(&mut [N])) 
 fn instances(random: &mut Random) -> Vec<Instance> {
     let mut scene = Scene::<CompactNode<2>, 2>::default();
     let triangles = generate::small_triangles(4, 4, 1.0, 0.3, true, random.bits());
-    let mesh = scene
-        .update(vec![Edit::AddMesh { triangles }])
-        .expect("a mesh")
-        .meshes[0];
+    let mesh = add_mesh(&mut scene, triangles);
     let add = (0..64)
         .map(|_| {
             let exponent = random.below(30) as i32 - 5;

@@ -10,6 +10,7 @@ use lightbvh::{
     CompactNode, Edit, EmissiveTriangle, INVALID, LightError, Lights, LightsError, RebuildError, Scene,
     Transform,
 };
+use lightbvh_tests::edits::add_mesh;
 
 #[track_caller]
 fn says(error: &dyn Error, words: &[&str]) {
@@ -96,10 +97,7 @@ fn lights() {
 fn edits() {
     let mut scene = Scene::<CompactNode<4>, 4>::default();
     let triangles = vec![LAMP; 3];
-    let mesh = scene
-        .update(vec![Edit::AddMesh { triangles }])
-        .expect("a mesh")
-        .meshes[0];
+    let mesh = add_mesh(&mut scene, triangles);
     let add = |transform, radiance| Edit::AddInstance {
         mesh,
         transform,

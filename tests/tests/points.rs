@@ -3,9 +3,10 @@
 
 use lightbvh::point::{MAX_REACH, NORMAL_TOLERANCE};
 use lightbvh::{
-    BuildParams, CompactNode, Edit, Eq4, INVALID, LightBvh, Lights, PointError, Scene, ShadingPoint,
-    Transform, exact,
+    BuildParams, CompactNode, Eq4, INVALID, LightBvh, Lights, PointError, Scene, ShadingPoint, Transform,
+    exact,
 };
+use lightbvh_tests::edits::{add_instance, add_mesh};
 use lightbvh_tests::generate::{Random, small_triangles};
 use lightbvh_tests::oracle::{all_pmfs, sum_tolerance};
 
@@ -93,16 +94,8 @@ fn points_beyond_all_bounds_stop_a_debug_build() {
     let (lights, bvh) = lamps();
     let mut scene = Scene::<CompactNode<4>, 4>::default();
     let triangles = small_triangles(3, 3, 1.0, 0.3, true, 12);
-    let mesh = scene
-        .update(vec![Edit::AddMesh { triangles }])
-        .expect("a sound mesh")
-        .meshes[0];
-    let add = Edit::AddInstance {
-        mesh,
-        transform: Transform::IDENTITY,
-        radiance: 1.0,
-    };
-    let instance = scene.update(vec![add]).expect("a sound instance").instances[0];
+    let mesh = add_mesh(&mut scene, triangles);
+    let instance = add_instance(&mut scene, mesh, Transform::IDENTITY);
     scene.refit();
     for point in &beyond() {
         stops(&|| {

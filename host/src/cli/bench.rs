@@ -14,6 +14,7 @@ use lightbvh_kernels::query::Query;
 use serde::Serialize;
 use serde_json::json;
 
+use super::range::{self, Given, given};
 use super::{Context, Outcome, devices, table};
 use crate::backend::{Backend, Bvh, CpuBackend, DeviceBackend, Sampler};
 use crate::error::HostError;
@@ -71,15 +72,10 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     if args.dynamic {
         return run_dynamic(context, args);
     }
-    for (option, value) in [("--lights", args.lights), ("--queries", args.queries)] {
-        if !(1..=100_000_000).contains(&value) {
-            return Err(HostError::Range {
-                option,
-                value: value.into(),
-                expected: "1 to 100000000",
-            });
-        }
-    }
+    range::check(&[
+        given("--lights", args.lights, 1..=100_000_000),
+        given("--queries", args.queries, 1..=100_000_000),
+    ])?;
     let opened = devices::open(context)?;
     let lights = random_lights(args.lights);
     let queries = random_queries(args.queries);
@@ -158,36 +154,14 @@ const SINGLE: (&str, Option<&str>) = ("refit", Some("single"));
 
 fn run_dynamic(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     let all = u64::from(args.instances) * u64::from(args.mesh_triangles);
-    let most = 1_000_000;
-    let options = [
-        (
-            "--instances",
-            args.instances.into(),
-            (1..=most).contains(&args.instances),
-            "1 to 1000000",
-        ),
-        (
-            "--mesh-triangles",
-            args.mesh_triangles.into(),
-            (1..=most).contains(&args.mesh_triangles),
-            "1 to 1000000",
-        ),
-        (
-            "--instances times --mesh-triangles",
-            all,
-            all <= 10_000_000,
-            "at most 10000000 triangles in all",
-        ),
-    ];
-    for (option, value, good, expected) in options {
-        if !good {
-            return Err(HostError::Range {
-                option,
-                value,
-                expected,
-            });
-        }
-    }
+    range::check(&[
+        given("--instances", args.instances, 1..=1_000_000),
+        given("--mesh-triangles", args.mesh_triangles, 1..=1_000_000),
+        Given {
+            of: " triangles in all",
+            ..given("--instances times --mesh-triangles", all, 1..=10_000_000)
+        },
+    ])?;
     let opened = devices::open(context)?;
     let report = dynamic::report(args.instances, args.mesh_triangles, &opened)?;
     devices::close(opened)?;

@@ -8,6 +8,7 @@ use lightbvh::BuildParams;
 use serde::Serialize;
 use serde_json::json;
 
+use super::range::{self, MAX_SIDE, given};
 use super::{Context, Outcome, devices, table};
 use crate::backend::{
     Backend, Bvh, CpuBackend, DeviceBackend, NODE_RECORD, PIXEL_RECORD, SAMPLED_RECORD, Sampler, SceneArrays,
@@ -74,15 +75,10 @@ struct Run {
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     let (width, height) = (args.width, args.height);
-    for (option, value) in [("--width", width), ("--height", height)] {
-        if !(1..=16_384).contains(&value) {
-            return Err(HostError::Range {
-                option,
-                value: value.into(),
-                expected: "1 to 16384",
-            });
-        }
-    }
+    range::check(&[
+        given("--width", width, 1..=MAX_SIDE),
+        given("--height", height, 1..=MAX_SIDE),
+    ])?;
     std::fs::create_dir_all(&args.out).map_err(|source| HostError::Folder {
         path: args.out.clone(),
         source,

@@ -8,6 +8,7 @@ mod devices;
 mod export;
 mod frames;
 mod info;
+mod range;
 mod render;
 mod stability;
 mod table;

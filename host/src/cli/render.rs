@@ -11,6 +11,7 @@ use lightbvh::{BuildParams, Heuristic};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 use serde_json::{Value, json};
 
+use super::range::{self, Given, MAX_SIDE, given};
 use super::{Context, Outcome, devices, frames, table};
 use crate::backend::{Combination, SceneArrays};
 use crate::error::HostError;
@@ -111,25 +112,20 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         },
     };
     let method = args.sampler.method(args.restir_mode, integrator)?;
-    let (most, expected, default) = match method {
-        Method::Independent { .. } => (65_536, "1 to 65536", 16),
-        Method::Restir(_) => (MAX_HISTORIES, "1 to 64 with ReSTIR", 1),
+    let (most, of, default) = match method {
+        Method::Independent { .. } => (65_536, "", 16),
+        Method::Restir(_) => (MAX_HISTORIES, " with ReSTIR", 1),
     };
     let samples = args.spp.unwrap_or(default);
-    for (option, value, most, expected) in [
-        ("--width", args.width, 16_384, "1 to 16384"),
-        ("--height", args.height, 16_384, "1 to 16384"),
-        ("--spp", samples, most, expected),
-        ("--bounces", args.bounces, MAX_BOUNCES, "1 to 64"),
-    ] {
-        if value == 0 || value > most {
-            return Err(HostError::Range {
-                option,
-                value: value.into(),
-                expected,
-            });
-        }
-    }
+    range::check(&[
+        given("--width", args.width, 1..=MAX_SIDE),
+        given("--height", args.height, 1..=MAX_SIDE),
+        Given {
+            of,
+            ..given("--spp", samples, 1..=most.into())
+        },
+        given("--bounces", args.bounces, 1..=MAX_BOUNCES.into()),
+    ])?;
     let scene = Scene::open(&args.scene)?;
     for warning in scene.warnings() {
         eprintln!("{}: {warning}", scene.name());

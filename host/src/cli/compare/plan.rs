@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::cli::range::{self, given};
 use crate::error::HostError;
 use crate::method::Method;
 use crate::scene::BUILT_IN;
@@ -136,29 +137,15 @@ impl Args {
 
 impl Plan {
     fn check(&self) -> Result<(), HostError> {
-        for (option, value, range, expected) in [
-            ("--samples", self.samples, 1..=65_536, "1 to 65536"),
-            ("--seeds", self.seeds, 1..=4096, "1 to 4096"),
-            ("--width", self.width, 1..=4096, "1 to 4096"),
-            ("--height", self.height, 1..=4096, "1 to 4096"),
-            (
-                "--reference-samples",
-                self.reference_samples,
-                2..=1 << 20,
-                "2 to 1048576",
-            ),
-            ("--timed-frames", self.timed_frames, 0..=100_000, "0 to 100000"),
-            ("--frames", self.last(), 0..=100_000, "frames from 0 to 100000"),
-        ] {
-            if !range.contains(&value) {
-                return Err(HostError::Range {
-                    option,
-                    value: value.into(),
-                    expected,
-                });
-            }
-        }
-        Ok(())
+        range::check(&[
+            given("--samples", self.samples, 1..=65_536),
+            given("--seeds", self.seeds, 1..=4096),
+            given("--width", self.width, 1..=4096),
+            given("--height", self.height, 1..=4096),
+            given("--reference-samples", self.reference_samples, 2..=1 << 20),
+            given("--timed-frames", self.timed_frames, 0..=100_000),
+            given("--frames", self.last(), 0..=100_000),
+        ])
     }
 
     /// The last frame.

@@ -1,0 +1,143 @@
+//! Sequences of pictures.
+
+use std::path::Path;
+
+use crate::program::{Folder, has_device, json, refused};
+
+#[test]
+fn sequences_are_numbered_and_hold_what_single_frames_do() {
+    let folder = Folder::new("animate");
+    let small = [
+        "--width",
+        "32",
+        "--height",
+        "18",
+        "--spp",
+        "2",
+        "--backend",
+        "cpu",
+        "--json",
+    ];
+    for sampler in ["power", "single-level-rebuilt", "two-level", "bvh-restir"] {
+        let out = folder.file(&format!("{sampler}.exr"));
+        let args = [
+            "render",
+            "street",
+            "--sampler",
+            sampler,
+            "--animate",
+            "0..3",
+            "-o",
+            &out,
+        ];
+        let report = json(&[&args[..], &small].concat());
+        let frames = report["frames"].as_array().expect("frames");
+        assert_eq!(frames.len(), 3);
+        for (number, frame) in (0..).zip(frames) {
+            assert_eq!(frame["frame"], number);
+            assert_eq!(
+                frame["output"],
+                folder.file(&format!("{sampler}-000{number}.exr"))
+            );
+            assert!(Path::new(frame["output"].as_str().expect("a path")).exists());
+        }
+        assert!(!Path::new(&out).exists());
+        // Nothing is carried from frame to frame without a tree or with a new one, and the same history where it starts at frame 0.
+        if sampler != "two-level" {
+            let single = folder.file("single.exr");
+            let args = [
+                "render",
+                "street",
+                "--sampler",
+                sampler,
+                "--frame",
+                "2",
+                "-o",
+                &single,
+            ];
+            json(&[&args[..], &small].concat());
+            let last = std::fs::read(folder.file(&format!("{sampler}-0002.exr"))).expect("an image");
+            assert!(last == std::fs::read(&single).expect("an image"), "{sampler}");
+        }
+    }
+    let image = folder.file("refused.png");
+    for wrong in ["3", "3..3", "4..3", "a..b"] {
+        let said = refused(&["render", "street", "--animate", wrong, "-o", &image]);
+        assert!(said.contains("--animate"), "{said}");
+    }
+    refused(&[
+        "render",
+        "street",
+        "--animate",
+        "0..2",
+        "--frame",
+        "1",
+        "-o",
+        &image,
+    ]);
+    let said = refused(&["render", "street", "--restir-mode", "biased", "-o", &image]);
+    assert!(said.contains("--sampler restir"), "{said}");
+    let said = refused(&[
+        "render",
+        "street",
+        "--sampler",
+        "restir",
+        "--spp",
+        "65",
+        "-o",
+        &image,
+    ]);
+    assert!(said.contains("--spp 65"), "{said}");
+}
+
+#[test]
+fn animations_of_moving_lights_give_the_same_files_on_both_processors() {
+    let folder = Folder::new("moving");
+    let device = has_device();
+    // 17 samples are more than one invocation takes, and not a multiple of what it takes.
+    for (sampler, spp) in [
+        ("single-level-rebuilt", "17"),
+        ("two-level", "17"),
+        ("bvh-restir", "1"),
+    ] {
+        let mut files = Vec::new();
+        for backend in ["cpu", "vulkan"] {
+            if backend == "vulkan" && !device {
+                continue;
+            }
+            let out = folder.file(&format!("{sampler}-{backend}.exr"));
+            json(&[
+                "render",
+                "square",
+                "--sampler",
+                sampler,
+                "--animate",
+                "8..11",
+                "--width",
+                "16",
+                "--height",
+                "9",
+                "--spp",
+                spp,
+                "--backend",
+                backend,
+                "-o",
+                &out,
+                "--json",
+            ]);
+            let frames = (8..11).map(|n| {
+                let file = folder.file(&format!("{sampler}-{backend}-{n:04}.exr"));
+                std::fs::read(file).expect("an image")
+            });
+            files.push(frames.collect::<Vec<_>>());
+        }
+        assert!(
+            files[0][0] != files[0][1] && files[0][1] != files[0][2],
+            "{sampler}: nothing moves"
+        );
+        assert!(
+            files.windows(2).all(|pair| pair[0] == pair[1]),
+            "{sampler}: the images differ"
+        );
+    }
+}

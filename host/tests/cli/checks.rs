@@ -1,0 +1,127 @@
+//! Commands that check and measure.
+
+use std::path::Path;
+
+use crate::program::{Folder, has_device, json};
+
+#[test]
+fn verify_compares_words_on_every_device() {
+    if !has_device() {
+        return;
+    }
+    let report = json(&[
+        "verify",
+        "--json",
+        "--queries",
+        "3000",
+        "--scene",
+        "street",
+        "--seed",
+        "7",
+        "--frames",
+        "0..3",
+        "--frame-queries",
+        "64",
+        "--refits",
+        "2",
+    ]);
+    assert_eq!(report["different"], 0);
+    assert_eq!(report["cpu_different"], 0);
+    assert_eq!(report["frames"], serde_json::json!({ "start": 0, "end": 3 }));
+    for device in report["devices"].as_array().expect("devices") {
+        assert_eq!(device["different"], 0, "{device}");
+        assert_eq!(device["exact"], true, "{device}");
+        // Four methods with a light BVH over three frames.
+        let queries = 3000 + 4 * 3 * 64;
+        assert!(device["samples"].as_u64() >= Some(queries));
+        assert!(device["pmfs"].as_u64() >= Some(queries));
+        let words = device["words"].as_object().expect("words by kind");
+        for kind in ["nodes", "samples", "pmfs", "pixels", "surfaces", "reservoirs"] {
+            assert!(words[kind]["compared"].as_u64() > Some(0), "{kind}: {device}");
+            assert_eq!(words[kind]["different"], 0, "{kind}: {device}");
+        }
+        let all: u64 = words.values().filter_map(|kind| kind["compared"].as_u64()).sum();
+        assert_eq!(device["compared"], all);
+        assert!(device["nodes"].as_u64() > Some(0));
+        assert!(device["pixels"].as_u64() > Some(0));
+        assert!(device["name"].is_string() && device["driver"].is_string());
+    }
+}
+
+#[test]
+fn bench_reports_every_case() {
+    let small = ["--lights", "2000", "--queries", "5000", "--no-trade"];
+    let report = json(&[&["bench", "--json"][..], &small[..]].concat());
+    let cases = report["cases"].as_array().expect("cases");
+    for structure in ["single-level", "two-level"] {
+        for what in ["build", "refit", "sample", "pmf"] {
+            let found = cases.iter().find(|case| {
+                case["what"] == what && case["structure"] == structure && case["backend"] == "cpu"
+            });
+            let case = found.unwrap_or_else(|| panic!("no {what} of {structure}"));
+            assert_eq!(case["lights"], 2000);
+            assert!(case["ns_per_item"].as_f64() > Some(0.0));
+            assert!(case["bytes_per_light"].as_f64() > Some(0.0));
+            assert!(case["threads"].is_u64());
+        }
+    }
+}
+
+#[test]
+fn bench_follows_moving_lights() {
+    let size = ["--instances", "200", "--mesh-triangles", "20"];
+    let report = json(&[&["bench", "--json", "--dynamic"], &size[..]].concat());
+    let report = &report["dynamic"];
+    assert!(report["single_level_refit_ms"]["median"].as_f64() > Some(0.0));
+    let rows = report["rows"].as_array().expect("rows");
+    let of = |change: &str, instances: u32, changed: u32| {
+        let found = rows.iter().find(|row| {
+            row["change"] == change
+                && row["backend"] == "cpu"
+                && row["threads"] == 1
+                && row["instances"] == instances
+                && row["changed"] == changed
+        });
+        found.unwrap_or_else(|| panic!("no {change} of {changed} among {instances}"))
+    };
+    let nodes = |row: &serde_json::Value| row["nodes"].as_u64().expect("nodes");
+    let all = of("move", 200, 200);
+    assert!(all["frames"].as_u64() >= Some(20), "{all}");
+    assert!(all["refit_ms"]["least"].as_f64() <= all["refit_ms"]["most"].as_f64());
+    for swapped in ["rebuild_ms", "swap_ms", "refit_after_swap_ms"] {
+        assert!(all[swapped]["median"].as_f64() > Some(0.0), "{all}");
+    }
+    // What little changes costs little: no more than its ways to the root.
+    assert!(nodes(of("move", 200, 2)) * 4 < nodes(all), "{all}");
+    assert!(nodes(of("shine", 200, 2)) * 4 < nodes(all), "{all}");
+    of("move", 200, 20);
+    of("move", 20, 2);
+    assert_eq!(of("deform", 1, 4000)["triangles"], 4000);
+}
+
+#[test]
+fn validate_finds_the_scenes_valid() {
+    for scene in ["street", "square", "carousel"] {
+        let report = json(&["validate", scene, "--json"]);
+        assert_eq!(report["valid"], true, "{report}");
+    }
+}
+
+#[test]
+fn demo_ends_with_no_word_different() {
+    let folder = Folder::new("demo");
+    let images = folder.file("images");
+    let small = ["--width", "96", "--height", "54"];
+    let report = json(&[&["demo", "--json", "--out", &images][..], &small[..]].concat());
+    let rows = report["rows"].as_array().expect("rows");
+    assert_eq!(rows[0]["backend"], "cpu");
+    for row in &rows[1..] {
+        assert_eq!(row["different"], 0, "{row}");
+        // Four frames of all nodes, 100,000 samples of two words, and pixels of three.
+        let least = 4 * (2 * 100_000 + 3 * 96 * 54);
+        assert!(row["compared"].as_u64() > Some(least), "{row}");
+    }
+    for image in report["images"].as_array().expect("images") {
+        assert!(Path::new(image.as_str().expect("a path")).exists());
+    }
+}

@@ -1,0 +1,7 @@
+//! Whole commands: what they print, what they write, and how they refuse.
+
+mod animate;
+mod checks;
+mod program;
+mod refusals;
+mod render;

@@ -1,0 +1,60 @@
+//! Running the program, and a folder for what it writes.
+
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+/// A folder of its own for each test, removed at its end.
+pub struct Folder(pub PathBuf);
+
+impl Folder {
+    pub fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("lightbvh-cli-{}-{name}", std::process::id()));
+        std::fs::create_dir_all(&path).expect("a folder in the temporary directory");
+        Self(path)
+    }
+
+    pub fn file(&self, name: &str) -> String {
+        self.0.join(name).to_str().expect("a path of text").to_owned()
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+pub fn run(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_lightbvh"))
+        .args(args)
+        .output()
+        .expect("the program starts")
+}
+
+pub fn json(args: &[&str]) -> Value {
+    let output = run(args);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{args:?}: {errors}");
+    serde_json::from_slice(&output.stdout).expect("one JSON object")
+}
+
+/// Runs what must be refused and returns what it said.
+pub fn refused(args: &[&str]) -> String {
+    let output = run(args);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{args:?} said {said}");
+    assert!(!said.contains("panicked"), "{said}");
+    said
+}
+
+/// Whether there is a device; where one is required, there must be.
+pub fn has_device() -> bool {
+    let devices = json(&["info", "--json"]);
+    let found = devices["devices"].as_array().is_some_and(|list| !list.is_empty());
+    if !found {
+        eprintln!("skipped: no Vulkan device");
+    }
+    found
+}

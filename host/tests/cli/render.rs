@@ -1,0 +1,173 @@
+//! Pictures: equal files on both processors, every sampler, numbered sequences.
+
+use std::path::Path;
+
+use crate::program::{Folder, has_device, json, run};
+
+#[test]
+fn render_gives_the_same_file_on_both_processors() {
+    if !has_device() {
+        return;
+    }
+    let folder = Folder::new("render");
+    let exported = folder.file("carousel.glb");
+    assert!(run(&["export", "carousel", "-o", &exported]).status.success());
+    for scene in ["carousel", exported.as_str()] {
+        let mut files = Vec::new();
+        for backend in ["cpu", "vulkan"] {
+            let file = folder.file(&format!("{backend}.exr"));
+            let report = json(&[
+                "render",
+                scene,
+                "--frame",
+                "20",
+                "--width",
+                "64",
+                "--height",
+                "36",
+                "--spp",
+                "2",
+                "--backend",
+                backend,
+                "-o",
+                &file,
+                "--json",
+            ]);
+            assert_eq!(report["width"], 64);
+            files.push(std::fs::read(&file).expect("an image"));
+        }
+        assert!(files[0] == files[1], "{scene}: the images differ");
+        assert!(files[0].len() > 64 * 36 * 3);
+    }
+}
+
+#[test]
+fn paths_render_and_add_what_is_reflected_again() {
+    let folder = Folder::new("paths");
+    let small = [
+        "--width", "48", "--height", "27", "--spp", "8", "--frame", "3", "--json",
+    ];
+    let mut images = Vec::new();
+    for bounces in ["1", "4"] {
+        let file = folder.file(&format!("{bounces}.exr"));
+        let own = [
+            "render",
+            "street",
+            "--integrator",
+            "path",
+            "--bounces",
+            bounces,
+            "-o",
+            &file,
+        ];
+        let report = json(&[&own[..], &small[..]].concat());
+        assert_eq!(report["integrator"], "path");
+        assert_eq!(report["bounces"].to_string(), bounces);
+        images.push(std::fs::read(&file).expect("an image"));
+    }
+    assert!(images[0] != images[1], "more reflections, another image");
+    let file = folder.file("direct.exr");
+    let report = json(&[&["render", "street", "-o", &file][..], &small[..]].concat());
+    assert_eq!(
+        (&report["integrator"], &report["bounces"]),
+        (&"direct".into(), &1.into())
+    );
+}
+
+#[test]
+fn every_sampler_and_heuristic_renders() {
+    let folder = Folder::new("samplers");
+    for sampler in [
+        "uniform",
+        "power",
+        "single-level",
+        "single-level-rebuilt",
+        "two-level",
+        "restir",
+        "bvh-restir",
+    ] {
+        for heuristic in ["sah", "saoh"] {
+            let file = folder.file(&format!("{sampler}-{heuristic}.png"));
+            let output = run(&[
+                "render",
+                "street",
+                "--frame",
+                "3",
+                "--width",
+                "48",
+                "--height",
+                "27",
+                "--spp",
+                "1",
+                "--sampler",
+                sampler,
+                "--heuristic",
+                heuristic,
+                "--backend",
+                "cpu",
+                "-o",
+                &file,
+            ]);
+            assert!(
+                output.status.success(),
+                "{}",
+                String::from_utf8_lossy(&output.stderr)
+            );
+            assert!(Path::new(&file).exists());
+        }
+    }
+}
+
+#[test]
+fn restir_says_what_it_is_and_gives_the_same_file_on_both_processors() {
+    let folder = Folder::new("restir");
+    let device = has_device();
+    for (sampler, mode) in [
+        ("restir", Some("biased")),
+        ("restir", Some("unbiased")),
+        ("bvh-restir", None),
+    ] {
+        let mut files = Vec::new();
+        for backend in ["cpu", "vulkan"] {
+            if backend == "vulkan" && !device {
+                continue;
+            }
+            let file = folder.file(&format!("{backend}.exr"));
+            let mut args = vec![
+                "render",
+                "carousel",
+                "--frame",
+                "2",
+                "--width",
+                "48",
+                "--height",
+                "27",
+                "--spp",
+                "2",
+                "--sampler",
+                sampler,
+                "--backend",
+                backend,
+                "-o",
+                &file,
+                "--json",
+            ];
+            args.extend(mode.into_iter().flat_map(|mode| ["--restir-mode", mode]));
+            let report = json(&args);
+            let restir = &report["restir"];
+            assert_eq!(report["sampler"], sampler);
+            assert_eq!(restir["mode"], mode.unwrap_or("unbiased"));
+            assert_eq!(restir["unbiased"], mode != Some("biased"));
+            let rays = report["shadow_rays_per_pixel"].as_f64().expect("rays");
+            let most = 2.0 * restir["most_shadow_rays_per_sample"].as_f64().expect("rays");
+            assert!(rays > 0.0 && rays <= most, "{rays} {most}");
+            files.push(std::fs::read(&file).expect("an image"));
+        }
+        assert!(
+            files.windows(2).all(|pair| pair[0] == pair[1]),
+            "{sampler}: the images differ"
+        );
+    }
+    let help = String::from_utf8(run(&["render", "--help"]).stdout).expect("text");
+    assert!(help.contains("biased (darker"), "{help}");
+}

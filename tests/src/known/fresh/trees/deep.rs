@@ -1,0 +1,98 @@
+//! Both levels as deep as bit trails are long.
+
+use bytemuck::Zeroable;
+use lightbvh::node::kind;
+use lightbvh::refit::BlasRoot;
+use lightbvh::trail::{BitTrail, max_levels};
+use lightbvh::{EmissiveTriangle, Instance, LightNode, MeshLeaf, exact};
+use lightbvh_kernels::bvh::{Node, TreePush, WIDTH};
+
+use super::built::checked;
+use super::passes::passes_of;
+use crate::known::tree::Tree;
+
+/// A chain of nodes from node `first` on: children `0..children` of `kind` on the way, the last two in the last node. Gives the
+/// trails of the children.
+fn chain(nodes: &mut Vec<Node>, of: u32, first_child: u32) -> Vec<BitTrail> {
+    let levels = max_levels(WIDTH);
+    let first = nodes.len() as u32;
+    let mut trails = Vec::new();
+    let mut way = BitTrail::default();
+    for level in 0..levels {
+        let mut node = <Node as LightNode<WIDTH>>::EMPTY;
+        let (own, next) = (level % 4, (level * 3 + 1) % 4);
+        let next = if next == own { (own + 1) % 4 } else { next };
+        node.set_child(own as usize, of, first_child + level);
+        trails.push(way.with::<WIDTH>(level, own));
+        if level + 1 == levels {
+            node.set_child(next as usize, of, first_child + levels);
+            trails.push(way.with::<WIDTH>(level, next));
+        } else {
+            node.set_child(next as usize, kind::INNER, first + level + 1);
+            way = way.with::<WIDTH>(level, next);
+        }
+        nodes.push(node);
+    }
+    trails
+}
+
+pub(super) fn deep() -> Tree {
+    let levels = max_levels(WIDTH);
+    // Lights at halving distances along x, all of the same flux but for rounding; those of the last mesh along y.
+    let light = |x: f32, y: f32, size: f32, mesh: u32| EmissiveTriangle {
+        p: [[x, y, 0.0], [x, y + size, 0.0], [x, y, size]],
+        radiance: [exact::pow2(20), 1.0, 0.0],
+        mesh,
+        flags: 1,
+    };
+    let (mut nodes, mut triangles, mut roots) = (Vec::new(), Vec::new(), Vec::new());
+    let mut trails = Vec::new();
+    for mesh in 0..levels {
+        let x = exact::pow2(30 - mesh as i32);
+        let mut node = <Node as LightNode<WIDTH>>::EMPTY;
+        node.set_child(mesh as usize % WIDTH, kind::LIGHT, triangles.len() as u32);
+        trails.push(BitTrail::default().with::<WIDTH>(0, mesh % WIDTH as u32));
+        roots.push(nodes.len() as u32);
+        nodes.push(node);
+        triangles.push(light(x, 0.0, x * 0.125, mesh));
+    }
+    roots.push(nodes.len() as u32);
+    trails.extend(chain(&mut nodes, kind::LIGHT, triangles.len() as u32));
+    for i in 0..=levels {
+        let y = exact::pow2(-(i as i32));
+        triangles.push(light(0.0, y, y * 0.125, levels));
+    }
+    let root = nodes.len() as u32;
+    let top_trails = chain(&mut nodes, kind::MESH, 0);
+    let instances: Vec<Instance> = (0..=levels)
+        .map(|mesh| {
+            let mut leaf = Instance::world(roots[mesh as usize], mesh);
+            leaf.set_trail(top_trails[mesh as usize]);
+            leaf
+        })
+        .collect();
+    let roots: Vec<BlasRoot> = roots
+        .iter()
+        .map(|&node| BlasRoot {
+            node,
+            ..BlasRoot::zeroed()
+        })
+        .collect();
+    let lights = checked(triangles);
+    Tree {
+        passes: passes_of(&nodes, &roots, root, true),
+        nodes,
+        meshes_of_lights: lights.triangles().iter().map(|t| t.mesh).collect(),
+        triangles: lights.triangles().to_vec(),
+        instances,
+        roots,
+        trails: trails.iter().flat_map(|t| [t.low, t.high]).collect(),
+        push: TreePush {
+            root,
+            trail_words: 2,
+            two_level: 1,
+        },
+        samples: Vec::new(),
+        pmfs: Vec::new(),
+    }
+}

@@ -1,0 +1,89 @@
+//! Moving lights: instances of every kind of transform and brightness.
+
+use lightbvh::{Edit, Instance, MeshLeaf, Scene, exact};
+use lightbvh_host::backend::LightScene;
+use lightbvh_kernels::bvh::TreePush;
+
+use super::links::{without_bounds, without_root_bounds};
+use super::passes::passes_of;
+use crate::generate::{Random, small_triangles};
+use crate::known::tree::Tree;
+use crate::placing::{Kind, transform};
+
+/// A scene of four meshes and instances of every kind of transform and brightness.
+fn moving(random: &mut Random) -> LightScene {
+    let mut scene: LightScene = Scene::default();
+    let add = |random: &mut Random, count: u32| {
+        let mut triangles = small_triangles(count, count, 2.0, 0.4, false, random.bits());
+        for (i, triangle) in triangles.iter_mut().enumerate() {
+            triangle.p = triangle.p.map(|p| p.map(|x| x - 1.0));
+            triangle.flags = u32::from(i % 4 == 3);
+        }
+        Edit::AddMesh { triangles }
+    };
+    let meshes = [1, 5, 9, 14].map(|count| add(random, count)).to_vec();
+    let meshes = scene.update(meshes).expect("sound meshes").meshes;
+    let mut edits = Vec::new();
+    let kinds = [
+        Kind::Rigid,
+        Kind::Similar,
+        Kind::Similar,
+        Kind::Affine,
+        Kind::Flat,
+    ];
+    for i in 0..14 {
+        let mut placed = transform(random, kinds[i % 5], 8.0);
+        if i == 5 || i == 6 {
+            // The ends of the scales that share a mesh's bottom level.
+            let scale = exact::pow2(if i == 5 { 19 } else { -19 });
+            placed.columns = [[scale, 0.0, 0.0], [0.0, 0.0, scale], [0.0, scale, 0.0]];
+        }
+        if i == 4 {
+            // So bright that it must be far off for others to be drawn.
+            placed.translation = [exact::pow2(29), 0.0, 0.0];
+        }
+        let radiance = if i > 10 {
+            1.0
+        } else {
+            [1.0, 0.25, 1000.0, 1.0, exact::pow2(60), exact::pow2(-60), 0.0][i % 7]
+        };
+        edits.push(Edit::AddInstance {
+            mesh: meshes[i % 4],
+            transform: placed,
+            radiance,
+        });
+    }
+    scene.update(edits).expect("sound instances");
+    scene
+}
+
+pub(super) fn instances(random: &mut Random) -> Tree {
+    let mut scene = moving(random);
+    scene.refit();
+    let tree = scene.tree();
+    let roots = without_root_bounds(scene.roots());
+    Tree {
+        nodes: without_bounds(tree.nodes),
+        triangles: scene.triangles().to_vec(),
+        meshes_of_lights: scene.world_lights().iter().map(|light| light.mesh).collect(),
+        instances: tree.meshes.to_vec(),
+        passes: passes_of(tree.nodes, &roots, tree.root, true),
+        roots,
+        trails: tree.trails.to_vec(),
+        push: TreePush {
+            root: tree.root,
+            trail_words: tree.trail_words,
+            two_level: 1,
+        },
+        samples: Vec::new(),
+        pmfs: Vec::new(),
+    }
+}
+
+/// Leaves of a top level of every kind, those in the world's own space too.
+pub fn instances_of_any_kind(random: &mut Random) -> Vec<Instance> {
+    let scene = moving(random);
+    let mut out = scene.instances().to_vec();
+    out.push(Instance::world(3, 1));
+    out
+}

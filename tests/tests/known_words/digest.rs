@@ -1,0 +1,51 @@
+//! A digest of words.
+
+use bytemuck::{Pod, cast_slice};
+use glam::Vec3;
+use lightbvh::LightBounds;
+
+/// FNV-1a, 64 bits, word by word.
+pub struct Digest(u64);
+
+impl Digest {
+    pub fn new() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+
+    pub fn word(&mut self, word: u32) {
+        self.0 = (self.0 ^ u64::from(word)).wrapping_mul(0x0000_0100_0000_01b3);
+    }
+
+    pub fn float(&mut self, x: f32) {
+        // Whose bits no standard settles.
+        assert!(!x.is_nan());
+        self.word(x.to_bits());
+    }
+
+    pub fn words<T: Pod>(&mut self, values: &[T]) {
+        self.word(values.len() as u32);
+        cast_slice::<T, u32>(values)
+            .iter()
+            .for_each(|&word| self.word(word));
+    }
+
+    pub fn vector(&mut self, v: Vec3) {
+        v.to_array().into_iter().for_each(|x| self.float(x));
+    }
+
+    pub fn bounds(&mut self, b: &LightBounds) {
+        [b.min, b.max, b.axis].into_iter().for_each(|v| self.vector(v));
+        [b.cos_theta_o, b.cos_theta_e, b.phi]
+            .into_iter()
+            .for_each(|x| self.float(x));
+    }
+
+    #[track_caller]
+    pub fn is(self, known: u64, what: &str) {
+        assert!(
+            self.0 == known,
+            "{what}: 0x{:016x} is not the known 0x{known:016x}",
+            self.0
+        );
+    }
+}

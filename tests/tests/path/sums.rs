@@ -1,0 +1,179 @@
+//! Means against sums known in closed form, and against each other.
+
+use glam::Vec3;
+use lightbvh::{ShadingPoint, exact};
+use lightbvh_kernels::shading::material::Material;
+use lightbvh_kernels::shading::path::MAX_BOUNCES;
+use lightbvh_kernels::shading::pick::Uniform;
+use lightbvh_kernels::shading::pixel::{reflected, see};
+use lightbvh_kernels::shading::ray::{FAR, Ray};
+use lightbvh_tests::direct::brute_force;
+use lightbvh_tests::generate::Random;
+use lightbvh_tests::statistics::{Mean, normal_quantile};
+
+use super::world::{Nothing, RENDERER_ERROR, TAIL, World, agree, cube, glossy, light, matte, quad};
+
+/// Five lamps over a floor, one behind a wall; a third of them two-sided.
+fn hall(material: Material) -> World {
+    let mut lamps = Vec::new();
+    for (i, (x, z, size, radiance)) in [
+        (0.0, 0.0, 1.5, 2.0),
+        (2.5, 1.0, 0.8, 5.0),
+        (-2.0, 2.0, 2.0, 1.0),
+        (-1.0, -3.0, 1.0, 4.0),
+        (5.0, -2.0, 1.2, 6.0),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let tilt = 0.3 * i as f32;
+        for p in quad([x, 2.5, z], [size, tilt, 0.0], [0.0, 0.2, size]) {
+            lamps.push(light(p, radiance, i as u32, u32::from(i % 3 == 0)));
+        }
+    }
+    let mut walls = quad([-9.0, 0.0, -9.0], [0.0, 0.0, 18.0], [18.0, 0.0, 0.0]).to_vec();
+    walls.extend(quad([3.5, 0.0, -4.0], [0.0, 4.0, 0.0], [0.0, 0.0, 3.0]));
+    World::new(lamps, &walls, material)
+}
+
+/// A ray to the floor of the hall from a little above.
+fn to_the_floor(x: f32, z: f32) -> Ray {
+    let eye = Vec3::new(x - 0.5, 0.8, z + 0.3);
+    Ray::new(eye, (Vec3::new(x, 0.0, z) - eye).normalize(), FAR)
+}
+
+/// One reflection is direct lighting: by sampled lights alone (the direct renderer), by directions alone, and by both.
+#[test]
+fn one_bounce_is_direct_lighting() {
+    // Under lamps and half behind the wall; the narrow lobe where it shows a lamp's reflection.
+    let dull = [(0.5, 0.3), (-1.0, 2.5), (2.5, -1.5)];
+    let mirroring = [(-0.8, 1.6), (-2.6, 4.0), (1.2, 2.2)];
+    for (material, points) in [
+        (matte(0.8), dull),
+        (glossy(0.5, 0.3, 3), dull),
+        (glossy(0.0, 1.0, 6), mirroring),
+    ] {
+        let world = hall(material);
+        for (x, z) in points {
+            let ray = to_the_floor(x, z);
+            let seen = see(&world.scene(), &ray, Vec3::ZERO);
+            let mut direct = Mean::default();
+            let uniform = Uniform {
+                count: world.lights.len() as u32,
+            };
+            for sample in 0..120_000 {
+                let value = reflected(&world.scene(), &seen, &uniform, 1, exact::hash(sample));
+                direct.add(f64::from(value.x));
+            }
+            for (name, mean) in world.each_picker(&ray, 1, 120_000) {
+                let what = format!("{name} at {x} {z}, {material:?}");
+                agree(&what, &mean, direct.mean(), direct.error());
+            }
+        }
+    }
+}
+
+/// The same against the sum over all lights by brute force in f64.
+#[test]
+fn one_bounce_is_the_sum_over_all_lights() {
+    let world = hall(matte(1.0));
+    let walls = quad([3.5, 0.0, -4.0], [0.0, 4.0, 0.0], [0.0, 0.0, 3.0]);
+    let mut random = Random::new(3);
+    for (x, z) in [(0.5, 0.3), (-1.0, 2.5), (2.5, -1.5)] {
+        let point = ShadingPoint {
+            p: [x, 0.0, z],
+            n: [0.0, 1.0, 0.0],
+        };
+        let reference = brute_force(&point, &world.lights, &walls, 48, &mut random);
+        let pi = std::f64::consts::PI;
+        for (name, mean) in world.each_picker(&to_the_floor(x, z), 1, 120_000) {
+            agree(name, &mean, reference.sum / pi, reference.error / pi);
+        }
+    }
+}
+
+/// Sampled lights with weights, and directions alone, agree over several reflections on shiny and dull surfaces.
+#[test]
+fn several_bounces_agree_with_directions_alone() {
+    for material in [matte(0.9), glossy(0.7, 0.4, 2)] {
+        let world = hall(material);
+        let ray = to_the_floor(0.5, 0.3);
+        let reference = world.paths(&Nothing, &ray, 0.0, 5, 200_000);
+        for (name, mean) in world.each_picker(&ray, 5, 120_000) {
+            agree(name, &mean, reference.mean(), reference.error());
+        }
+    }
+}
+
+/// In a closed room whose walls all emit L and reflect the part a of what arrives, every point receives the same from
+/// everywhere: after n reflections the sum of L a^i up to i = n.
+#[test]
+fn a_closed_room_has_its_geometric_sum() {
+    for albedo in [0.3_f32, 0.7] {
+        let lights = cube()
+            .into_iter()
+            .zip(0..)
+            .map(|(p, i)| light(p, 0.5, i / 2, 0))
+            .collect();
+        let world = World::new(lights, &[], matte(albedo));
+        let eye = Vec3::new(1.0, 1.5, 2.2);
+        let ray = Ray::new(eye, Vec3::new(0.3, -0.8, 0.5), FAR);
+        for bounces in [0, 1, 2, 5, MAX_BOUNCES, u32::MAX] {
+            let a = f64::from(albedo);
+            let n = bounces.min(MAX_BOUNCES) as i32;
+            let expected = 0.5 * (1.0 - a.powi(n + 1)) / (1.0 - a);
+            for (name, mean) in world.each_picker(&ray, bounces, 8_000) {
+                agree(
+                    &format!("{name}, {bounces} bounces of {albedo}"),
+                    &mean,
+                    expected,
+                    0.0,
+                );
+            }
+        }
+    }
+}
+
+/// Under a sky of constant radiance a floor shows its albedo, and a room open on one side never more than the sky.
+#[test]
+fn the_sky_is_reflected_by_sampled_directions_only() {
+    let floor = quad([-9.0, 0.0, -9.0], [0.0, 0.0, 18.0], [18.0, 0.0, 0.0]);
+    let world = World::new(vec![], &floor, matte(0.6));
+    let ray = to_the_floor(0.5, 0.3);
+    for bounces in [1, 7] {
+        let mean = world.paths(&Uniform { count: 0 }, &ray, 3.0, bounces, 1000);
+        agree("floor", &mean, 1.8, 0.0);
+    }
+    let up = Ray::new(Vec3::Y, Vec3::Y, FAR);
+    assert_eq!(world.paths(&Nothing, &up, 3.0, 4, 2).mean(), 3.0);
+
+    let open = World::new(vec![], &cube()[2..], matte(1.0));
+    let inside = Ray::new(Vec3::new(1.0, 3.0, 2.2), Vec3::new(0.3, 0.1, 0.5), FAR);
+    let mean = open.paths(&Nothing, &inside, 3.0, MAX_BOUNCES, 20_000);
+    let tolerance = normal_quantile(TAIL) * mean.error() + 3.0 * RENDERER_ERROR;
+    assert!(mean.mean() <= 3.0 + tolerance, "{}", mean.mean());
+    assert!(
+        mean.mean() > 2.5,
+        "white walls lose nothing but what bounces on: {}",
+        mean.mean()
+    );
+}
+
+/// Radiances at the ends of the domain, next to each other: nothing becomes infinite.
+#[test]
+fn extreme_radiances_stay_finite() {
+    for radiance in [exact::pow2(-100), 1.0, exact::pow2(100)] {
+        let lights: Vec<_> = cube()
+            .into_iter()
+            .zip(0..)
+            .map(|(p, i)| light(p, if i % 3 == 0 { radiance } else { 1.0 }, i / 2, 1))
+            .collect();
+        for material in [glossy(1.0, 1.0, 0), glossy(0.9, 0.5, 16)] {
+            let world = World::new(lights.clone(), &[], material);
+            let ray = Ray::new(Vec3::ONE, Vec3::new(0.3, -0.8, 0.5), FAR);
+            for (name, mean) in world.each_picker(&ray, MAX_BOUNCES, 500) {
+                assert!(mean.mean().is_finite() && mean.mean() > 0.0, "{name}");
+            }
+        }
+    }
+}

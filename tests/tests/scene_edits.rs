@@ -1,0 +1,296 @@
+//! Single edits of scenes: what they cost, what they leave, and what is refused.
+
+use lightbvh::scene::{EditReason, RebuildParams};
+use lightbvh::{CompactNode, Edit, Eq4, INVALID, Scene, Transform};
+use lightbvh_tests::edits::{add_instance, add_mesh, mesh};
+use lightbvh_tests::generate::{self, Random};
+use lightbvh_tests::placing::{self, Kind};
+
+type Tree = Scene<CompactNode<4>, 4>;
+
+#[test]
+fn rigid_motion_costs_one_way_up_and_no_bottom_level() {
+    let random = &mut Random::new(5);
+    let mut scene = Tree::default();
+    let mesh = add_mesh(&mut scene, mesh(random));
+    let add = |random: &mut Random| Edit::AddInstance {
+        mesh,
+        transform: placing::transform(random, Kind::Similar, 50.0),
+        radiance: 1.0,
+    };
+    let batch = (0..1000).map(|_| add(random)).collect();
+    let ids = scene.update(batch).expect("instances").instances;
+    scene.refit();
+    let stats = scene.validate().expect("valid");
+    assert_eq!(stats.blases, 1, "one bottom level serves all");
+
+    scene.update(Vec::new()).expect("nothing");
+    scene.refit();
+    assert_eq!(scene.work().computed(), 0, "nothing changed");
+
+    let transform = placing::transform(random, Kind::Similar, 50.0);
+    let instance = ids[123];
+    scene
+        .update(vec![Edit::Move { instance, transform }])
+        .expect("moved");
+    scene.refit();
+    let work = scene.work();
+    assert!(work.leaves.is_empty() && work.roots.is_empty());
+    assert_eq!(work.instances.len(), 1);
+    assert!(
+        work.top.nodes().len() < stats.depth as usize,
+        "{} nodes",
+        work.top.nodes().len()
+    );
+    scene.validate().expect("valid");
+
+    // Bent out of shape it gets triangles of its own, once; moved on, nothing below its leaf changes; back in shape, the
+    // shared ones serve again.
+    let bent = placing::transform(random, Kind::Affine, 50.0);
+    scene
+        .update(vec![Edit::Move {
+            instance,
+            transform: bent,
+        }])
+        .expect("bent");
+    scene.refit();
+    assert_eq!(scene.validate().expect("valid").blases, 2);
+    let mut moved = bent;
+    moved.translation[0] += 1.0;
+    scene
+        .update(vec![Edit::Move {
+            instance,
+            transform: moved,
+        }])
+        .expect("moved");
+    scene.refit();
+    assert!(scene.work().leaves.is_empty(), "its shape is the same");
+    scene.validate().expect("valid");
+    scene
+        .update(vec![Edit::Move { instance, transform }])
+        .expect("straight");
+    scene.refit();
+    assert_eq!(scene.validate().expect("valid").blases, 1);
+}
+
+#[test]
+fn light_numbers_stay_and_removed_ones_are_told() {
+    let random = &mut Random::new(6);
+    let mut scene = Tree::default();
+    let triangles = mesh(random);
+    let count = triangles.len() as u32;
+    let mesh = add_mesh(&mut scene, triangles);
+    let add = Edit::AddInstance {
+        mesh,
+        transform: Transform::IDENTITY,
+        radiance: 1.0,
+    };
+    let ids = scene
+        .update(vec![add.clone(), add.clone(), add.clone()])
+        .expect("three")
+        .instances;
+    let lights: Vec<_> = ids
+        .iter()
+        .map(|&id| scene.lights_of(id).expect("there"))
+        .collect();
+    scene.update(vec![Edit::RemoveInstance(ids[1])]).expect("removed");
+    assert_eq!(scene.removed_lights().to_vec(), vec![lights[1].clone()]);
+    assert_eq!(lights[1], count..2 * count);
+    let again = scene.update(vec![add]).expect("added").instances[0];
+    assert!(scene.removed_lights().is_empty());
+    scene.refit();
+    scene.adopt(scene.rebuild(&RebuildParams::default()).run());
+    scene.refit();
+    scene.validate().expect("valid");
+    assert_eq!(scene.lights_of(ids[0]), Some(lights[0].clone()));
+    assert_eq!(scene.lights_of(ids[1]), None);
+    assert_eq!(scene.lights_of(ids[2]), Some(lights[2].clone()));
+    assert_eq!(scene.lights_of(again), Some(lights[1].clone()));
+    assert_eq!(
+        scene.pmf::<Eq4>(&generate::point(random, 1.0), lights[0].start, ids[1]),
+        0.0
+    );
+}
+
+#[test]
+fn the_last_light_may_go() {
+    let random = &mut Random::new(7);
+    let mut scene = Tree::default();
+    let point = generate::point(random, 1.0);
+    assert_eq!(scene.sample::<Eq4>(&point, 1).light, INVALID);
+    let mesh = add_mesh(&mut scene, mesh(random));
+    let lamp = add_instance(&mut scene, mesh, Transform::IDENTITY);
+    scene.refit();
+    let flying = scene.rebuild(&RebuildParams::default()).run();
+    scene
+        .update(vec![Edit::RemoveInstance(lamp), Edit::RemoveMesh(mesh)])
+        .expect("gone");
+    scene.refit();
+    assert_eq!(scene.sample::<Eq4>(&point, 1).light, INVALID);
+    assert_eq!(scene.validate().expect("valid").lights, 0);
+    scene.adopt(flying);
+    scene.refit();
+    assert_eq!(scene.sample::<Eq4>(&point, 1).light, INVALID);
+    scene.validate().expect("valid");
+}
+
+#[test]
+fn bad_edits_change_nothing() {
+    let random = &mut Random::new(8);
+    let mut scene = Tree::default();
+    let mesh_id = add_mesh(&mut scene, mesh(random));
+    let [instance, gone] = [0; 2].map(|_| add_instance(&mut scene, mesh_id, Transform::IDENTITY));
+    scene.update(vec![Edit::RemoveInstance(gone)]).expect("removed");
+    scene.refit();
+    let before = format!("{scene:?}");
+
+    let mut nan = Transform::IDENTITY;
+    nan.columns[1][2] = f32::NAN;
+    let mut dark = mesh(random);
+    dark[0].radiance[1] = -1.0;
+    let far = Transform::at([1.0e12, 0.0, 1.099_6e12]);
+    type Reason = fn(&EditReason) -> bool;
+    let bad: Vec<(Edit, Reason)> = vec![
+        (Edit::RemoveInstance(gone), |r| {
+            matches!(r, EditReason::UnknownInstance(_))
+        }),
+        (
+            Edit::Move {
+                instance,
+                transform: nan,
+            },
+            |r| matches!(r, EditReason::Transform(_)),
+        ),
+        (
+            Edit::Move {
+                instance,
+                transform: far,
+            },
+            |r| matches!(r, EditReason::Transform(_)),
+        ),
+        (
+            Edit::Shine {
+                instance,
+                radiance: f32::INFINITY,
+            },
+            |r| matches!(r, EditReason::Radiance { .. }),
+        ),
+        (
+            Edit::Shine {
+                instance,
+                radiance: -1.0,
+            },
+            |r| matches!(r, EditReason::Radiance { .. }),
+        ),
+        (
+            Edit::AddMesh {
+                triangles: Vec::new(),
+            },
+            |r| matches!(r, EditReason::EmptyMesh),
+        ),
+        (Edit::AddMesh { triangles: dark }, |r| {
+            matches!(r, EditReason::Light { index: 0, .. })
+        }),
+        (
+            Edit::Deform {
+                mesh: mesh_id,
+                triangles: vec![mesh(random)[0]; 40],
+            },
+            |r| matches!(r, EditReason::Count { found: 40, .. }),
+        ),
+        (Edit::RemoveMesh(mesh_id), |r| {
+            matches!(r, EditReason::InUse { instances: 1 })
+        }),
+    ];
+    for (edit, expected) in bad {
+        let text = format!("{edit:?}");
+        let good = Edit::Shine {
+            instance,
+            radiance: 0.5,
+        };
+        let error = scene.update(vec![good, edit]).expect_err(&text);
+        assert_eq!(error.edit, 1, "{text}");
+        assert!(expected(&error.reason), "{text}: {error}");
+        assert_eq!(format!("{scene:?}"), before, "{text} was half done");
+    }
+    // Ids that an earlier edit of the batch removed.
+    let twice = vec![Edit::RemoveInstance(instance), Edit::RemoveInstance(instance)];
+    assert_eq!(scene.update(twice).expect_err("gone by then").edit, 1);
+    assert_eq!(format!("{scene:?}"), before);
+}
+
+/// A mesh may not reach out of the domain by any order of edits: also where an instance of the same batch is what is too far.
+#[test]
+fn deforming_a_mesh_counts_instances_of_the_same_batch() {
+    let random = &mut Random::new(10);
+    let mut scene = Tree::default();
+    let triangles = mesh(random);
+    let mut large = triangles.clone();
+    for triangle in &mut large {
+        triangle.p = triangle.p.map(|p| p.map(|x| x * 2f32.powi(30)));
+    }
+    let mesh = add_mesh(&mut scene, triangles);
+    let far = Edit::AddInstance {
+        mesh,
+        transform: Transform::at([1.0995e12, 0.0, 0.0]),
+        radiance: 1.0,
+    };
+    let deform = Edit::Deform {
+        mesh,
+        triangles: large.clone(),
+    };
+    let near = Edit::AddInstance {
+        mesh,
+        transform: Transform::IDENTITY,
+        radiance: 1.0,
+    };
+    scene.refit();
+    let before = format!("{scene:?}");
+    for batch in [
+        vec![far.clone(), deform.clone()],
+        vec![deform.clone(), far.clone()],
+        vec![near.clone(), far.clone(), deform.clone()],
+    ] {
+        let last = batch.len() - 1;
+        let error = scene.update(batch).expect_err("it would reach beyond 2^40 m");
+        assert_eq!(error.edit, last);
+        assert!(matches!(error.reason, EditReason::Transform(_)), "{error}");
+        assert_eq!(format!("{scene:?}"), before);
+    }
+    scene.update(vec![near, deform]).expect("within 2^40 m");
+    scene.refit();
+    scene.validate().expect("valid");
+}
+
+#[test]
+fn thousands_of_edits_in_one_frame() {
+    let random = &mut Random::new(9);
+    let mut scene = Tree::default();
+    let meshes = (0..20).map(|_| Edit::AddMesh {
+        triangles: mesh(random),
+    });
+    let meshes = scene.update(meshes.collect()).expect("meshes").meshes;
+    let mut ids = Vec::new();
+    for round in 0..6 {
+        let mut batch = Vec::new();
+        for &instance in &ids {
+            let transform = placing::transform(random, Kind::Rigid, 100.0);
+            batch.push(Edit::Move { instance, transform });
+        }
+        let gone = ids.len() / 2;
+        batch.extend(ids.drain(..gone).map(Edit::RemoveInstance));
+        for _ in 0..2000 {
+            batch.push(Edit::AddInstance {
+                mesh: meshes[random.below(20) as usize],
+                transform: placing::transform(random, Kind::Similar, 100.0),
+                radiance: 1.0,
+            });
+        }
+        ids.extend(scene.update(batch).expect("sound edits").instances);
+        scene.refit();
+        let stats = scene
+            .validate()
+            .unwrap_or_else(|violation| panic!("{round}: {violation}"));
+        assert_eq!(stats.instances as usize, ids.len());
+    }
+}

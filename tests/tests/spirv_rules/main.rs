@@ -1,0 +1,7 @@
+//! The committed kernels belong to the committed sources and obey the rules; modules that do not are refused.
+
+mod arrivals;
+mod module;
+mod operations;
+mod shapes;
+mod shipped;

@@ -1,0 +1,95 @@
+//! Shapes of control flow and of data that break drivers.
+
+use lightbvh_kernels_builder::decorate::decorate;
+use rspirv::dr::Operand;
+use rspirv::spirv::{LoopControl, Op, SelectionControl, StorageClass};
+
+use super::module::{complaint, complaint_about, module};
+
+/// A loop whose body is a row of `count` selections between two blocks; with `work`, each of the two computes something.
+fn loop_of_selections(count: usize, work: bool) -> Vec<u32> {
+    module(|b, t| {
+        let boolean = b.type_bool();
+        let yes = b.constant_true(boolean);
+        let [header, first, next, end] = [(); 4].map(|()| b.id());
+        b.branch(header).unwrap();
+        b.begin_block(Some(header)).unwrap();
+        b.loop_merge(end, next, LoopControl::NONE, []).unwrap();
+        b.branch(first).unwrap();
+        b.begin_block(Some(first)).unwrap();
+        for _ in 0..count {
+            let [left, right, meeting] = [(); 3].map(|()| b.id());
+            b.selection_merge(meeting, SelectionControl::NONE).unwrap();
+            b.branch_conditional(yes, left, right, []).unwrap();
+            let mut values = Vec::new();
+            for side in [left, right] {
+                b.begin_block(Some(side)).unwrap();
+                let value = if work || side == left {
+                    b.f_add(t.float, None, t.two, t.three).unwrap()
+                } else {
+                    t.three
+                };
+                values.push((value, side));
+                b.branch(meeting).unwrap();
+            }
+            b.begin_block(Some(meeting)).unwrap();
+            b.phi(t.float, None, values).unwrap();
+        }
+        b.branch(next).unwrap();
+        b.begin_block(Some(next)).unwrap();
+        b.branch_conditional(yes, header, end, []).unwrap();
+        b.begin_block(Some(end)).unwrap();
+    })
+}
+
+#[test]
+fn an_arm_without_instructions_goes_away() {
+    let words = decorate(&loop_of_selections(40, false)).unwrap();
+    assert_eq!(complaint(&words), "");
+    assert_eq!(
+        decorate(&words).unwrap(),
+        words,
+        "decorating twice changes nothing"
+    );
+    let module = rspirv::dr::load_words(&words).unwrap();
+    let blocks = &module.functions[0].blocks;
+    // The entry, the loop's header, first block, last block and end, and two for each selection.
+    assert_eq!(blocks.len(), 5 + 2 * 40);
+    let labels: Vec<u32> = blocks
+        .iter()
+        .filter_map(|block| block.label.as_ref()?.result_id)
+        .collect();
+    let used = blocks.iter().flat_map(|block| &block.instructions);
+    for inst in used.filter(|inst| matches!(inst.class.opcode, Op::Phi | Op::Branch)) {
+        let Some(Operand::IdRef(block)) = inst.operands.last() else {
+            panic!("{inst:?}");
+        };
+        assert!(labels.contains(block), "{inst:?}");
+    }
+}
+
+#[test]
+fn a_loop_with_too_many_ways_through_it_is_refused() {
+    // As rust-gpu writes it; the post-pass makes such a loop acceptable.
+    let text = complaint(&loop_of_selections(40, true));
+    assert!(text.contains("OpLoopMerge"), "{text}");
+    assert!(!complaint(&loop_of_selections(8, true)).contains("OpLoopMerge"));
+    for arms in [false, true] {
+        assert_eq!(complaint(&decorate(&loop_of_selections(40, arms)).unwrap()), "");
+    }
+}
+
+#[test]
+fn a_structure_of_pointers_is_refused() {
+    let text = complaint_about(|b, t| {
+        let pointer = b.type_pointer(None, StorageClass::Function, t.float);
+        let closure = b.type_struct([pointer, t.uint]);
+        let variable = b.variable(pointer, None, StorageClass::Function, None);
+        let count = b.constant_bit32(t.uint, 7);
+        b.composite_construct(closure, None, [variable, count]).unwrap();
+    });
+    assert!(
+        text.contains("OpCompositeConstruct") && text.contains("closure"),
+        "{text}"
+    );
+}

@@ -1,0 +1,61 @@
+//! The committed modules.
+
+use lightbvh_kernels::WORKGROUP;
+use lightbvh_kernels_builder::decorate::decorate;
+use lightbvh_kernels_builder::manifest::{self, ManifestError};
+use lightbvh_kernels_builder::verify::{VerifyError, verify};
+use std::path::Path;
+
+pub fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .expect("the workspace above the tests")
+}
+
+#[test]
+fn shipped_modules_are_those_of_the_sources() {
+    let manifest = manifest::check(root()).unwrap_or_else(|error| panic!("{error}"));
+    assert!(
+        manifest
+            .modules
+            .iter()
+            .any(|record| record.file == "self_test.spv")
+    );
+}
+
+#[test]
+fn shipped_modules_obey_the_rules() {
+    for record in manifest::read(root()).unwrap().modules {
+        let words = manifest::read_module(root(), &record).unwrap();
+        verify(&record.file, &words).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(record.interface.workgroup, [WORKGROUP, 1, 1], "{}", record.file);
+        assert_eq!(format!("{}.spv", record.interface.entry_point), record.file);
+        assert!(record.interface.push_constant_bytes <= 128, "{}", record.file);
+    }
+}
+
+#[test]
+fn shipped_modules_name_no_file_of_the_machine_that_built_them() {
+    for record in manifest::read(root()).unwrap().modules {
+        let words = manifest::read_module(root(), &record).unwrap();
+        let module = rspirv::dr::load_words(&words).unwrap();
+        assert!(
+            module.debug_string_source.is_empty() && module.debug_names.is_empty(),
+            "{}",
+            record.file
+        );
+    }
+}
+
+#[test]
+fn words_that_are_no_module_are_refused() {
+    assert!(matches!(
+        verify("x.spv", &[1, 2, 3]),
+        Err(VerifyError::Unreadable { .. })
+    ));
+    assert!(decorate(&[]).is_err());
+    assert!(matches!(
+        manifest::read(Path::new("/nowhere")),
+        Err(ManifestError::File(_))
+    ));
+}
