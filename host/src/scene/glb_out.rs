@@ -40,7 +40,8 @@ impl Scene {
     /// The scene as the bytes of a `.glb` file.
     ///
     /// Reading them back gives a scene with the same frames, word for word. Emission that differs from triangle to
-    /// triangle goes into the vertex attribute `_RADIANCE`, the background into the scene's `extras`.
+    /// triangle, or whose channels are too far apart for a factor, goes into the vertex attribute `_RADIANCE`, the
+    /// background into the scene's `extras`.
     ///
     /// # Errors
     /// [`SceneError::TooMany`] beyond the 4 GiB that the container can name.
@@ -96,7 +97,7 @@ impl Writer {
                 let primitives: Vec<Value> = mesh
                     .primitives
                     .iter()
-                    .map(|primitive| self.primitive(primitive))
+                    .map(|primitive| self.primitive(primitive, &data.materials))
                     .collect();
                 json!({ "name": mesh.name, "primitives": primitives })
             })
@@ -143,9 +144,14 @@ impl Writer {
         root
     }
 
-    fn primitive(&mut self, primitive: &Primitive) -> Value {
+    fn primitive(&mut self, primitive: &Primitive, materials: &[Material]) -> Value {
+        let own = materials[primitive.material as usize].radiance;
+        let radiance = match &primitive.radiance {
+            Some(of_triangles) => Some(of_triangles.clone()),
+            None => (!is_product(own)).then(|| vec![own; primitive.triangles.len()]),
+        };
         // Radiance per triangle needs three vertices of its own for each.
-        let (positions, triangles) = match &primitive.radiance {
+        let (positions, triangles) = match &radiance {
             None => (primitive.positions.clone(), primitive.triangles.clone()),
             Some(_) => {
                 let corners = primitive.triangles.as_flattened().iter();
@@ -172,7 +178,7 @@ impl Writer {
             accessor["max"] = json!(fold(f32::max, f32::NEG_INFINITY));
         }
         let mut attributes = json!({ "POSITION": position });
-        if let Some(radiance) = &primitive.radiance {
+        if let Some(radiance) = &radiance {
             let of_vertices: Vec<[f32; 3]> = radiance.iter().flat_map(|&rgb| [rgb; 3]).collect();
             attributes[format!("_{RADIANCE_ATTRIBUTE}")] = json!(self.floats(&of_vertices, "VEC3"));
         }
@@ -269,17 +275,28 @@ fn nodes(scene: &Scene) -> Vec<Value> {
     out
 }
 
-/// Emission as a factor in [0, 1] and a strength; the strength is a power of two, so that their product is exact.
-fn material(material: &Material) -> Value {
-    let peak = material
-        .radiance
-        .iter()
-        .fold(0.0_f32, |m, &channel| m.max(channel));
+/// The least power of two, from 1 on, that is not below any channel: the strength with which factors lie in [0, 1].
+fn strength(radiance: [f32; 3]) -> f32 {
+    let peak = radiance.iter().fold(0.0_f32, |m, &channel| m.max(channel));
     let mut strength = 1.0_f32;
     // 2^127 is the largest power of two in `f32`.
     while strength < peak && strength < 1.0 / f32::MIN_POSITIVE {
         strength *= 2.0;
     }
+    strength
+}
+
+/// Whether every channel is the product of an `f32` and the strength: one that is 2^126 times weaker may not be.
+fn is_product(radiance: [f32; 3]) -> bool {
+    let strength = strength(radiance);
+    radiance
+        .iter()
+        .all(|&channel| channel / strength * strength == channel)
+}
+
+/// Emission as a factor in [0, 1] and a strength.
+fn material(material: &Material) -> Value {
+    let strength = strength(material.radiance);
     json!({
         "name": material.name,
         "doubleSided": material.double_sided,
