@@ -1,11 +1,17 @@
 //! Affine maps of instances, and which of them a shared bottom level can serve.
 
-use core::fmt;
+mod error;
+mod extent;
+mod vector;
+
+pub use error::TransformError;
+pub(crate) use extent::Extent;
 
 use crate::exact;
 use crate::instance::Instance;
 use crate::light::{EmissiveTriangle, MAX_COORDINATE, MIN_COORDINATE};
 use crate::tree::MeshLeaf;
+use vector::{cross, dot, greatest, length, magnitude};
 
 /// Most that the columns' products may be off those of s times an orthogonal matrix, as a share of s²: 2^-21, what rounding
 /// a rotation to `f32` leaves and some more.
@@ -23,10 +29,6 @@ const ROUNDING: f64 = 1.0 / 4_194_304.0;
 /// What a similarity may turn a normal by itself, rad: 2^-18, for columns off by 2^-21 and the normalisation of axes.
 const BASE_TILT: f64 = 1.0 / 262_144.0;
 
-/// Triangles of a mesh that one thread measures.
-#[cfg(feature = "rayon")]
-const PIECE: usize = 4096;
-
 /// An affine map `x ↦ A x + t` from a mesh's space to the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
@@ -34,15 +36,6 @@ pub struct Transform {
     pub columns: [[f32; 3]; 3],
     /// t, metres; each entry of magnitude at most 2^40.
     pub translation: [f32; 3],
-}
-
-/// How large a mesh is, and how fine: what rounding is measured against.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Extent {
-    /// Greatest distance of a vertex from the mesh's origin, metres.
-    pub radius: f64,
-    /// Least height of a triangle whose normal counts, metres; infinite where there is none.
-    pub finest: f64,
 }
 
 impl Transform {
@@ -207,139 +200,6 @@ impl Transform {
             ..Instance::world(0, 0)
         })
     }
-}
-
-impl Extent {
-    /// Of a mesh with these triangles.
-    pub fn of(triangles: &[EmissiveTriangle]) -> Self {
-        #[cfg(feature = "rayon")]
-        let squares = {
-            use rayon::prelude::*;
-            let pieces = triangles.par_chunks(PIECE).map(Self::squares);
-            pieces.reduce(|| Self::NONE, Self::and)
-        };
-        #[cfg(not(feature = "rayon"))]
-        let squares = Self::squares(triangles);
-        Self {
-            radius: square_root(squares.radius),
-            finest: if squares.finest < f64::INFINITY {
-                square_root(squares.finest)
-            } else {
-                f64::INFINITY
-            },
-        }
-    }
-
-    const NONE: Self = Self {
-        radius: 0.0,
-        finest: f64::INFINITY,
-    };
-
-    /// The extents of two parts together.
-    fn and(self, other: Self) -> Self {
-        Self {
-            radius: greatest(self.radius, other.radius),
-            finest: -greatest(-self.finest, -other.finest),
-        }
-    }
-
-    /// The squares of the extent.
-    fn squares(triangles: &[EmissiveTriangle]) -> Self {
-        triangles.iter().fold(Self::NONE, |extent, triangle| {
-            let p = triangle.p.map(|p| p.map(f64::from));
-            let [a, b, c] = p.map(|vertex| dot(vertex, vertex));
-            let radius = greatest(a, greatest(b, c));
-            // Only triangles whose normal bounds what they light.
-            let bounds = crate::bounds::LightBounds::of_triangle(triangle);
-            let finest = if bounds.phi > 0.0 && bounds.cos_theta_o > -1.0 {
-                let edge = |i: usize, j: usize| core::array::from_fn(|k| p[j][k] - p[i][k]);
-                let (a, b, c) = (edge(0, 1), edge(0, 2), edge(1, 2));
-                let longest = greatest(dot(a, a), greatest(dot(b, b), dot(c, c)));
-                let area = cross(a, b);
-                dot(area, area) / longest
-            } else {
-                f64::INFINITY
-            };
-            extent.and(Self { radius, finest })
-        })
-    }
-}
-
-/// Why a transform is refused.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum TransformError {
-    /// An entry is NaN, infinite or beyond 2^40.
-    Entry {
-        /// Row, 0..3.
-        row: usize,
-        /// Column; 3 is the translation.
-        column: usize,
-        /// What was found.
-        value: f32,
-    },
-    /// The mesh would reach beyond 2^40 m.
-    TooFar {
-        /// How far it may reach.
-        metres: f32,
-    },
-}
-
-impl fmt::Display for TransformError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::Entry { row, column, value } => write!(
-                f,
-                "row {row}, column {column} of a transform is {value}, expected a finite number of magnitude at most \
-                 2^40; repair the animation"
-            ),
-            Self::TooFar { metres } => write!(
-                f,
-                "a transform may move a mesh as far as {metres} m, expected at most 2^40 m; scale the scene or move its \
-                 origin"
-            ),
-        }
-    }
-}
-
-impl core::error::Error for TransformError {}
-
-#[inline(always)]
-fn magnitude(x: f64) -> f64 {
-    f64::from_bits(x.to_bits() & !(1 << 63))
-}
-
-#[inline(always)]
-fn greatest(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-#[inline(always)]
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn length(v: [f64; 3]) -> f64 {
-    square_root(dot(v, v))
-}
-
-/// Without the standard library: Newton's steps from the exponent halved, to within some units of the last place.
-fn square_root(x: f64) -> f64 {
-    if x <= 0.0 {
-        return 0.0;
-    }
-    let mut root = f64::from_bits((x.to_bits() >> 1) + (1023 << 51));
-    for _ in 0..5 {
-        root = 0.5 * (root + x / root);
-    }
-    root
 }
 
 #[cfg(test)]

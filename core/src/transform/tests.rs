@@ -2,6 +2,7 @@
 
 extern crate std;
 
+use super::vector::square_root;
 use super::*;
 use crate::exact::{hash, pow2, unit_f32};
 

@@ -1,7 +1,9 @@
 //! One way down, chosen at random or followed.
 
+use super::beside::Beside;
+use super::choose::choose;
 use super::neighbor::Neighbor;
-use crate::exact::{self, hash};
+use crate::exact;
 use crate::importance::ImportanceModel;
 use crate::node::{LightNode, kind};
 use crate::point::ShadingPoint;
@@ -200,99 +202,6 @@ pub(super) fn descend<
     out
 }
 
-/// A node passed by a way, with importance on one side of the slot taken.
-#[derive(Clone, Copy)]
-struct Beside<const W: usize> {
-    index: u32,
-    position: u32,
-    before: f32,
-    weights: [f32; W],
-    sum: f32,
-}
-
-impl<const W: usize> Beside<W> {
-    const NONE: Self = Self {
-        index: INVALID,
-        position: 0,
-        before: 0.0,
-        weights: [0.0; W],
-        sum: 1.0,
-    };
-
-    /// The node that `neighbor` is a child of.
-    #[inline(always)]
-    fn of(neighbor: &Neighbor<W>) -> Self {
-        Self {
-            index: if neighbor.is_none() {
-                INVALID
-            } else {
-                neighbor.index
-            },
-            position: neighbor.position,
-            before: neighbor.before,
-            weights: neighbor.weights,
-            sum: neighbor.sum,
-        }
-    }
-
-    /// Becomes `other` if `yes`, field by field so that every one is a select.
-    #[inline(always)]
-    fn replace(&mut self, yes: bool, other: &Self) {
-        self.index = if yes { other.index } else { self.index };
-        self.position = if yes { other.position } else { self.position };
-        self.before = if yes { other.before } else { self.before };
-        self.sum = if yes { other.sum } else { self.sum };
-        for slot in 0..W {
-            self.weights[slot] = if yes {
-                other.weights[slot]
-            } else {
-                self.weights[slot]
-            };
-        }
-    }
-
-    /// The child with importance nearest to the slot that the way of `d` took there.
-    #[inline(always)]
-    fn nearest<N: LightNode<W>, L: MeshLeaf>(
-        &self,
-        tree: &LightTree<'_, N, L>,
-        d: &Descent<W>,
-        right: bool,
-    ) -> Neighbor<W> {
-        let taken = d.path.slot::<W>(self.position);
-        let mut nearest = INVALID;
-        for i in 0..W {
-            // From the far end of the side, so that the nearest comes last.
-            let slot = if right { W - 1 - i } else { i };
-            let beyond = if right {
-                slot as u32 > taken
-            } else {
-                (slot as u32) < taken
-            };
-            let better = beyond & (self.weights[slot] > 0.0);
-            nearest = if better { slot as u32 } else { nearest };
-        }
-        let exists = self.index < tree.nodes.len() as u32 && nearest < W as u32;
-        let node = &tree.nodes[if exists { self.index as usize } else { 0 }];
-        let slot = if exists { nearest as usize } else { 0 };
-        Neighbor {
-            index: if exists { self.index } else { 0 },
-            kind: if exists { node.kind(slot) } else { kind::EMPTY },
-            link: node.link(slot),
-            mesh: if self.position < max_levels(W) {
-                INVALID
-            } else {
-                d.mesh
-            },
-            position: self.position,
-            slot: nearest,
-            before: self.before,
-            weights: self.weights,
-            sum: self.sum,
-        }
-    }
-}
-
 /// The node behind a child, its position, and the mesh light passed on the way.
 #[inline(always)]
 pub(super) fn enter<N: LightNode<W>, L: MeshLeaf, const W: usize>(
@@ -312,45 +221,4 @@ pub(super) fn enter<N: LightNode<W>, L: MeshLeaf, const W: usize>(
     } else {
         (INVALID, position, mesh)
     }
-}
-
-/// A slot with probability weight / sum: pairs of neighbours choose between their two, pairs of pairs between those, and
-/// so on, with fresh bits on every storey, so that they do not run dry in deep trees. The pairs of one storey may share
-/// theirs since only one of them counts in the end.
-///
-/// The smaller side of a choice is taken when `u · both < smaller`, with a `u` that resolves far below 2^-24: so a side
-/// of tiny probability is neither starved nor favoured.
-#[inline(always)]
-fn choose<const W: usize>(weights: &[f32; W], random: u32, position: u32) -> u32 {
-    let mut slots = [0; W];
-    for slot in 0..W {
-        slots[slot] = slot as u32;
-    }
-    let mut sums = *weights;
-    let mut stride = 1;
-    for storey in 0..4 {
-        let u = dense_unit(random.wrapping_add((position * 4 + storey).wrapping_mul(0x9e37_79b9)));
-        for slot in 0..W {
-            if slot & (2 * stride - 1) == 0 && slot + stride < W {
-                let (a, b) = (sums[slot], sums[slot + stride]);
-                let both = a + b;
-                let smaller = exact::min(a, b);
-                let second = (u * both < smaller) == (b <= a);
-                slots[slot] = if second { slots[slot + stride] } else { slots[slot] };
-                sums[slot] = both;
-            }
-        }
-        stride *= 2;
-    }
-    slots[0]
-}
-
-/// A uniform number in `[0, 1]` that resolves 2^-48; 1 only by rounding, with a probability of 2^-24.
-#[inline(always)]
-fn dense_unit(seed: u32) -> f32 {
-    let high = hash(seed);
-    // The first 24 bits suffice unless they are zeros; then bits scrambled from the other eight follow them: as many
-    // different values as there are seeds for them.
-    let low = high.wrapping_mul(0x9e37_79b9) ^ 0x5bd1_e995;
-    (high >> 8) as i32 as f32 * exact::pow2(-24) + (low >> 8) as i32 as f32 * exact::pow2(-48)
 }

@@ -7,9 +7,12 @@
 //! probability that a light takes over from dead neighbours is found again by looking at just those neighbours
 //! (`dead.rs`). No light loses probability by this, so the variance is never above that of losing the sample.
 
+mod beside;
+mod choose;
 mod dead;
 mod descend;
 mod neighbor;
 mod sample;
+mod search;
 
 pub use sample::{SampledLight, pmf, sample};

@@ -2,31 +2,25 @@
 //! accuracy; or what frames of moving lights cost.
 
 mod dynamic;
+mod passes;
+mod scene;
 mod trade;
 
 use std::hint::black_box;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use lightbvh::exact::{hash, unit_f32};
-use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, SampledLight, ShadingPoint};
-use lightbvh_kernels::bvh::{Importance, Node, WIDTH};
-use lightbvh_kernels::query::Query;
+use lightbvh::BuildParams;
 use serde::Serialize;
 use serde_json::json;
 
 use super::range::{self, Given, given};
 use super::{Context, Outcome, devices, table};
-use crate::backend::{Backend, Bvh, CpuBackend, DeviceBackend, Sampler};
+use crate::backend::{Bvh, CpuBackend, DeviceBackend, Sampler};
 use crate::error::HostError;
 use crate::workload::build;
+use passes::{library_passes, measure, median, passes};
+use scene::{random_lights, random_queries};
 
-/// Side of the box that the lights lie in and edge of a light, metres: the scene of the speed bar.
-const SIDE: f32 = 100.0;
-const EDGE: f32 = 0.1;
-/// Cells along each side that group the triangles into mesh lights: about a hundred triangles each at 10^5.
-const CELLS: u32 = 10;
-/// Runs of each measurement; the median counts.
-const RUNS: usize = 5;
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     /// Number of emissive triangles, 1 to 10^8.
@@ -171,143 +165,6 @@ fn run_dynamic(context: &Context, args: &Args) -> Result<Outcome, HostError> {
         dynamic::print(&report)?;
     }
     Ok(Outcome::Good)
-}
-
-/// Times of several runs of each pass.
-struct Times {
-    refit: Vec<Duration>,
-    refit_once: Vec<Duration>,
-    sample: Vec<Duration>,
-    pmf: Vec<Duration>,
-}
-
-fn passes(backend: &mut dyn Backend, lights: &Lights, queries: &[Query]) -> Result<Times, HostError> {
-    let mut times = Times {
-        refit: Vec::new(),
-        refit_once: Vec::new(),
-        sample: Vec::new(),
-        pmf: Vec::new(),
-    };
-    // A device compiles at the first dispatch; that run is not counted.
-    for run in 0..=RUNS {
-        let refit = backend.refit(lights)?.time;
-        let refit_once = backend.refit_once(lights)?.time;
-        let sampled = backend.sample(queries)?;
-        let asked: Vec<Query> = queries
-            .iter()
-            .zip(&sampled.value)
-            .map(|(query, sampled)| Query {
-                random_or_light: sampled.light,
-                ..*query
-            })
-            .collect();
-        let pmf = backend.pmf(&asked)?.time;
-        if run > 0 {
-            times.refit.push(refit);
-            times.refit_once.push(refit_once);
-            times.sample.push(sampled.time);
-            times.pmf.push(pmf);
-        }
-    }
-    Ok(times)
-}
-
-/// The passes by the library alone, on this thread.
-fn library_passes(structure: Sampler, lights: &Lights, queries: &[Query]) -> Times {
-    let params = BuildParams::default();
-    let mut bvh: LightBvh<Node, WIDTH> = match structure {
-        Sampler::SingleLevel => LightBvh::single_level(lights, &params),
-        _ => LightBvh::two_level(lights, &params),
-    };
-    let mut sampled = vec![SampledLight::NONE; queries.len()];
-    let mut pmfs = vec![0.0; queries.len()];
-    let refit = measure(|| bvh.refit(lights));
-    let sample = measure(|| {
-        for (query, out) in queries.iter().zip(&mut sampled) {
-            *out = bvh.sample::<Importance>(&query.point, query.random_or_light);
-        }
-    });
-    let pmf = measure(|| {
-        for ((query, sampled), out) in queries.iter().zip(&sampled).zip(&mut pmfs) {
-            *out = bvh.pmf::<Importance>(lights, &query.point, sampled.light);
-        }
-    });
-    black_box((&sampled, &pmfs));
-    Times {
-        refit,
-        refit_once: Vec::new(),
-        sample,
-        pmf,
-    }
-}
-
-fn measure(mut work: impl FnMut()) -> Vec<Duration> {
-    (0..RUNS)
-        .map(|_| {
-            let start = Instant::now();
-            work();
-            start.elapsed()
-        })
-        .collect()
-}
-
-fn median(times: &[Duration]) -> Duration {
-    let mut sorted = times.to_vec();
-    sorted.sort_unstable();
-    sorted.get(sorted.len() / 2).copied().unwrap_or_default()
-}
-
-/// Small triangles anywhere in the box, grouped into mesh lights by the cell that they lie in.
-fn random_lights(count: u32) -> Lights {
-    let draw = |i: u32, k: u32| unit_f32(hash(hash(i).wrapping_add(k)));
-    let mut triangles: Vec<(u32, EmissiveTriangle)> = (0..count)
-        .map(|i| {
-            let corner: [f32; 3] = std::array::from_fn(|k| draw(i, k as u32) * SIDE);
-            let vertex = |v: u32| std::array::from_fn(|k| corner[k] + EDGE * draw(i, 3 + 3 * v + k as u32));
-            let radiance = std::array::from_fn(|k| 0.1 + draw(i, 12 + k as u32));
-            let cell = corner.map(|c| (c / SIDE * CELLS as f32) as u32);
-            let cell = (cell[0] * CELLS + cell[1]) * CELLS + cell[2];
-            let p = [vertex(0), vertex(1), vertex(2)];
-            (
-                cell,
-                EmissiveTriangle {
-                    p,
-                    radiance,
-                    mesh: 0,
-                    flags: 0,
-                },
-            )
-        })
-        .collect();
-    triangles.sort_by_key(|&(cell, _)| cell);
-    let mut mesh = 0;
-    let mut last = None;
-    let numbered = triangles.into_iter().map(|(cell, mut triangle)| {
-        mesh += u32::from(last.is_some_and(|last| last != cell));
-        last = Some(cell);
-        triangle.mesh = mesh;
-        triangle
-    });
-    Lights::new(numbered.collect()).expect("the lights are made within the domain")
-}
-
-/// Points in the box with any normal.
-fn random_queries(count: u32) -> Vec<Query> {
-    (0..count)
-        .map(|i| {
-            let draw = |k: u32| unit_f32(hash(hash(!i).wrapping_add(k)));
-            let p = std::array::from_fn(|k| draw(k as u32) * SIDE);
-            let d: [f32; 3] = std::array::from_fn(|k| 2.0 * draw(3 + k as u32) - 1.0);
-            let length = d.iter().map(|x| x * x).sum::<f32>().sqrt().max(1e-6);
-            Query {
-                point: ShadingPoint {
-                    p,
-                    n: d.map(|x| x / length),
-                },
-                random_or_light: hash(i),
-            }
-        })
-        .collect()
 }
 
 fn print(context: &Context, cases: &[Case], trade: &[trade::Row]) -> Result<(), HostError> {
