@@ -134,7 +134,7 @@ fn roots_below_the_normal_numbers_are_zero() {
 }
 
 #[test]
-#[ignore = "takes 1 minute: all 2^32 bit patterns"]
+#[ignore = "all 2^32 words: 37 s on two cores, with the quotients"]
 fn every_float_has_the_ieee_root() {
     for bits in 0..=u32::MAX {
         let x = f32::from_bits(bits);
@@ -157,7 +157,7 @@ fn random_and_structured_quotients_are_ieee() {
 }
 
 #[test]
-#[ignore = "takes 1 minute: 10^9 quotients"]
+#[ignore = "10^9 quotients: 37 s on two cores, with the roots"]
 fn a_billion_quotients_are_ieee() {
     check_quotients(1_000_000_000, 0x5eed_0002);
 }

@@ -141,25 +141,25 @@ fn a_share_of_all_words() {
 }
 
 #[test]
-#[ignore = "all 2^32 words: about 80 s of processor time, 127 times the share's"]
+#[ignore = "all 2^32 words: the four of this file together 132 s on two cores"]
 fn every_root() {
     words(1, root);
 }
 
 #[test]
-#[ignore = "all 2^32 words: about 80 s of processor time, 127 times the share's"]
+#[ignore = "all 2^32 words: the four of this file together 132 s on two cores"]
 fn every_reciprocal_and_third() {
     words(1, quotient);
 }
 
 #[test]
-#[ignore = "all 2^32 words: about 80 s of processor time, 127 times the share's"]
+#[ignore = "all 2^32 words: the four of this file together 132 s on two cores"]
 fn every_cheap_reciprocal() {
     words(1, cheap);
 }
 
 #[test]
-#[ignore = "all 2^32 words: about 80 s of processor time, 127 times the share's"]
+#[ignore = "all 2^32 words: the four of this file together 132 s on two cores"]
 fn every_conversion() {
     words(1, conversion);
 }
