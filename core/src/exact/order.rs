@@ -29,6 +29,30 @@ pub fn clamp(x: f32, lo: f32, hi: f32) -> f32 {
     }
 }
 
+/// All ones for a `count` of 1 to 2^31, zero for 0: for [`masked`].
+#[inline(always)]
+#[must_use]
+pub(crate) fn mask(count: u32) -> u32 {
+    ((count.wrapping_neg() as i32) >> 31) as u32
+}
+
+/// `a` where `mask` is all ones, `b` where it is zero: a select that stays one.
+///
+/// Processors of the x86 family have no conditional move for floats, so there the compiler makes a branch of most
+/// selects; and a branch that hangs on chance is foretold wrongly half of the time.
+#[inline(always)]
+#[must_use]
+pub(crate) fn masked(mask: u32, a: f32, b: f32) -> f32 {
+    f32::from_bits(masked_u32(mask, a.to_bits(), b.to_bits()))
+}
+
+/// [`masked`] for integers.
+#[inline(always)]
+#[must_use]
+pub(crate) fn masked_u32(mask: u32, a: u32, b: u32) -> u32 {
+    b ^ ((a ^ b) & mask)
+}
+
 /// `|x|`, by its sign bit: unlike SPIR-V's `FAbs` this never flushes.
 #[inline]
 #[must_use]
@@ -87,6 +111,19 @@ pub fn order_key(x: f32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn masks_choose_whole_words() {
+        let words = [0, 1, SIGN, 0x7fc0_0001, u32::MAX, 1.5f32.to_bits()];
+        for count in [1, 2, 15, 1 << 16, SIGN] {
+            assert_eq!((mask(0), mask(count)), (0, u32::MAX), "{count}");
+        }
+        for (a, b) in words.iter().flat_map(|&a| words.map(|b| (a, b))) {
+            let (x, y) = (f32::from_bits(a), f32::from_bits(b));
+            assert_eq!(masked(mask(3), x, y).to_bits(), a);
+            assert_eq!(masked(mask(0), x, y).to_bits(), b);
+        }
+    }
 
     /// Numbers around every integer and every half, and evenly over the words.
     #[test]

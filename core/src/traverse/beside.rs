@@ -2,6 +2,7 @@
 
 use super::descend::Descent;
 use super::neighbor::Neighbor;
+use crate::exact;
 use crate::node::{LightNode, kind};
 use crate::trail::max_levels;
 use crate::tree::{INVALID, LightTree, MeshLeaf};
@@ -41,19 +42,17 @@ impl<const W: usize> Beside<W> {
         }
     }
 
-    /// Becomes `other` if `yes`, field by field so that every one is a select.
+    /// Becomes `other` if `open`, the slots with importance on this side of it, is not zero: which side has any is as
+    /// random as the choice, so there is no branch.
     #[inline(always)]
-    pub fn replace(&mut self, yes: bool, other: &Self) {
-        self.index = if yes { other.index } else { self.index };
-        self.position = if yes { other.position } else { self.position };
-        self.before = if yes { other.before } else { self.before };
-        self.sum = if yes { other.sum } else { self.sum };
+    pub fn replace(&mut self, open: u32, other: &Self) {
+        let mask = exact::mask(open);
+        self.index = exact::masked_u32(mask, other.index, self.index);
+        self.position = exact::masked_u32(mask, other.position, self.position);
+        self.before = exact::masked(mask, other.before, self.before);
+        self.sum = exact::masked(mask, other.sum, self.sum);
         for slot in 0..W {
-            self.weights[slot] = if yes {
-                other.weights[slot]
-            } else {
-                self.weights[slot]
-            };
+            self.weights[slot] = exact::masked(mask, other.weights[slot], self.weights[slot]);
         }
     }
 

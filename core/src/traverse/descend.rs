@@ -152,12 +152,12 @@ pub(super) fn descend<
         let alive = valid & within & (sum > 0.0);
         let (to, link) = (node.kind(chosen as usize), node.link(chosen as usize));
 
-        // Which side of the chosen slot has importance is as random as the choice: selects, no branches.
+        // The slot chosen, and which side of it has importance, are random: masks, for selects would become branches.
         let mut weight = 0.0;
         let mut some = 0;
         for slot in 0..W {
             let w = weights[slot];
-            weight = if slot as u32 == chosen { w } else { weight };
+            weight = exact::masked(!exact::mask(slot as u32 ^ chosen), w, weight);
             some |= u32::from(w > 0.0) << slot;
         }
         let some = if alive { some } else { 0 };
@@ -168,8 +168,8 @@ pub(super) fn descend<
             weights,
             sum,
         };
-        left.replace(some & ((1 << chosen) - 1) != 0, &here);
-        right.replace((some >> chosen) > 1, &here);
+        left.replace(some & ((1 << chosen) - 1), &here);
+        right.replace(some >> chosen >> 1, &here);
 
         let passes = alive & (weight > 0.0);
         let product = exact::max(
