@@ -52,7 +52,7 @@ mod refit;
 mod regressions;
 
 // Tests run in the order of their names and stop at the first failure, so those that see most come early.
-#[path = "../tests/tests/known_words/main.rs"]
+#[path = "../tests/tests/known_words/mod.rs"]
 mod first_known_words;
 #[path = "../tests/tests/messages.rs"]
 mod first_messages;

@@ -125,7 +125,7 @@ fn row(case: &Case, what: &str, most: u32, one: impl Fn(u32) -> (Vec<[f32; 3]>, 
     row
 }
 
-/// `SCENE=street FRAME=50 cargo test --release -p lightbvh-tests --test restir_error -- --ignored --nocapture`
+/// `SCENE=street FRAME=50 cargo test --release -p lightbvh-tests restir_error -- --ignored --nocapture`
 #[test]
 #[ignore = "a measurement: minutes"]
 fn candidates_from_the_light_bvh_have_less_error_at_equal_rays() {

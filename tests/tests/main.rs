@@ -1,0 +1,47 @@
+//! All tests of this package, one module per concern, in one program: as programs of their own most of their compilation was
+//! the same code again.
+
+mod bounds;
+mod broken_kernels;
+mod bsdf_sampling;
+mod climb;
+mod climb_device;
+mod dead;
+mod deep;
+mod deep_scene;
+mod encoding;
+mod exact_exhaustive;
+mod exact_inputs;
+mod film;
+mod gltf;
+mod gltf_hostile;
+mod hostile;
+mod importance;
+mod instance;
+mod known_answers;
+mod known_words;
+mod lanes;
+mod messages;
+mod methods;
+mod metrics;
+mod path;
+mod path_device;
+mod points;
+mod rebuilder;
+mod refit;
+mod regressions;
+mod render_flush;
+mod render_light;
+mod render_material;
+mod render_pick;
+mod render_rays;
+mod restir;
+mod restir_error;
+mod restir_unbiased;
+mod sampling;
+mod scene;
+mod scene_edits;
+mod scenes;
+mod spirv_rules;
+mod unbiased;
+mod vulkan_device;

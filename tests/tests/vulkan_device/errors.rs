@@ -1,0 +1,179 @@
+//! What a device is asked wrongly comes back as an error that says so.
+
+use std::time::{Duration, Instant};
+
+use lightbvh_host::vulkan::{Device, Options, Pass, VulkanError};
+use lightbvh_tests::devices::{devices, on_each_device, open};
+
+use super::{Push, ROW, expected, scale_index, values};
+
+#[test]
+fn misuse_that_validation_sees_is_an_error() {
+    for info in &devices().devices {
+        let device = open(info, Options::default());
+        // The module claims 64-bit integers, a feature this host never enables.
+        let mut words = scale_index();
+        words.splice(5..5, [2 << 16 | 17, 11]);
+        match device.kernel_from_words("int64", &words) {
+            Err(VulkanError::Validation { count, first, .. }) => {
+                assert!(count > 0 && !first.is_empty());
+                assert!(device.close().is_err(), "what was said is not forgotten");
+            }
+            other => assert!(
+                matches!(
+                    Device::open(
+                        info,
+                        Options {
+                            validation: true,
+                            ..Options::default()
+                        }
+                    ),
+                    Err(VulkanError::NoValidationLayer)
+                ),
+                "{}: {other:?}",
+                info.probe.name
+            ),
+        }
+    }
+}
+
+#[test]
+fn corrupt_modules_are_errors() {
+    on_each_device(Options::default(), |device| {
+        let words = scale_index();
+        let refused = |words: &[u32]| match device.kernel_from_words("corrupt", words) {
+            Err(VulkanError::BadModule { source, .. }) => source.at,
+            other => panic!("{}: {other:?}", device.name()),
+        };
+        assert_eq!(refused(&[]), 0);
+        assert_eq!(refused(&words[..4]), 4);
+        assert_eq!(refused(&[words.as_slice(), &[0]].concat()), words.len());
+        assert_eq!(refused(&words[..7]), 7);
+        let mut swapped = words.clone();
+        swapped[0] = swapped[0].swap_bytes();
+        assert_eq!(refused(&swapped), 0);
+    });
+}
+
+#[test]
+fn dispatches_that_do_not_fit_the_kernel_are_errors() {
+    on_each_device(Options::default(), |device| {
+        let kernel = device
+            .kernel_from_words("scale_index", &scale_index())
+            .expect("a kernel");
+        let input = device.upload(&[1u32, 2, 3]).expect("an upload");
+        let output = device.output::<[u32; 2]>(3).expect("an output");
+        let push = bytemuck::bytes_of(&Push { count: 3, factor: 1 }).to_vec();
+        let refused = |buffers: &[_], push: &[u8], invocations| {
+            let mut pass = Pass::new();
+            pass.dispatch(&kernel, buffers, push, invocations);
+            match device.run(&pass) {
+                Err(VulkanError::BadDispatch { what, .. }) => what,
+                other => panic!("{}: {other:?}", device.name()),
+            }
+        };
+        let both = [input.bind(), output.bind()];
+        assert_eq!(refused(&both[..1], &push, 3), "it takes 2 buffers, 1 were given");
+        assert_eq!(
+            refused(&both, &push[..4], 3),
+            "it takes 8 bytes of push constants, 4 were given"
+        );
+        let swapped = [output.bind(), input.bind()];
+        assert_eq!(
+            refused(&swapped, &push, 3),
+            "buffer 0 has elements of 8 bytes, not 4"
+        );
+        assert!(refused(&both, &push, u32::MAX).contains("more than 32 bits"));
+    });
+}
+
+#[test]
+fn objects_of_another_device_are_refused() {
+    let list = devices();
+    let Some(info) = list.devices.first() else { return };
+    let (one, other) = (open(info, Options::default()), open(info, Options::default()));
+    let words = scale_index();
+    let kernel = one.kernel_from_words("scale_index", &words).expect("a kernel");
+    let mut pass = Pass::new();
+    pass.dispatch(&kernel, &[], &[], 1);
+    assert!(matches!(other.run(&pass), Err(VulkanError::ForeignObject { .. })));
+    let kernel = other.kernel_from_words("scale_index", &words).expect("a kernel");
+    let input = one.upload(&[1u32]).expect("an upload");
+    let output = other.output::<[u32; 2]>(1).expect("an output");
+    let mut pass = Pass::new();
+    pass.dispatch(&kernel, &[input.bind(), output.bind()], &[0; 8], 1);
+    assert!(matches!(other.run(&pass), Err(VulkanError::ForeignObject { .. })));
+    let Err(VulkanError::StillHeld { holders: 1, .. }) = one.close() else {
+        panic!("a buffer is held")
+    };
+}
+
+#[test]
+fn buffers_over_a_limit_say_so() {
+    on_each_device(Options::default(), |device| {
+        let limit = device.probe().limits.max_storage_buffer_range;
+        let Ok(words) = usize::try_from(limit / 4 + 1) else {
+            return;
+        };
+        match device.output::<u32>(words) {
+            Err(VulkanError::BufferTooLarge {
+                bytes, limit: named, ..
+            }) => {
+                assert!(bytes == words as u64 * 4 && bytes > named, "{}", device.name());
+            }
+            other => panic!("{}: {:?}", device.name(), other.map(|buffer| buffer.len())),
+        }
+        let mut buffer = device.upload(&[1u32, 2]).expect("an upload");
+        assert!(matches!(
+            buffer.write(&[1]),
+            Err(VulkanError::WrongLength { given: 1, held: 2 })
+        ));
+    });
+}
+
+#[test]
+fn work_beyond_the_time_limit_is_an_error_and_the_device_recovers() {
+    // No time at all: every submission is over the limit, and memory that the host reaches needs none to be filled.
+    on_each_device(
+        Options {
+            time_limit: Duration::ZERO,
+            ..Options::default()
+        },
+        |device| {
+            if !device.probe().unified_memory {
+                return;
+            }
+            let kernel = device
+                .kernel_from_words("scale_index", &scale_index())
+                .expect("a kernel");
+            let input = values(ROW);
+            let buffer = device.upload(&input).expect("an upload");
+            let output = device.output::<[u32; 2]>(input.len()).expect("an output");
+            let push = Push {
+                count: ROW,
+                factor: 5,
+            };
+            let mut pass = Pass::new();
+            pass.dispatch(
+                &kernel,
+                &[buffer.bind(), output.bind()],
+                bytemuck::bytes_of(&push),
+                ROW,
+            );
+            match device.run(&pass) {
+                Err(VulkanError::Timeout { work, .. }) => assert_eq!(work, "scale_index"),
+                other => panic!("{}: {other:?}", device.name()),
+            }
+            let start = Instant::now();
+            let results = loop {
+                match output.read() {
+                    Err(VulkanError::Busy { .. }) if start.elapsed() < Duration::from_secs(60) => {
+                        std::thread::sleep(Duration::from_millis(1));
+                    }
+                    results => break results.expect("the results, late"),
+                }
+            };
+            assert!(results == expected(&input, 5), "{}", device.name());
+        },
+    );
+}

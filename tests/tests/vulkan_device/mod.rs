@@ -1,0 +1,206 @@
+//! The host's Vulkan side, on every device of the machine and under the validation layer.
+
+mod errors;
+mod list;
+
+use bytemuck::{Pod, Zeroable};
+use lightbvh_host::vulkan::{Device, Options, Pass, UNWRITTEN};
+use lightbvh_tests::devices::on_each_device;
+
+/// Push constants of the test kernel `scale_index` (tests/data/vulkan).
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Push {
+    count: u32,
+    factor: u32,
+}
+
+/// Items that fill one row of a 2-D dispatch.
+const ROW: u32 = 65_535 * 64;
+
+fn scale_index() -> Vec<u32> {
+    let bytes = include_bytes!("../../data/vulkan/scale_index.spv");
+    bytes
+        .chunks_exact(4)
+        .map(|word| u32::from_le_bytes(word.try_into().expect("four bytes")))
+        .collect()
+}
+
+/// What `scale_index` computes.
+fn expected(input: &[u32], factor: u32) -> Vec<[u32; 2]> {
+    (0..)
+        .zip(input)
+        .map(|(i, value)| [value.wrapping_mul(factor).wrapping_add(i), i])
+        .collect()
+}
+
+/// Runs `scale_index` over `input` with room for `spare` more results.
+fn run(device: &Device, input: &[u32], factor: u32, spare: usize) -> Vec<[u32; 2]> {
+    let kernel = device
+        .kernel_from_words("scale_index", &scale_index())
+        .expect("a kernel");
+    let count = u32::try_from(input.len()).expect("a count");
+    let buffer = device.upload(input).expect("an upload");
+    let output = device.output::<[u32; 2]>(input.len() + spare).expect("an output");
+    let mut pass = Pass::new();
+    let push = Push { count, factor };
+    pass.dispatch(
+        &kernel,
+        &[buffer.bind(), output.bind()],
+        bytemuck::bytes_of(&push),
+        count,
+    );
+    device.run(&pass).expect("a run");
+    output.read().expect("the results")
+}
+
+fn values(count: u32) -> Vec<u32> {
+    (0..count)
+        .map(|i| i.wrapping_mul(0x9e37_79b9) ^ (i >> 3))
+        .collect()
+}
+
+#[test]
+fn results_come_back_and_surplus_words_stay_unwritten() {
+    for force_staging in [false, true] {
+        on_each_device(
+            Options {
+                force_staging,
+                ..Options::default()
+            },
+            |device| {
+                let input = values(1000);
+                let output = run(device, &input, 3, 24);
+                assert_eq!(output[..1000], expected(&input, 3), "{}", device.name());
+                assert_eq!(output[1000..], [[UNWRITTEN; 2]; 24], "{}", device.name());
+            },
+        );
+    }
+}
+
+#[test]
+fn dispatches_above_65535_groups_number_every_item_once() {
+    on_each_device(Options::default(), |device| {
+        for count in [ROW - 1, ROW, ROW + 1, ROW + 12_345] {
+            let input = values(count);
+            let output = run(device, &input, 7, 1);
+            assert!(
+                output[..count as usize] == expected(&input, 7),
+                "{} {count}",
+                device.name()
+            );
+            assert_eq!(
+                output[count as usize],
+                [UNWRITTEN; 2],
+                "{} {count}",
+                device.name()
+            );
+        }
+    });
+}
+
+#[test]
+fn copies_larger_than_the_staging_buffer_are_whole() {
+    on_each_device(
+        Options {
+            force_staging: true,
+            ..Options::default()
+        },
+        |device| {
+            let words = values((33 << 20) / 4 + 5);
+            let mut buffer = device.upload(&words).expect("an upload");
+            assert!(buffer.read_words().expect("a read") == words, "{}", device.name());
+            buffer.mark_unwritten().expect("a fill");
+            assert!(
+                buffer
+                    .read()
+                    .expect("a read")
+                    .iter()
+                    .all(|word| *word == UNWRITTEN),
+                "{}",
+                device.name()
+            );
+        },
+    );
+}
+
+#[test]
+fn empty_buffers_and_empty_dispatches_are_fine() {
+    for force_staging in [false, true] {
+        on_each_device(
+            Options {
+                force_staging,
+                ..Options::default()
+            },
+            |device| {
+                assert_eq!(run(device, &[], 3, 0), Vec::<[u32; 2]>::new());
+                assert_eq!(run(device, &[], 3, 2), vec![[UNWRITTEN; 2]; 2]);
+                let timings = device.run(&Pass::new()).expect("an empty pass");
+                assert_eq!(timings.dispatch_ns.unwrap_or_default(), Vec::<f64>::new());
+            },
+        );
+    }
+}
+
+#[test]
+fn later_dispatches_of_a_pass_see_earlier_ones_and_each_has_a_time() {
+    on_each_device(Options::default(), |device| {
+        let kernel = device
+            .kernel_from_words("scale_index", &scale_index())
+            .expect("a kernel");
+        let input = values(100_000);
+        let buffer = device.upload(&input).expect("an upload");
+        let output = device.output::<[u32; 2]>(input.len()).expect("an output");
+        let pushes: Vec<Push> = (1..=10)
+            .map(|factor| Push {
+                count: 100_000,
+                factor,
+            })
+            .collect();
+        let mut pass = Pass::new();
+        for push in &pushes {
+            pass.dispatch(
+                &kernel,
+                &[buffer.bind(), output.bind()],
+                bytemuck::bytes_of(push),
+                push.count,
+            );
+        }
+        let timings = device.run(&pass).expect("a run");
+        assert!(
+            output.read().expect("the results") == expected(&input, 10),
+            "{}",
+            device.name()
+        );
+        if device.probe().limits.timestamp_valid_bits > 0 {
+            let times = timings.dispatch_ns.expect("times where the device keeps time");
+            assert_eq!(times.len(), 10);
+            assert!(
+                times.iter().all(|ns| ns.is_finite() && *ns >= 0.0),
+                "{} {times:?}",
+                device.name()
+            );
+            let sum: f64 = times.iter().sum();
+            let wall = timings.wall.as_nanos() as f64;
+            // Both clocks count nanoseconds; a tenth and a microsecond are for their different rates and steps.
+            assert!(
+                sum > 0.0 && sum <= wall * 1.1 + 1e3,
+                "{} {sum} ns of {wall}",
+                device.name()
+            );
+        }
+    });
+}
+
+#[test]
+fn the_self_test_runs_and_software_devices_are_exact() {
+    on_each_device(Options::default(), |device| {
+        let verdict = device.self_test().expect("a verdict");
+        println!("{} ({}): {verdict}", device.name(), device.probe().driver.info);
+        assert_eq!(verdict.exact, verdict.defects.is_empty());
+        // VkDriverId of SwiftShader and llvmpipe; other devices get a verdict, whatever it is.
+        if [10, 13].contains(&device.probe().driver.id) {
+            assert!(verdict.exact, "{}: {:#?}", device.name(), verdict.defects);
+        }
+    });
+}
