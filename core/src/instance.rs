@@ -200,7 +200,8 @@ impl MeshLeaf for Instance {
         LocalPoint::inside(self, point)
     }
 
-    #[inline]
+    // Left to the compiler it is inlined in small programs only; called, it keeps `lanes` from running lanes side by side.
+    #[inline(always)]
     fn to_world(&self, local: &LightBounds) -> LightBounds {
         world::to_world(self, local)
     }
