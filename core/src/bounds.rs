@@ -4,8 +4,10 @@ use glam::Vec3;
 
 use crate::cone::{Cone, normalized};
 use crate::exact::{self, exponent, pow2, significand};
+use crate::instance::Instance;
 use crate::light::EmissiveTriangle;
-use crate::vector::{cross, dot};
+use crate::summary::{SUMMARY_WORDS, Summary};
+use crate::vector::{cross, dot, length_squared};
 
 /// Smallest flux that is not zero, W: smaller ones count as this much.
 pub const MIN_PHI: f32 = pow2(-100);
@@ -13,6 +15,9 @@ pub const MIN_PHI: f32 = pow2(-100);
 pub const MAX_PHI: f32 = pow2(100);
 /// Largest flux of a set of lights, W: 2^126. Sums stop there.
 pub(crate) const MAX_SUM: f32 = pow2(126);
+
+/// A constant of its own: rust-gpu does not fold an expression of literals.
+const TWELFTH: f32 = 1.0 / 12.0;
 
 /// Bounds of the emission of a set of lights (Conty Estevez & Kulla 2018, section 4.1; pbrt-v4 `LightBounds`).
 ///
@@ -107,30 +112,12 @@ impl LightBounds {
     #[inline]
     #[must_use]
     pub fn merge(&self, other: &Self) -> Self {
-        let mut around = self.cone();
-        if self.merges_cones(other) {
-            around = around.smallest_around(other.cone());
-        }
-        self.merge_around(other, around)
-    }
-
-    /// Whether [`merge`](Self::merge) needs the smallest cone around both cones: both have flux, and neither cone is the
-    /// whole sphere.
-    #[inline(always)]
-    pub(crate) fn merges_cones(&self, other: &Self) -> bool {
-        let (both_emit, no_sphere) = (
-            self.phi != 0.0 && other.phi != 0.0,
-            self.cos_theta_o > -1.0 && other.cos_theta_o > -1.0,
-        );
-        both_emit && no_sphere
-    }
-
-    /// [`merge`](Self::merge) where the smallest cone around both cones, if it is needed, is known.
-    #[inline(always)]
-    pub(crate) fn merge_around(&self, other: &Self, around: Cone) -> Self {
         let kept = if other.phi == 0.0 { *self } else { *other };
         let both = self.phi != 0.0 && other.phi != 0.0;
-        let cone = self.cone().union_around(other.cone(), around);
+        let mut cone = self.cone();
+        if both {
+            cone = cone.union(other.cone());
+        }
         Self {
             min: select3(both, min3(self.min, other.min), kept.min),
             max: select3(both, max3(self.max, other.max), kept.max),
@@ -156,6 +143,119 @@ impl LightBounds {
         Cone {
             axis: self.axis,
             cos_theta_o: self.cos_theta_o,
+        }
+    }
+}
+
+impl Summary for LightBounds {
+    const EMPTY: Self = Self::EMPTY;
+    const NAMES: [&'static str; SUMMARY_WORDS] = [
+        "least x",
+        "least y",
+        "least z",
+        "greatest x",
+        "greatest y",
+        "greatest z",
+        "axis x",
+        "axis y",
+        "axis z",
+        "cos θ_o",
+        "cos θ_e",
+        "flux",
+    ];
+
+    #[inline(always)]
+    fn of_triangle(triangle: &EmissiveTriangle) -> Self {
+        Self::of_triangle(triangle)
+    }
+
+    #[inline(always)]
+    fn merged<const W: usize>(children: &[Self; W]) -> Self {
+        let mut merged = Self::EMPTY;
+        for slot in 0..W {
+            merged = merged.merge(&children[slot]);
+        }
+        merged
+    }
+
+    #[inline(always)]
+    fn to_world(&self, instance: &Instance) -> Self {
+        instance.bounds_to_world(self)
+    }
+
+    #[inline(always)]
+    fn phi(&self) -> f32 {
+        self.phi
+    }
+
+    #[inline(always)]
+    fn center(&self) -> Vec3 {
+        (self.min + self.max) * 0.5
+    }
+
+    /// That of points spread evenly over the box.
+    #[inline(always)]
+    fn spread(&self) -> f32 {
+        let extent = self.max - self.min;
+        length_squared(extent) * TWELFTH
+    }
+
+    #[inline(always)]
+    fn bounds(&self) -> LightBounds {
+        *self
+    }
+
+    fn uncontained(&self, child: &Self) -> Option<usize> {
+        // Without flux a box and a cone mean nothing.
+        if child.phi == 0.0 {
+            return None;
+        }
+        let (outer, inner) = (self.to_words(), child.to_words());
+        for k in 0..3 {
+            if inner[k] < outer[k] {
+                return Some(k);
+            }
+            if inner[3 + k] > outer[3 + k] {
+                return Some(3 + k);
+            }
+        }
+        if !self.cone().contains(child.cone()) {
+            return Some(9);
+        }
+        if child.cos_theta_e < self.cos_theta_e {
+            return Some(10);
+        }
+        (child.phi > self.phi).then_some(11)
+    }
+
+    #[inline(always)]
+    fn to_words(&self) -> [f32; SUMMARY_WORDS] {
+        let (lo, hi, a) = (self.min, self.max, self.axis);
+        [
+            lo.x,
+            lo.y,
+            lo.z,
+            hi.x,
+            hi.y,
+            hi.z,
+            a.x,
+            a.y,
+            a.z,
+            self.cos_theta_o,
+            self.cos_theta_e,
+            self.phi,
+        ]
+    }
+
+    #[inline(always)]
+    fn from_words(words: &[f32; SUMMARY_WORDS]) -> Self {
+        Self {
+            min: Vec3::new(words[0], words[1], words[2]),
+            max: Vec3::new(words[3], words[4], words[5]),
+            axis: Vec3::new(words[6], words[7], words[8]),
+            cos_theta_o: words[9],
+            cos_theta_e: words[10],
+            phi: words[11],
         }
     }
 }

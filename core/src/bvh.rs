@@ -4,117 +4,131 @@ mod construct;
 
 use alloc::vec::Vec;
 
-use crate::bounds::LightBounds;
 use crate::importance::ImportanceModel;
-use crate::lanes;
+use crate::instance::Instance;
 use crate::levels::Levels;
 use crate::lights::Lights;
 use crate::node::LightNode;
 use crate::point::ShadingPoint;
 use crate::refit;
 use crate::refit::BlasRoot;
-use crate::traverse::{self, SampledLight};
-use crate::tree::{INVALID, LightTree, MeshLeaf, MeshLight};
+use crate::sweep;
+use crate::traverse::{self, Random64, SampledLight};
+use crate::tree::{INVALID, LightTree};
 
-/// A light BVH over [`Lights`], of one or two levels, with nodes of layout `N` and width `W`; `L` is what leaves of the top
-/// level are.
+/// A light BVH over [`Lights`], of one or two levels, with nodes of layout `N` and width `W`.
 #[derive(Clone, Debug)]
-pub struct LightBvh<N, const W: usize, L = MeshLight> {
+pub struct LightBvh<N, const W: usize> {
     nodes: Vec<N>,
     /// Index of the node that walks start at; the nodes of the top level stand from here to the end.
     root: u32,
-    meshes: Vec<L>,
+    instances: Vec<Instance>,
     roots: Vec<BlasRoot>,
     trails: Vec<u32>,
     trail_words: u32,
     bottom: Levels,
     top: Levels,
     depth: u32,
+    lights: u32,
 }
 
 /// The arrays of a [`LightBvh`], open to any change.
 #[doc(hidden)]
 #[derive(Debug)]
-pub struct Parts<'a, N, L = MeshLight> {
+pub struct Parts<'a, N> {
     pub nodes: &'a mut [N],
-    pub meshes: &'a mut [L],
+    pub instances: &'a mut [Instance],
     pub roots: &'a mut [BlasRoot],
     pub trails: &'a mut [u32],
     pub bottom: &'a mut [u32],
     pub top: &'a mut [u32],
 }
 
-impl<N: LightNode<W>, const W: usize, L: MeshLeaf> LightBvh<N, W, L> {
-    /// New bounds everywhere from `lights`, which must be those that the BVH was built over, moved or changed by
+impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
+    /// New summaries everywhere from `lights`, which must be those that the BVH was built over, moved or changed by
     /// [`Lights::update`].
     pub fn refit(&mut self, lights: &Lights) {
         let bottom_end = if self.is_two_level() {
-            self.root as usize
+            self.root
         } else {
-            self.nodes.len()
+            self.nodes.len() as u32
         };
-        let bottom: Vec<u32> = (0..bottom_end as u32).collect();
-        lanes::leaves(&mut self.nodes, lights.triangles(), &bottom);
-        self.refit_inner();
-    }
-
-    /// The passes of refit after the first.
-    pub(super) fn refit_inner(&mut self) {
-        for range in self.bottom.ranges() {
-            lanes::level(&mut self.nodes, &self.bottom.nodes[range]);
+        #[cfg(feature = "rayon")]
+        if rayon::current_num_threads() > 1 {
+            for range in self.bottom.ranges() {
+                sweep::bottom(&mut self.nodes, lights.triangles(), &self.bottom.nodes[range]);
+            }
+            self.refit_top();
+            return;
         }
+        sweep::bottom_sweep(&mut self.nodes, lights.triangles(), 0..bottom_end);
         self.refit_top();
     }
 
-    pub(super) fn refit_top(&mut self) {
+    fn refit_top(&mut self) {
         if self.is_two_level() {
             for blas in &mut self.roots {
                 *blas = refit::root(&self.nodes, blas.node);
             }
-            let top: Vec<u32> = (self.root..self.nodes.len() as u32).collect();
-            lanes::mesh_leaves(&mut self.nodes, &self.meshes, &self.roots, &top);
             for range in self.top.ranges() {
-                lanes::level(&mut self.nodes, &self.top.nodes[range]);
+                sweep::top(&mut self.nodes, &self.instances, &self.roots, &self.top.nodes[range]);
             }
         }
     }
 
     /// Chooses a light for `point`, which is within the domain of [`ShadingPoint::checked`]; see [`traverse::sample`].
     #[must_use]
-    pub fn sample<I: ImportanceModel>(&self, point: &ShadingPoint, random: u32) -> SampledLight {
+    pub fn sample<I: ImportanceModel<N, W>>(
+        &self,
+        point: &ShadingPoint,
+        random: impl Into<Random64>,
+    ) -> SampledLight {
         debug_assert!(point.is_within_reach(), "not a shading point: {point:?}");
-        traverse::sample::<N, I, L, W>(&self.tree(), point, random)
+        traverse::sample::<N, I, W>(&self.tree(), point, random.into())
+    }
+
+    /// Chooses a light for each of `points`, points as for [`sample`](Self::sample); see [`traverse::sample_batch`].
+    pub fn sample_batch<I: ImportanceModel<N, W>>(
+        &self,
+        points: &[ShadingPoint],
+        randoms: &[Random64],
+        sampled: &mut [SampledLight],
+    ) {
+        traverse::sample_batch::<N, I, W>(&self.tree(), points, randoms, sampled);
     }
 
     /// Probability of triangle `light` of `lights` at `point`, a point as for [`sample`](Self::sample); see
     /// [`traverse::pmf`].
     #[must_use]
-    pub fn pmf<I: ImportanceModel>(&self, lights: &Lights, point: &ShadingPoint, light: u32) -> f32 {
+    pub fn pmf<I: ImportanceModel<N, W>>(&self, lights: &Lights, point: &ShadingPoint, light: u32) -> f32 {
         debug_assert!(point.is_within_reach(), "not a shading point: {point:?}");
-        let mesh = match lights.triangles().get(light as usize) {
+        let instance = match lights.triangles().get(light as usize) {
             Some(triangle) if self.is_two_level() => triangle.mesh,
             Some(_) => INVALID,
             None => return 0.0,
         };
-        traverse::pmf::<N, I, L, W>(&self.tree(), point, light, mesh)
+        traverse::pmf::<N, I, W>(&self.tree(), point, light, instance)
     }
 
     /// The arrays as traversal takes them.
     #[must_use]
-    pub fn tree(&self) -> LightTree<'_, N, L> {
+    pub fn tree(&self) -> LightTree<'_, N> {
         LightTree {
             nodes: &self.nodes,
             root: self.root,
-            meshes: &self.meshes,
+            instances: &self.instances,
             trails: &self.trails,
             trail_words: self.trail_words,
+            live: self.instances.len() as u32,
+            lights: self.lights,
+            depth: self.depth,
         }
     }
 
     /// Whether there is a top level over mesh lights.
     #[must_use]
     pub fn is_two_level(&self) -> bool {
-        !self.meshes.is_empty()
+        !self.instances.is_empty()
     }
 
     /// All nodes: those of the bottom levels, then those of the top level from [`LightTree::root`] on.
@@ -130,10 +144,10 @@ impl<N: LightNode<W>, const W: usize, L: MeshLeaf> LightBvh<N, W, L> {
 
     /// Every array that [`validate`](Self::validate) checks, for tests that put wrong words into them.
     #[doc(hidden)]
-    pub fn parts_mut(&mut self) -> Parts<'_, N, L> {
+    pub fn parts_mut(&mut self) -> Parts<'_, N> {
         Parts {
             nodes: &mut self.nodes,
-            meshes: &mut self.meshes,
+            instances: &mut self.instances,
             roots: &mut self.roots,
             trails: &mut self.trails,
             bottom: &mut self.bottom.nodes,
@@ -141,7 +155,7 @@ impl<N: LightNode<W>, const W: usize, L: MeshLeaf> LightBvh<N, W, L> {
         }
     }
 
-    /// The roots of the bottom levels and their bounds; empty in a single-level BVH.
+    /// The roots of the bottom levels and what is known of them; empty in a single-level BVH.
     #[must_use]
     pub fn roots(&self) -> &[BlasRoot] {
         &self.roots
@@ -164,25 +178,25 @@ impl<N: LightNode<W>, const W: usize, L: MeshLeaf> LightBvh<N, W, L> {
         &self.top
     }
 
-    /// Greatest number of nodes on a way from the root to a light.
+    /// Greatest number of nodes on a path from the root to a light.
     #[must_use]
     pub fn depth(&self) -> u32 {
         self.depth
     }
 
-    /// Bounds of all lights.
+    /// What is known of all lights together.
     #[must_use]
-    pub fn bounds(&self) -> LightBounds {
+    pub fn summary(&self) -> N::Summary {
         self.nodes[self.root as usize].merged()
     }
 
-    /// Bytes that sampling and pmf read: nodes of all levels, trails and mesh lights.
+    /// Bytes that sampling and pmf read: nodes of all levels, trails and instances.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        size_of_val(&*self.nodes) + size_of_val(&*self.meshes) + size_of_val(&*self.trails)
+        size_of_val(&*self.nodes) + size_of_val(&*self.instances) + size_of_val(&*self.trails)
     }
 
-    /// Bytes of the level lists and the roots' bounds, which only refit reads.
+    /// Bytes of the level lists and the roots' summaries, which only refit reads.
     #[must_use]
     pub fn refit_bytes(&self) -> usize {
         size_of_val(&*self.bottom.nodes) + size_of_val(&*self.top.nodes) + size_of_val(&*self.roots)

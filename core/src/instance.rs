@@ -1,37 +1,29 @@
 //! Instances: bottom levels in the space of their mesh, shared by all its places in the world.
 //!
-//! An instance moves, turns, mirrors and scales evenly: its map is `x ↦ A x + t` with `A = s Q`, Q orthogonal. Distances
-//! then keep their proportions and angles stay, so importance may be reckoned in the mesh's space, at the point brought
-//! there by `Aᵀ(x − t)/s²`; moving an instance changes one leaf of the top level and nothing below. [`Scene`](crate::scene::Scene) tells
-//! which maps are of that kind; others get a bottom level of their own.
-//!
-//! What rounding on that way may do is bounded and allowed for (see [`Receiver`](crate::point::Receiver)): a light that can
-//! contribute never loses all its importance.
-
-mod local;
-mod world;
-
-pub use local::LocalPoint;
+//! An instance's map is any affine `x ↦ A x + t`. Weights below it are computed in the mesh's space, at the point brought
+//! there by `A⁻¹(x − t)`. Where A scales unevenly, distances there are not in proportion to those in the world: that costs
+//! variance, never a light. Moving an instance changes one leaf of the top level and nothing below.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use crate::bounds::LightBounds;
-use crate::exact::{self, flush, pow2};
+use crate::bounds::{LightBounds, MAX_SUM, MIN_PHI};
+use crate::cone::normalized;
+use crate::exact::{self, exponent, flush, pow2, significand};
 use crate::light::{EmissiveTriangle, MIN_COORDINATE};
 use crate::point::ShadingPoint;
 use crate::trail::BitTrail;
-use crate::tree::MeshLeaf;
-use crate::vector::dot;
+use crate::vector::{dot, length_squared};
 
-/// Lengths below this in a mesh's space count as zero, metres: 2^-75. Entries of the map are zero or at least 2^-45, so no
-/// product with them is subnormal; the slack of an instance is at least 2^-52 m.
-const TINY: f32 = pow2(-75);
+/// Lengths below this in a mesh's space count as zero, metres: 2^-60. Entries of the maps are zero or at least 2^-60, so no
+/// product with them is subnormal.
+const TINY: f32 = pow2(-60);
+/// Greatest magnitude of a coordinate in a mesh's space, 2^60.
+const FAR: f32 = pow2(60);
 
-/// A leaf of the top level: where a mesh stands, and which lights its triangles are there.
+/// A leaf of the top level: where a mesh stands, and which lights its triangles are there. 128 bytes.
 ///
-/// Plain words, as the device reads them. [`Instance::inside`](MeshLeaf::inside) and
-/// [`to_world`](MeshLeaf::to_world) are the maps; everything is derived on the CPU, from the transform and the mesh's extent.
+/// Plain words, as the device reads them; [`Transform`](crate::Transform) derives them on the CPU.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Instance {
@@ -45,58 +37,110 @@ pub struct Instance {
     pub first: u32,
     /// The triangle that its first light is.
     pub first_triangle: u32,
-    /// The columns of A; each entry zero or at least 2^-45.
+    /// Number of its lights.
+    pub count: u32,
+    /// Has nothing to do with this instance: entry k of the list of all instances in use stands in record k.
+    pub listed: u32,
+    /// The columns of A; entries zero or of magnitude 2^-60 to 2^40.
     pub columns: [[f32; 3]; 3],
     /// t, metres.
     pub translation: [f32; 3],
-    /// 1/s.
-    pub per_scale: f32,
-    /// Factor from the flux of a triangle of the mesh to that in the world: s² times the factor on its radiance.
+    /// The columns of A⁻¹; entries zero or of magnitude 2^-60 to 2^60.
+    pub inverse: [[f32; 3]; 3],
+    /// √3 over the Frobenius norm of A⁻¹: makes A⁻ᵀ a map of normals of about unit length.
+    pub per_inverse: f32,
+    /// Mean factor from the flux of a triangle of the mesh to that in the world: the Frobenius norm of A's cofactors over
+    /// √3, times `radiance`; zero, or 2^-100 to 2^100.
     pub flux: f32,
     /// Factor on the mesh's radiance; 0 turns it off.
     pub radiance: f32,
-    /// By how much a vertex in the world may be off the exact map's, metres.
-    pub error: f32,
-    /// By how much that may turn a triangle's normal, rad.
-    pub tilt: f32,
     /// 1 where the map mirrors, else 0.
     pub mirrored: u32,
 }
 
-const _: () = assert!(size_of::<Instance>() == 96);
+const _: () = assert!(size_of::<Instance>() == 132);
 
 impl Instance {
+    /// A bottom level in world space.
+    pub const IDENTITY: Self = Self {
+        root: u32::MAX,
+        trail: [0; 2],
+        blas: u32::MAX,
+        first: 0,
+        first_triangle: 0,
+        count: 0,
+        listed: 0,
+        columns: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        translation: [0.0; 3],
+        inverse: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        per_inverse: 1.0,
+        flux: 1.0,
+        radiance: 1.0,
+        mirrored: 0,
+    };
+
+    /// Its bit trail in the top level.
+    #[inline(always)]
+    #[must_use]
+    pub fn trail(&self) -> BitTrail {
+        BitTrail {
+            low: self.trail[0],
+            high: self.trail[1],
+        }
+    }
+
+    /// Sets its bit trail in the top level.
+    pub fn set_trail(&mut self, trail: BitTrail) {
+        self.trail = [trail.low, trail.high];
+    }
+
+    /// The light that triangle `triangle` of the bottom level is here.
+    #[inline(always)]
+    #[must_use]
+    pub fn light_of(&self, triangle: u32) -> u32 {
+        triangle
+            .wrapping_sub(self.first_triangle)
+            .wrapping_add(self.first)
+    }
+
+    /// The triangle of the bottom level that light `light` is.
+    #[inline(always)]
+    #[must_use]
+    pub fn triangle_of(&self, light: u32) -> u32 {
+        light.wrapping_sub(self.first).wrapping_add(self.first_triangle)
+    }
+
     #[inline(always)]
     fn column(&self, k: usize) -> Vec3 {
-        Vec3::new(self.columns[k][0], self.columns[k][1], self.columns[k][2])
-    }
-
-    /// A v.
-    #[inline(always)]
-    fn turn(&self, v: Vec3) -> Vec3 {
-        (self.column(0) * v.x + self.column(1) * v.y) + self.column(2) * v.z
-    }
-
-    /// Aᵀ v.
-    #[inline(always)]
-    fn turn_back(&self, v: Vec3) -> Vec3 {
-        Vec3::new(
-            dot(self.column(0), v),
-            dot(self.column(1), v),
-            dot(self.column(2), v),
-        )
+        vector(&self.columns[k])
     }
 
     #[inline(always)]
     fn origin(&self) -> Vec3 {
-        Vec3::new(self.translation[0], self.translation[1], self.translation[2])
+        vector(&self.translation)
+    }
+
+    /// A v.
+    #[inline(always)]
+    fn forward(&self, v: Vec3) -> Vec3 {
+        (self.column(0) * v.x + self.column(1) * v.y) + self.column(2) * v.z
+    }
+
+    /// A⁻ᵀ v, of about the length of `v`.
+    #[inline(always)]
+    fn normal_to_world(&self, v: Vec3) -> Vec3 {
+        Vec3::new(
+            dot(vector(&self.inverse[0]), v),
+            dot(vector(&self.inverse[1]), v),
+            dot(vector(&self.inverse[2]), v),
+        ) * self.per_inverse
     }
 
     /// A point of the mesh in the world. This function is the definition of where the lights of an instance are.
     #[inline]
     #[must_use]
     pub fn vertex(&self, p: [f32; 3]) -> [f32; 3] {
-        let v = self.turn(flushed(Vec3::new(p[0], p[1], p[2]))) + self.origin();
+        let v = self.forward(flushed(vector(&p))) + self.origin();
         [
             flush(v.x, MIN_COORDINATE),
             flush(v.y, MIN_COORDINATE),
@@ -133,78 +177,106 @@ impl Instance {
             flags: local.flags,
         }
     }
+
+    /// A point of the world in the space of the mesh, its normal again of about unit length.
+    #[inline(always)]
+    #[must_use]
+    pub fn to_local(&self, point: &ShadingPoint) -> ShadingPoint {
+        let away = flushed(point.position() - self.origin());
+        let p = (vector(&self.inverse[0]) * away.x + vector(&self.inverse[1]) * away.y)
+            + vector(&self.inverse[2]) * away.z;
+        let n = point.normal();
+        let back = flushed(Vec3::new(
+            dot(self.column(0), n),
+            dot(self.column(1), n),
+            dot(self.column(2), n),
+        ));
+        let length = length_squared(back);
+        // A normal that the map loses is that of a volume.
+        let scale = if length >= pow2(-119) {
+            exact::rsqrt(length)
+        } else {
+            0.0
+        };
+        ShadingPoint {
+            p: [
+                flush(exact::clamp(p.x, -FAR, FAR), TINY),
+                flush(exact::clamp(p.y, -FAR, FAR), TINY),
+                flush(exact::clamp(p.z, -FAR, FAR), TINY),
+            ],
+            n: [
+                flush(back.x * scale, TINY),
+                flush(back.y * scale, TINY),
+                flush(back.z * scale, TINY),
+            ],
+        }
+    }
+
+    /// Bounds in the world of what has the bounds `local` in the space of the mesh: the box around the mapped box; the cone
+    /// around the mapped axis, its tangent stretched as much as the map can stretch one against another.
+    #[inline(always)]
+    pub(crate) fn bounds_to_world(&self, local: &LightBounds) -> LightBounds {
+        let center = flushed((local.min + local.max) * 0.5);
+        let half = flushed(local.max - center);
+        let (a, b, c) = (
+            absolute(self.column(0)),
+            absolute(self.column(1)),
+            absolute(self.column(2)),
+        );
+        let middle = self.forward(center) + self.origin();
+        let extent = (a * half.x + b * half.y) + c * half.z;
+        let turned = self.normal_to_world(flushed(local.axis));
+        let squared = length_squared(turned);
+        let axis = if squared > pow2(-30) {
+            normalized(turned * exact::rsqrt(squared))
+        } else {
+            local.axis
+        };
+        LightBounds {
+            min: middle - extent,
+            max: middle + extent,
+            axis,
+            // A map that leaves the axis its length is taken for a similarity; any other may open the cone.
+            cos_theta_o: if squared > 0.99 && squared < 1.01 {
+                local.cos_theta_o
+            } else {
+                exact::min(local.cos_theta_o, -1.0)
+            },
+            cos_theta_e: local.cos_theta_e,
+            phi: self.flux_to_world(local.phi, 1.0),
+        }
+    }
+
+    /// Flux Φ of the mesh in the world, `area` the factor on [`flux`](Self::flux) that its normals ask for, 2^-20 to 2. Positive
+    /// wherever the mesh shines.
+    #[inline(always)]
+    pub(crate) fn flux_to_world(&self, phi: f32, area: f32) -> f32 {
+        // Exponents apart, so that no product leaves the range.
+        let scale = exponent(phi) + exponent(self.flux);
+        let bounded = if scale < -110 {
+            -110
+        } else if scale > 124 {
+            124
+        } else {
+            scale
+        };
+        let world = (significand(phi) * significand(self.flux) * area) * pow2(bounded);
+        if phi > 0.0 && self.flux > 0.0 {
+            exact::clamp(world, MIN_PHI, MAX_SUM)
+        } else {
+            0.0
+        }
+    }
 }
 
-impl MeshLeaf for Instance {
-    type Local = LocalPoint;
+#[inline(always)]
+fn vector(v: &[f32; 3]) -> Vec3 {
+    Vec3::new(v[0], v[1], v[2])
+}
 
-    fn world(root: u32, blas: u32) -> Self {
-        Self {
-            root,
-            trail: [0; 2],
-            blas,
-            first: 0,
-            first_triangle: 0,
-            columns: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-            translation: [0.0; 3],
-            per_scale: 1.0,
-            flux: 1.0,
-            radiance: 1.0,
-            error: 0.0,
-            tilt: 0.0,
-            mirrored: 0,
-        }
-    }
-
-    #[inline(always)]
-    fn root(&self) -> u32 {
-        self.root
-    }
-
-    #[inline(always)]
-    fn blas(&self) -> u32 {
-        self.blas
-    }
-
-    #[inline(always)]
-    fn trail(&self) -> BitTrail {
-        BitTrail {
-            low: self.trail[0],
-            high: self.trail[1],
-        }
-    }
-
-    fn set_trail(&mut self, trail: BitTrail) {
-        self.trail = [trail.low, trail.high];
-    }
-
-    #[inline(always)]
-    fn light_of(&self, triangle: u32) -> u32 {
-        triangle
-            .wrapping_sub(self.first_triangle)
-            .wrapping_add(self.first)
-    }
-
-    #[inline(always)]
-    fn triangle_of(&self, light: u32) -> u32 {
-        light.wrapping_sub(self.first).wrapping_add(self.first_triangle)
-    }
-
-    #[inline(always)]
-    fn outside(point: &ShadingPoint) -> LocalPoint {
-        LocalPoint::outside(point)
-    }
-
-    #[inline(always)]
-    fn inside(&self, point: &ShadingPoint) -> LocalPoint {
-        LocalPoint::inside(self, point)
-    }
-
-    // Left to the compiler it is inlined in small programs only; called, it keeps `lanes` from running lanes side by side.
-    #[inline(always)]
-    fn to_world(&self, local: &LightBounds) -> LightBounds {
-        world::to_world(self, local)
-    }
+#[inline(always)]
+fn absolute(v: Vec3) -> Vec3 {
+    Vec3::new(exact::abs(v.x), exact::abs(v.y), exact::abs(v.z))
 }
 
 /// Without components that a product could make subnormal.

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-/// The nodes with inner children, level by level, deepest first: what `refit::level` is to run over.
+/// Nodes level by level, deepest first: what `refit::bottom` or `refit::top` is to run over.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Levels {
     pub(crate) nodes: Vec<u32>,

@@ -16,7 +16,7 @@
 //! |---|---|
 //! | [`exact`], [`vector`] | the arithmetic |
 //! | [`light`], [`bounds`], [`cone`], [`point`] | lights and what is known of sets of them; the receiver |
-//! | [`importance`] | what children are chosen by |
+//! | [`summary`], [`importance`] | what nodes store of their children, and what these are chosen by |
 //! | [`node`], [`tree`], [`trail`] | layout of nodes, links, bit trails |
 //! | [`refit`] | new bounds on an unchanged topology |
 //! | [`traverse`] | sampling, and the probability of any light |
@@ -30,7 +30,7 @@
     feature = "alloc",
     doc = r#"
 ```
-use lightbvh::{BuildParams, CompactNode, EmissiveTriangle, Eq4, LightBvh, Lights, ShadingPoint};
+use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, MomentNode, Moments, ShadingPoint};
 
 // A thousand small lamps in a row, each a mesh light of one triangle that shines down.
 let lamp = |i: u32| {
@@ -43,15 +43,15 @@ let lamp = |i: u32| {
     }
 };
 let lights = Lights::new((0..1000).map(lamp).collect())?;
-let bvh = LightBvh::<CompactNode<2>, 2>::two_level(&lights, &BuildParams::default());
+let bvh = LightBvh::<MomentNode<8>, 8>::two_level(&lights, &BuildParams::default());
 
 // One light for a point on the floor, chosen by 32 random bits.
 let floor = ShadingPoint { p: [500.0, 0.0, 0.0], n: [0.0, 1.0, 0.0] };
-let sampled = bvh.sample::<Eq4>(&floor, 0x1234_5678);
+let sampled = bvh.sample::<Moments>(&floor, 0x1234_5678_u32);
 assert!(sampled.pmf > 0.0);
 
 // The probability of any light is known, and to the bit the one it was sampled with.
-let pmf = bvh.pmf::<Eq4>(&lights, &floor, sampled.light);
+let pmf = bvh.pmf::<Moments>(&lights, &floor, sampled.light);
 assert_eq!(sampled.pmf.to_bits(), pmf.to_bits());
 # Ok::<(), lightbvh::LightsError>(())
 ```
@@ -76,7 +76,6 @@ extern crate alloc;
 extern crate std;
 
 pub mod bounds;
-pub mod climb;
 pub mod cone;
 pub mod exact;
 pub mod importance;
@@ -86,6 +85,7 @@ pub mod node;
 pub mod point;
 pub mod refit;
 pub mod reservoir;
+pub mod summary;
 pub mod trail;
 pub mod traverse;
 pub mod tree;
@@ -96,13 +96,13 @@ pub mod build;
 #[cfg(feature = "alloc")]
 pub mod bvh;
 #[cfg(feature = "alloc")]
-pub mod lanes;
-#[cfg(feature = "alloc")]
 pub mod levels;
 #[cfg(feature = "alloc")]
 pub mod lights;
 #[cfg(feature = "alloc")]
 pub mod scene;
+#[cfg(feature = "alloc")]
+pub mod sweep;
 #[cfg(feature = "alloc")]
 pub mod transform;
 #[cfg(feature = "alloc")]
@@ -127,10 +127,11 @@ pub use transform::Transform;
 pub use validate::{Stats, Violation};
 
 pub use bounds::LightBounds;
-pub use importance::{Eq4, FluxOverDistance, ImportanceModel};
+pub use importance::{Defensive, Eq4, FluxOverDistance, ImportanceModel};
 pub use instance::Instance;
 pub use light::{EmissiveTriangle, LightError};
-pub use node::{CompactNode, FullNode, LightNode};
-pub use point::{PointError, Receiver, ShadingPoint};
-pub use traverse::SampledLight;
-pub use tree::{INVALID, LightTree, MeshLeaf, MeshLight};
+pub use node::{BoundsNode, CompactNode, FullNode, LightNode};
+pub use point::{PointError, ShadingPoint};
+pub use summary::Summary;
+pub use traverse::{Random64, SampledLight};
+pub use tree::{INVALID, LightTree};

@@ -119,56 +119,6 @@ impl core::fmt::Display for PointError {
 
 impl core::error::Error for PointError {}
 
-/// A receiver in the space of the tree that is walked, and how exactly it is known there.
-///
-/// A point given in world space is known exactly. One brought into the space of a mesh is rounded on the way, and so are
-/// the mesh's triangles on their way into the world: importance must not take a light for invisible that only rounding put
-/// out of sight. Types that round nothing pay nothing.
-pub trait Receiver: Copy {
-    /// Whether [`slack`](Self::slack), [`near_squared`](Self::near_squared) and [`tilt`](Self::tilt) may be other than 0.
-    const ROUNDED: bool;
-
-    /// Position, metres of the tree's space.
-    fn position(&self) -> Vec3;
-    /// Unit normal, or zero in a volume.
-    fn normal(&self) -> Vec3;
-    /// By how much the distance from any light may be off, in each direction; metres of the tree's space.
-    fn slack(&self) -> f32;
-    /// Squared distance below which the slack turns the direction of a light by more than 2^-11 rad, m².
-    fn near_squared(&self) -> f32;
-    /// By how much the normal of any light may be turned, rad.
-    fn tilt(&self) -> f32;
-}
-
-impl Receiver for ShadingPoint {
-    const ROUNDED: bool = false;
-
-    #[inline(always)]
-    fn position(&self) -> Vec3 {
-        Self::position(self)
-    }
-
-    #[inline(always)]
-    fn normal(&self) -> Vec3 {
-        Self::normal(self)
-    }
-
-    #[inline(always)]
-    fn slack(&self) -> f32 {
-        0.0
-    }
-
-    #[inline(always)]
-    fn near_squared(&self) -> f32 {
-        0.0
-    }
-
-    #[inline(always)]
-    fn tilt(&self) -> f32 {
-        0.0
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -26,6 +26,12 @@ pub const fn max_levels(w: usize) -> u32 {
     64 / slot_bits(w)
 }
 
+/// Words of a trail in trees of at most `depth` levels: 1 where one holds it, else 2.
+#[must_use]
+pub const fn trail_words(w: usize, depth: u32) -> u32 {
+    if depth * slot_bits(w) <= 32 { 1 } else { 2 }
+}
+
 impl BitTrail {
     /// Slot taken at `level` in `0..max_levels(W)`.
     #[inline(always)]
@@ -58,14 +64,14 @@ impl BitTrail {
     }
 }
 
-/// A way through both levels. Positions `0..max_levels(W)` are the levels of the tree that the walk starts in,
-/// `max_levels(W)..2·max_levels(W)` those of the bottom level behind a mesh light; so a greater position is always
+/// A path through both levels. Positions `0..max_levels(W)` are the levels of the tree that the walk starts in,
+/// `max_levels(W)..2·max_levels(W)` those of the bottom level behind an instance; so a greater position is always
 /// deeper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Path {
     /// Trail in the tree that the walk starts in.
     pub top: BitTrail,
-    /// Trail in the bottom level, if a mesh light was passed.
+    /// Trail in the bottom level, if an instance was passed.
     pub bottom: BitTrail,
 }
 

@@ -1,4 +1,4 @@
-//! Affine maps of instances, and which of them a shared bottom level can serve.
+//! Affine maps of instances.
 
 mod error;
 mod extent;
@@ -9,25 +9,17 @@ pub(crate) use extent::Extent;
 
 use crate::exact;
 use crate::instance::Instance;
-use crate::light::{EmissiveTriangle, MAX_COORDINATE, MIN_COORDINATE};
-use crate::tree::MeshLeaf;
-use vector::{cross, dot, greatest, length, magnitude};
+use crate::light::{MAX_COORDINATE, MIN_COORDINATE};
+use vector::{cross, dot, greatest, magnitude, square_root};
 
-/// Most that the columns' products may be off those of s times an orthogonal matrix, as a share of s²: 2^-21, what rounding
-/// a rotation to `f32` leaves and some more.
-const SIMILAR: f64 = 1.0 / 2_097_152.0;
-/// Least and greatest scale that a shared bottom level can serve: 2^-19 and 2^19.
-const SCALES: [f64; 2] = [1.0 / 524_288.0, 524_288.0];
-/// Least extent of a mesh in the world that a shared bottom level can serve, metres: 2^-30.
-const LEAST_EXTENT: f64 = 1.0 / 1_073_741_824.0;
-/// Greatest angle by which rounding may turn a normal before a mesh needs triangles of its own, rad.
-const MOST_TILT: f64 = 0.125;
-/// Entries below this share of the scale count as zero: 2^-26.
-const TINY_ENTRY: f64 = 1.0 / 67_108_864.0;
-/// 2^-22: one rounding of 2^-24 for each of three products and three sums makes less than four of them.
-const ROUNDING: f64 = 1.0 / 4_194_304.0;
-/// What a similarity may turn a normal by itself, rad: 2^-18, for columns off by 2^-21 and the normalisation of axes.
-const BASE_TILT: f64 = 1.0 / 262_144.0;
+/// Entries of the maps below this count as zero: 2^-60.
+const TINY_ENTRY: f32 = exact::pow2(-60);
+/// Greatest entry of an inverse: 2^60.
+const MOST_ENTRY: f64 = 1_152_921_504_606_846_976.0;
+/// Greatest and least mean factor on flux that is not zero.
+const FLUX: [f32; 2] = [exact::pow2(-100), exact::pow2(100)];
+/// Least determinant, as a share of the cube of the greatest entry, that is divided by: 2^-60. Flatter maps have no inverse.
+const FLAT: f64 = 1.0 / 1_152_921_504_606_846_976.0;
 
 /// An affine map `x ↦ A x + t` from a mesh's space to the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,116 +83,56 @@ impl Transform {
         [f64::from(x), f64::from(y), f64::from(z)]
     }
 
-    fn determinant(&self) -> f64 {
-        let [a, b, c] = [self.column(0), self.column(1), self.column(2)];
-        a[0] * (b[1] * c[2] - b[2] * c[1]) - b[0] * (a[1] * c[2] - a[2] * c[1])
-            + c[0] * (a[1] * b[2] - a[2] * b[1])
-    }
-
-    /// A point of the mesh in the world, rounded once.
-    fn point(&self, p: [f32; 3]) -> [f32; 3] {
-        let p = p.map(f64::from);
-        core::array::from_fn(|row| {
-            let across = f64::from(self.columns[0][row]) * p[0]
-                + f64::from(self.columns[1][row]) * p[1]
-                + f64::from(self.columns[2][row]) * p[2];
-            exact::flush((across + f64::from(self.translation[row])) as f32, MIN_COORDINATE)
-        })
-    }
-
-    /// A triangle of the mesh in the world; where the map mirrors, two vertices are swapped, so that the front stays in
-    /// front.
-    pub(crate) fn bake(&self, triangle: &EmissiveTriangle) -> EmissiveTriangle {
-        let [a, b, c] = triangle.p.map(|p| self.point(p));
-        let mirrors = self.determinant() < 0.0;
-        EmissiveTriangle {
-            p: if mirrors { [a, c, b] } else { [a, b, c] },
-            ..*triangle
-        }
-    }
-
-    /// `self ∘ baked⁻¹`: the map of what was baked to where it is to stand now. `None` where the baked map was singular.
-    pub(crate) fn since(&self, baked: &Self) -> Option<Self> {
-        let determinant = baked.determinant();
-        let [a, b, c] = [baked.column(0), baked.column(1), baked.column(2)];
-        let lengths = length(a) * length(b) * length(c);
-        // Flat maps cannot be undone, nearly flat ones not precisely.
-        if magnitude(determinant) <= 1e-9 * lengths {
-            return None;
-        }
-        // Rows of the inverse: cross products of the columns over the determinant.
-        let rows = [cross(b, c), cross(c, a), cross(a, b)].map(|row| row.map(|x| x / determinant));
-        let mut columns = [[0.0f64; 3]; 3];
-        for (k, column) in columns.iter_mut().enumerate() {
-            for (row, entry) in column.iter_mut().enumerate() {
-                *entry = (0..3).map(|j| f64::from(self.columns[j][row]) * rows[j][k]).sum();
-            }
-        }
-        let translation: [f32; 3] = core::array::from_fn(|row| {
-            let moved: f64 = (0..3)
-                .map(|k| columns[k][row] * f64::from(baked.translation[k]))
-                .sum();
-            (f64::from(self.translation[row]) - moved) as f32
-        });
-        Some(Self {
-            columns: columns.map(|column| column.map(|x| x as f32)),
-            translation,
-        })
-    }
-
-    /// The instance of a bottom level of that extent under this map, if it can be shared: the map is a similarity, and
-    /// rounding is small against the mesh. Its flux and radiance are for a factor of `radiance`; its links are not set.
-    pub(crate) fn similarity(&self, extent: &Extent, radiance: f32) -> Option<Instance> {
+    /// The instance of a bottom level under this map; its links are not set.
+    ///
+    /// The inverse is computed in `f64` from the cofactors. Where the map is flat the cofactors take its place, as large as
+    /// `f32` products allow: weights then mean little, and stay positive.
+    pub(crate) fn instance(&self, radiance: f32) -> Instance {
         let columns = [self.column(0), self.column(1), self.column(2)];
-        let gram = |i: usize, j: usize| dot(columns[i], columns[j]);
-        let (lengths, angles) = (
-            [gram(0, 0), gram(1, 1), gram(2, 2)],
-            [gram(0, 1), gram(0, 2), gram(1, 2)],
-        );
-        let squared = (lengths[0] + lengths[1] + lengths[2]) * (1.0 / 3.0);
-        if !(SCALES[0] * SCALES[0]..=SCALES[1] * SCALES[1]).contains(&squared) {
-            return None;
-        }
-        // One step from a root in f32 leaves nothing that f32 could show.
-        let root = f64::from(exact::sqrt(squared as f32));
-        let scale = 0.5 * (root + squared / root);
-        let most = SIMILAR * squared;
-        let even = (0..3).fold(true, |even, k| {
-            even & (magnitude(lengths[k] - squared) <= most) & (magnitude(angles[k]) <= most)
-        });
-        if !even {
-            return None;
-        }
-        let [x, y, z] = self.translation.map(|t| f64::from(exact::abs(t)));
-        let farthest = greatest(greatest(x, y), z);
-        let reach = scale * extent.radius;
-        let error = ROUNDING * (2.0 * reach + farthest);
-        let tilt = BASE_TILT + 4.0 * error / (scale * extent.finest);
-        if reach < LEAST_EXTENT || tilt > MOST_TILT {
-            return None;
-        }
-        let flux = f64::from(radiance) * squared;
-        let tiny = scale * TINY_ENTRY;
-        let mut entries = self.columns;
-        for column in 0..3 {
-            for row in 0..3 {
-                let small = magnitude(columns[column][row]) < tiny;
-                entries[column][row] = if small { 0.0 } else { entries[column][row] };
+        // Entries of about 1, so that products of three stay in range.
+        let entry = columns.iter().flatten().fold(0.0, |most, &x| greatest(most, magnitude(x)));
+        let per_entry = if entry > 0.0 { 1.0 / entry } else { 0.0 };
+        let [a, b, c] = columns.map(|column| column.map(|x| x * per_entry));
+        let cofactors = [cross(b, c), cross(c, a), cross(a, b)];
+        let determinant = dot(a, cofactors[0]);
+        let divisor = if magnitude(determinant) > FLAT {
+            determinant
+        } else {
+            FLAT
+        };
+        // Rows of the inverse are the cofactors' columns over the determinant.
+        let mut inverse = [[0.0f32; 3]; 3];
+        for (row, cofactor) in cofactors.iter().enumerate() {
+            for (column, &x) in cofactor.iter().enumerate() {
+                let exact_entry = x / divisor * per_entry;
+                let bounded = -greatest(-greatest(exact_entry, -MOST_ENTRY), -MOST_ENTRY);
+                inverse[column][row] = exact::flush(bounded as f32, TINY_ENTRY);
             }
         }
-        Some(Instance {
-            columns: entries,
+        let squares = |m: &[[f64; 3]; 3]| dot(m[0], m[0]) + dot(m[1], m[1]) + dot(m[2], m[2]);
+        let norm = square_root(squares(&inverse.map(|column| column.map(f64::from))));
+        let per_inverse = if norm > 0.0 { SQRT_3 / norm } else { 0.0 };
+        let area = square_root(squares(&cofactors)) / SQRT_3 * (entry * entry);
+        let flux = (area * f64::from(radiance)) as f32;
+        Instance {
+            columns: self.columns.map(|column| column.map(|x| exact::flush(x, TINY_ENTRY))),
             translation: self.translation.map(|t| exact::flush(t, MIN_COORDINATE)),
-            per_scale: (1.0 / scale) as f32,
-            flux: flux as f32,
+            inverse,
+            per_inverse: per_inverse as f32,
+            flux: if radiance > 0.0 {
+                exact::clamp(flux, FLUX[0], FLUX[1])
+            } else {
+                0.0
+            },
             radiance,
-            error: error as f32,
-            tilt: tilt as f32,
-            mirrored: u32::from(self.determinant() < 0.0),
-            ..Instance::world(0, 0)
-        })
+            mirrored: u32::from(determinant < 0.0),
+            ..Instance::IDENTITY
+        }
     }
 }
+
+/// √3.
+const SQRT_3: f64 = 1.732_050_807_568_877_2;
 
 #[cfg(test)]
 mod tests;

@@ -6,6 +6,7 @@ use super::primitive::Group;
 use crate::bounds::LightBounds;
 use crate::exact::{max, min, rsqrt_rough};
 use crate::node::{LightNode, kind};
+use crate::summary::Summary;
 
 /// What a split is judged by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -90,7 +91,7 @@ pub(crate) fn drift<N: LightNode<W>, const W: usize>(nodes: &[N], whole: &LightB
     for node in nodes {
         for slot in 0..W {
             if node.kind(slot) != kind::EMPTY {
-                sum += measure(&node.bounds(slot));
+                sum += measure(&node.summary(slot).bounds());
             }
         }
     }
@@ -175,10 +176,12 @@ mod tests {
             ..LightBounds::EMPTY
         };
         let mut node = FullNode::<2>::EMPTY;
+        let mut children = [LightBounds::EMPTY; 2];
         for (slot, size, cos, phi) in [(0, [1.0, 2.0, 3.0], -1.0, 3.0), (1, [2.0, 0.0, 5.0], 1.0, 5.0)] {
             node.set_child(slot, kind::LIGHT, 0);
-            node.set_bounds(slot, &bounds(size, cos, phi));
+            children[slot] = bounds(size, cos, phi);
         }
+        node.set_summaries(&children);
         // M_Ω is 4π for a sphere and π for one direction; k_r is left out.
         let (a, b) = (11.0 + 6.0 / 1024.0, 10.0 + 7.0 / 1024.0);
         let all = 74.0 + 15.0 / 1024.0;

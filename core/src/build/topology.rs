@@ -22,6 +22,13 @@ pub(crate) struct Topology<N> {
     pub depth: u32,
 }
 
+impl<N> Topology<N> {
+    /// (level, index) of all nodes, the root's index being `base`.
+    pub fn leveled(&self, base: u32) -> Vec<(u32, u32)> {
+        self.levels.iter().copied().zip(base..).collect()
+    }
+}
+
 /// Builds a tree over `primitives`, at least one, whose leaves are of `leaf_kind`.
 pub(crate) fn build<N: LightNode<W>, const W: usize>(
     primitives: &mut [Primitive],

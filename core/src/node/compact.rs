@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::LightNode;
+use super::{BoundsNode, LightNode};
 use crate::bounds::LightBounds;
 use crate::cone::{normalized, widened};
 use crate::exact::{self, exponent, pow2};
@@ -100,6 +100,8 @@ impl<const W: usize> CompactNode<W> {
 }
 
 impl<const W: usize> LightNode<W> for CompactNode<W> {
+    type Summary = LightBounds;
+
     const EMPTY: Self = Self([[0; W]; 7]);
     const NAME: &'static str = "compact";
 
@@ -114,29 +116,7 @@ impl<const W: usize> LightNode<W> for CompactNode<W> {
     }
 
     #[inline(always)]
-    fn cluster(&self, slot: usize) -> Cluster {
-        let (half, stored_unit) = self.half_extents(slot);
-        let unit = exact::max(stored_unit, LEAST_UNIT);
-        let (cos_theta_o, half_sine) = self.cone(slot);
-        // sin θ = 2 sin(θ/2) cos(θ/2). The bound below keeps the root's argument normal; it leaves a sphere's sine at
-        // 2e-6, which no sign hangs on.
-        let half_cosine_squared = exact::max(1.0 - half_sine * half_sine, 1e-12);
-        let half_cosine = half_cosine_squared * exact::rsqrt_rough(half_cosine_squared);
-        Cluster {
-            center: self.center(slot),
-            extent: half * unit,
-            // The sum of squares is an integer below 2^18, so exact.
-            radius_squared: length_squared(half) * (unit * unit),
-            axis: self.axis(slot),
-            cos_theta_o,
-            sin_theta_o: 2.0 * (half_sine * half_cosine),
-            cos_theta_e: 0.0,
-            phi: self.phi(slot),
-        }
-    }
-
-    #[inline(always)]
-    fn bounds(&self, slot: usize) -> LightBounds {
+    fn summary(&self, slot: usize) -> LightBounds {
         let (half_units, unit) = self.half_extents(slot);
         let half = half_units * unit;
         let center = self.center(slot);
@@ -162,21 +142,42 @@ impl<const W: usize> LightNode<W> for CompactNode<W> {
         self.0[LINK][slot] = link;
     }
 
-    fn copy_child(&mut self, slot: usize, other: &Self, from: usize) {
-        for field in 0..7 {
-            self.0[field][slot] = other.0[field][from];
+    #[inline(always)]
+    fn set_summaries(&mut self, summaries: &[LightBounds; W]) {
+        for slot in 0..W {
+            let bounds = summaries[slot];
+            let (center, extent) = pack_box(bounds.min, bounds.max);
+            self.0[CENTER_X][slot] = center.x.to_bits();
+            self.0[CENTER_Y][slot] = center.y.to_bits();
+            self.0[CENTER_Z][slot] = center.z.to_bits();
+            self.0[EXTENT][slot] = extent;
+            self.0[AXIS_KIND][slot] = pack_axis(bounds.axis) | (self.0[AXIS_KIND][slot] & 3);
+            self.0[PHI_CONE][slot] = pack_phi(bounds.phi) | pack_cone(bounds.cos_theta_o);
         }
     }
+}
 
+impl<const W: usize> BoundsNode<W> for CompactNode<W> {
     #[inline(always)]
-    fn set_bounds(&mut self, slot: usize, bounds: &LightBounds) {
-        let (center, extent) = pack_box(bounds.min, bounds.max);
-        self.0[CENTER_X][slot] = center.x.to_bits();
-        self.0[CENTER_Y][slot] = center.y.to_bits();
-        self.0[CENTER_Z][slot] = center.z.to_bits();
-        self.0[EXTENT][slot] = extent;
-        self.0[AXIS_KIND][slot] = pack_axis(bounds.axis) | (self.0[AXIS_KIND][slot] & 3);
-        self.0[PHI_CONE][slot] = pack_phi(bounds.phi) | pack_cone(bounds.cos_theta_o);
+    fn cluster(&self, slot: usize) -> Cluster {
+        let (half, stored_unit) = self.half_extents(slot);
+        let unit = exact::max(stored_unit, LEAST_UNIT);
+        let (cos_theta_o, half_sine) = self.cone(slot);
+        // sin θ = 2 sin(θ/2) cos(θ/2). The bound below keeps the root's argument normal; it leaves a sphere's sine at
+        // 2e-6, which no sign hangs on.
+        let half_cosine_squared = exact::max(1.0 - half_sine * half_sine, 1e-12);
+        let half_cosine = half_cosine_squared * exact::rsqrt_rough(half_cosine_squared);
+        Cluster {
+            center: self.center(slot),
+            extent: half * unit,
+            // The sum of squares is an integer below 2^18, so exact.
+            radius_squared: length_squared(half) * (unit * unit),
+            axis: self.axis(slot),
+            cos_theta_o,
+            sin_theta_o: 2.0 * (half_sine * half_cosine),
+            cos_theta_e: 0.0,
+            phi: self.phi(slot),
+        }
     }
 }
 

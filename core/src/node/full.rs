@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::LightNode;
+use super::{BoundsNode, LightNode};
 use crate::bounds::LightBounds;
 use crate::exact;
 use crate::importance::Cluster;
@@ -51,6 +51,8 @@ impl<const W: usize> FullNode<W> {
 }
 
 impl<const W: usize> LightNode<W> for FullNode<W> {
+    type Summary = LightBounds;
+
     const EMPTY: Self = Self([[0; W]; 14]);
     const NAME: &'static str = "full";
 
@@ -64,6 +66,44 @@ impl<const W: usize> LightNode<W> for FullNode<W> {
         self.0[LINK][slot]
     }
 
+    fn summary(&self, slot: usize) -> LightBounds {
+        LightBounds {
+            min: self.vector(MIN, slot),
+            max: self.vector(MAX, slot),
+            axis: self.vector(AXIS, slot),
+            cos_theta_o: self.float(COS_THETA_O, slot),
+            cos_theta_e: self.float(COS_THETA_E, slot),
+            phi: self.float(PHI, slot),
+        }
+    }
+
+    fn set_child(&mut self, slot: usize, kind: u32, link: u32) {
+        for field in 0..14 {
+            self.0[field][slot] = 0;
+        }
+        self.0[KIND][slot] = kind;
+        self.0[LINK][slot] = link;
+    }
+
+    fn relink(&mut self, slot: usize, link: u32) {
+        self.0[LINK][slot] = link;
+    }
+
+    #[inline(always)]
+    fn set_summaries(&mut self, summaries: &[LightBounds; W]) {
+        for slot in 0..W {
+            let bounds = summaries[slot];
+            self.set_vector(MIN, slot, bounds.min);
+            self.set_vector(MAX, slot, bounds.max);
+            self.set_vector(AXIS, slot, bounds.axis);
+            self.0[COS_THETA_O][slot] = bounds.cos_theta_o.to_bits();
+            self.0[COS_THETA_E][slot] = bounds.cos_theta_e.to_bits();
+            self.0[PHI][slot] = bounds.phi.to_bits();
+        }
+    }
+}
+
+impl<const W: usize> BoundsNode<W> for FullNode<W> {
     #[inline(always)]
     fn cluster(&self, slot: usize) -> Cluster {
         // Halves that reach both corners from the rounded centre; 2^-20 outward covers their rounding, and boxes below
@@ -98,43 +138,5 @@ impl<const W: usize> LightNode<W> for FullNode<W> {
             cos_theta_e: self.float(COS_THETA_E, slot),
             phi: self.float(PHI, slot),
         }
-    }
-
-    fn bounds(&self, slot: usize) -> LightBounds {
-        LightBounds {
-            min: self.vector(MIN, slot),
-            max: self.vector(MAX, slot),
-            axis: self.vector(AXIS, slot),
-            cos_theta_o: self.float(COS_THETA_O, slot),
-            cos_theta_e: self.float(COS_THETA_E, slot),
-            phi: self.float(PHI, slot),
-        }
-    }
-
-    fn set_child(&mut self, slot: usize, kind: u32, link: u32) {
-        for field in 0..14 {
-            self.0[field][slot] = 0;
-        }
-        self.0[KIND][slot] = kind;
-        self.0[LINK][slot] = link;
-    }
-
-    fn relink(&mut self, slot: usize, link: u32) {
-        self.0[LINK][slot] = link;
-    }
-
-    fn copy_child(&mut self, slot: usize, other: &Self, from: usize) {
-        for field in 0..14 {
-            self.0[field][slot] = other.0[field][from];
-        }
-    }
-
-    fn set_bounds(&mut self, slot: usize, bounds: &LightBounds) {
-        self.set_vector(MIN, slot, bounds.min);
-        self.set_vector(MAX, slot, bounds.max);
-        self.set_vector(AXIS, slot, bounds.axis);
-        self.0[COS_THETA_O][slot] = bounds.cos_theta_o.to_bits();
-        self.0[COS_THETA_E][slot] = bounds.cos_theta_e.to_bits();
-        self.0[PHI][slot] = bounds.phi.to_bits();
     }
 }

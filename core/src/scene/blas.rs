@@ -4,15 +4,14 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::Scene;
-use crate::bounds::LightBounds;
 use crate::build::{Primitive, Topology, build, drift};
-use crate::instance::Instance;
-use crate::lanes;
 use crate::levels::Levels;
 use crate::light::EmissiveTriangle;
 use crate::node::{LightNode, kind};
 use crate::refit::{self, BlasRoot};
-use crate::trail::slot_bits;
+use crate::summary::Summary;
+use crate::sweep;
+use crate::trail::trail_words;
 use crate::transform::Extent;
 use crate::tree::INVALID;
 
@@ -22,8 +21,9 @@ pub(super) struct Blas {
     /// Its nodes, the root first; empty where the index is not in use.
     pub nodes: Range<u32>,
     pub triangles: Range<u32>,
-    pub owner: Owner,
-    /// Its nodes with inner children.
+    /// The mesh that it belongs to.
+    pub mesh: u32,
+    /// Its nodes.
     pub levels: Levels,
     pub depth: u32,
     pub extent: Extent,
@@ -33,24 +33,15 @@ pub(super) struct Blas {
     pub born: u64,
 }
 
-/// Whose a bottom level is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Owner {
-    /// Shared by the similar instances of a mesh.
-    Mesh(u32),
-    /// Of one instance.
-    Instance(u32),
-}
-
 impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     /// A bottom level over `triangles`, at least one; returns its index.
-    pub(super) fn add_blas(&mut self, owner: Owner, triangles: &[EmissiveTriangle]) -> u32 {
+    pub(super) fn add_blas(&mut self, mesh: u32, triangles: &[EmissiveTriangle]) -> u32 {
         let index = self.blas_ranges.take(1).start;
         let range = self.triangle_ranges.take(triangles.len() as u32);
         let empty = Blas {
             nodes: 0..0,
             triangles: range.clone(),
-            owner,
+            mesh,
             levels: Levels::default(),
             depth: 0,
             extent: Extent::of(triangles),
@@ -61,11 +52,11 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         put(
             &mut self.roots,
             index,
-            BlasRoot::new(INVALID, &LightBounds::EMPTY),
-            &BlasRoot::new(INVALID, &LightBounds::EMPTY),
+            BlasRoot::new(INVALID, &N::Summary::EMPTY),
+            &BlasRoot::new(INVALID, &N::Summary::EMPTY),
         );
         self.write_triangles(index, triangles);
-        let topology = build_over(&self.triangles, range, &self.params);
+        let topology = build_over::<N, W>(&self.triangles, range, &self.params);
         self.place_blas(index, &topology);
         index
     }
@@ -110,6 +101,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         self.node_ranges.give(old);
         let nodes = self.place_nodes(&topology.nodes);
         self.reserve_trails(topology.depth);
+        self.bottom_depth = self.bottom_depth.max(topology.depth);
         let words = self.trail_words as usize;
         for &(triangle, trail) in &topology.trails {
             let at = triangle as usize * words;
@@ -121,7 +113,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         self.pending
             .written_trails
             .push(self.blases[index as usize].triangles.clone());
-        let levels = Levels::gather(inner_nodes::<N, W>(topology, nodes.start));
+        let levels = Levels::gather(topology.leveled(nodes.start));
         self.clock += 1;
         let born = self.clock;
         let blas = &mut self.blases[index as usize];
@@ -131,15 +123,10 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         blas.born = born;
         self.roots[index as usize].node = nodes.start;
 
-        let list: Vec<u32> = nodes.clone().collect();
-        lanes::leaves(&mut self.nodes, &self.triangles, &list);
-        let levels = &self.blases[index as usize].levels;
-        for range in levels.ranges() {
-            lanes::level(&mut self.nodes, &levels.nodes[range]);
-        }
+        sweep::bottom_sweep(&mut self.nodes, &self.triangles, nodes.clone());
         self.roots[index as usize] = refit::root(&self.nodes, nodes.start);
         let placed = &self.nodes[nodes.start as usize..nodes.end as usize];
-        self.blases[index as usize].cost = drift(placed, &self.roots[index as usize].bounds());
+        self.blases[index as usize].cost = drift(placed, &self.roots[index as usize].summary::<N::Summary>().bounds());
         self.pending.mark_built(index);
     }
 
@@ -171,7 +158,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     /// Makes trails as wide as trees of `depth` levels need, for all triangles.
     fn reserve_trails(&mut self, depth: u32) {
         let end = self.triangle_ranges.end() as usize;
-        if self.trail_words == 1 && depth * slot_bits(W) > 32 {
+        if self.trail_words == 1 && trail_words(W, depth) == 2 {
             self.trail_words = 2;
             let narrow = core::mem::take(&mut self.trails);
             self.trails = narrow.into_iter().flat_map(|low| [low, 0]).collect();
@@ -188,25 +175,9 @@ pub(super) fn build_over<N: LightNode<W>, const W: usize>(
     params: &crate::build::BuildParams,
 ) -> Topology<N> {
     let mut primitives: Vec<Primitive> = range
-        .map(|i| Primitive::new(i, &LightBounds::of_triangle(&triangles[i as usize])))
+        .map(|i| Primitive::new(i, &N::Summary::of_triangle(&triangles[i as usize])))
         .collect();
     build::<N, W>(&mut primitives, kind::LIGHT, params)
-}
-
-/// (level, index) of the nodes that have inner children.
-pub(super) fn inner_nodes<N: LightNode<W>, const W: usize>(
-    topology: &Topology<N>,
-    base: u32,
-) -> Vec<(u32, u32)> {
-    let has_inner = |node: &N| (0..W).any(|slot| node.kind(slot) == kind::INNER);
-    topology
-        .nodes
-        .iter()
-        .zip(&topology.levels)
-        .enumerate()
-        .filter(|(_, (node, _))| has_inner(node))
-        .map(|(i, (_, &level))| (level, base + i as u32))
-        .collect()
 }
 
 /// Sets `list[index]`, with `filler` up to there.
@@ -215,9 +186,4 @@ pub(super) fn put<T: Clone>(list: &mut Vec<T>, index: u32, value: T, filler: &T)
         list.resize(index as usize + 1, filler.clone());
     }
     list[index as usize] = value;
-}
-
-/// The instance words of an index that is not in use.
-pub(super) fn no_instance() -> Instance {
-    <Instance as crate::tree::MeshLeaf>::world(INVALID, INVALID)
 }

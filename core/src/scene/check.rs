@@ -70,9 +70,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
                 if batch.deforms {
                     batch.added.entry(mesh).or_default().push(transform);
                 }
-                // It may need triangles of its own.
                 batch.lights += count;
-                batch.triangles += count;
             }
             &mut Edit::Move { instance, transform } => {
                 let mesh = self.known_instance(batch, instance)?;
@@ -82,7 +80,6 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
                 if batch.deforms {
                     batch.transforms.insert(instance, transform);
                 }
-                batch.triangles += self.mesh_len(mesh);
             }
             &mut Edit::Shine { instance, radiance } => {
                 self.known_instance(batch, instance)?;

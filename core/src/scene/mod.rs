@@ -13,8 +13,7 @@
 //!
 //! | change | costs |
 //! |---|---|
-//! | rigid motion, even scale, mirroring, brightness | the instance's leaf and the nodes above it |
-//! | any other affine motion | once a bottom level of its own, then as above while the shape stays |
+//! | any affine motion, brightness | the instance's leaf and the nodes above it |
 //! | vertices or emission of a mesh | its bottom level, and the leaves of its instances |
 //! | added or removed instance | a node on top of the top level, or an emptied slot, until the next rebuild |
 
@@ -48,7 +47,7 @@ use crate::node::LightNode;
 use crate::point::ShadingPoint;
 use crate::refit::BlasRoot;
 use crate::transform::Transform;
-use crate::traverse::{self, SampledLight};
+use crate::traverse::{self, Random64, SampledLight};
 use crate::tree::{INVALID, LightTree};
 
 /// A two-level light BVH over instances of emissive meshes, with nodes of layout `N` and width `W`.
@@ -72,6 +71,8 @@ pub struct Scene<N, const W: usize> {
     placed: Vec<Placed>,
     placed_ranges: Ranges,
     instances: Vec<Instance>,
+    /// Indices of the instances in use.
+    live: Vec<u32>,
     lights: Ranges,
     top: Top,
     work: Work,
@@ -80,13 +81,15 @@ pub struct Scene<N, const W: usize> {
     planned: bool,
     /// Lights of the previous frame that are none, or others, now.
     removed_lights: Vec<Range<u32>>,
+    /// Greatest number of levels of a bottom level so far.
+    bottom_depth: u32,
     /// Counts what comes, goes or is built, so that a rebuild can tell who came after it began.
     clock: u64,
     /// Counts refits that changed something.
     refits: u64,
 }
 
-/// A mesh: the bottom level that its similar instances share.
+/// A mesh: the bottom level that its instances share.
 #[derive(Clone, Debug)]
 struct Mesh {
     live: bool,
@@ -106,8 +109,8 @@ struct Placed {
     user: u32,
     transform: Transform,
     radiance: f32,
-    /// A bottom level of its own, and the transform that its triangles were brought through.
-    own: Option<(u32, Transform)>,
+    /// Its place in the list of instances in use.
+    listed: u32,
     lights: Range<u32>,
     /// Where in the top level it is a leaf.
     node: u32,
@@ -149,12 +152,14 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             placed: Vec::new(),
             placed_ranges: Ranges::default(),
             instances: Vec::new(),
+            live: Vec::new(),
             lights: Ranges::default(),
             top: Top::default(),
             work: Work::default(),
             pending: refit::Pending::default(),
             planned: false,
             removed_lights: Vec::new(),
+            bottom_depth: 0,
             clock: 0,
             refits: 0,
         };
@@ -165,19 +170,23 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     /// Chooses a light for `point`, which is within the domain of [`ShadingPoint::checked`]; see [`traverse::sample`]. Without
     /// lights none is chosen.
     #[must_use]
-    pub fn sample<I: ImportanceModel>(&self, point: &ShadingPoint, random: u32) -> SampledLight {
+    pub fn sample<I: ImportanceModel<N, W>>(
+        &self,
+        point: &ShadingPoint,
+        random: impl Into<Random64>,
+    ) -> SampledLight {
         debug_assert!(point.is_within_reach(), "not a shading point: {point:?}");
-        traverse::sample::<N, I, Instance, W>(&self.tree(), point, random)
+        traverse::sample::<N, I, W>(&self.tree(), point, random.into())
     }
 
     /// Probability of `light` of `instance` at `point`, a point as for [`sample`](Self::sample); see [`traverse::pmf`]. 0 for an
     /// unknown instance, or a light of another one.
     #[must_use]
-    pub fn pmf<I: ImportanceModel>(&self, point: &ShadingPoint, light: u32, instance: InstanceId) -> f32 {
+    pub fn pmf<I: ImportanceModel<N, W>>(&self, point: &ShadingPoint, light: u32, instance: InstanceId) -> f32 {
         debug_assert!(point.is_within_reach(), "not a shading point: {point:?}");
         match live(&self.placed, instance) {
             Some(placed) if placed.lights.contains(&light) => {
-                traverse::pmf::<N, I, Instance, W>(&self.tree(), point, light, instance.index)
+                traverse::pmf::<N, I, W>(&self.tree(), point, light, instance.index)
             }
             _ => 0.0,
         }
@@ -185,13 +194,16 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
 
     /// The arrays as traversal takes them.
     #[must_use]
-    pub fn tree(&self) -> LightTree<'_, N, Instance> {
+    pub fn tree(&self) -> LightTree<'_, N> {
         LightTree {
             nodes: &self.nodes,
             root: self.top.root,
-            meshes: &self.instances,
+            instances: &self.instances,
             trails: &self.trails,
             trail_words: self.trail_words,
+            live: self.live.len() as u32,
+            lights: 0,
+            depth: self.depth(),
         }
     }
 
@@ -295,9 +307,12 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     }
 
     fn blas_index(&self, placed: &Placed) -> u32 {
-        match placed.own {
-            Some((blas, _)) => blas,
-            None => self.meshes[placed.mesh as usize].blas,
-        }
+        self.meshes[placed.mesh as usize].blas
+    }
+
+    /// Greatest number of nodes on a path from the root to a light.
+    #[must_use]
+    pub fn depth(&self) -> u32 {
+        self.top.depth + self.bottom_depth
     }
 }

@@ -1,16 +1,19 @@
 //! Rebuilds beside the frame (paper section 3.5): what to build is taken out of the scene, built anywhere, and swapped in.
 
 use alloc::vec::Vec;
+use core::marker::PhantomData;
 use core::ops::Range;
 
 use super::Scene;
-use super::blas::{Blas, build_over, inner_nodes};
+use super::blas::{Blas, build_over};
 use super::top::TopTree;
 use crate::build::{BuildParams, Primitive, Topology, build, drift};
+use crate::instance::Instance;
 use crate::levels::Levels;
 use crate::light::EmissiveTriangle;
 use crate::node::{LightNode, kind};
-use crate::refit;
+use crate::refit::{self, BlasRoot};
+use crate::summary::Summary;
 use crate::tree::INVALID;
 
 /// When trees are built anew.
@@ -38,8 +41,9 @@ impl Default for RebuildParams {
 pub struct Rebuild<N, const W: usize> {
     params: BuildParams,
     taken: Taken,
-    top: Option<TopLeaves<N>>,
+    top: Option<TopLeaves>,
     bottoms: Vec<Bottom>,
+    layout: PhantomData<N>,
 }
 
 /// When a copy was taken: the scene's counts of edits and of refits.
@@ -49,12 +53,14 @@ struct Taken {
     refits: u64,
 }
 
-/// The leaves of the top level, their words as they stand in the nodes.
+/// What the leaves of the top level are computed from.
 #[derive(Clone, Debug)]
-struct TopLeaves<N> {
-    nodes: Vec<N>,
-    /// (instance, index into `nodes`, slot).
-    leaves: Vec<(u32, u32, u32)>,
+struct TopLeaves {
+    /// By index, those not in use included.
+    instances: Vec<Instance>,
+    roots: Vec<BlasRoot>,
+    /// Indices of the instances in use.
+    live: Vec<u32>,
 }
 
 /// A bottom level whose cost has drifted.
@@ -118,28 +124,25 @@ impl<N: LightNode<W>, const W: usize> Rebuild<N, W> {
 }
 
 /// A tree over the leaves, refitted.
-fn build_top<N: LightNode<W>, const W: usize>(old: &TopLeaves<N>, params: &BuildParams) -> TopTree<N> {
-    let mut primitives: Vec<Primitive> = (0..)
-        .zip(&old.leaves)
-        .map(|(i, &(_, node, slot))| Primitive::new(i, &old.nodes[node as usize].bounds(slot as usize)))
+fn build_top<N: LightNode<W>, const W: usize>(leaves: &TopLeaves, params: &BuildParams) -> TopTree<N> {
+    let mut primitives: Vec<Primitive> = leaves
+        .live
+        .iter()
+        .map(|&i| {
+            let instance = &leaves.instances[i as usize];
+            let local = leaves.roots[instance.blas as usize].summary::<N::Summary>();
+            Primitive::new(i, &local.to_world(instance))
+        })
         .collect();
     if primitives.is_empty() {
         return TopTree::empty::<W>();
     }
     let mut topology: Topology<N> = build::<N, W>(&mut primitives, kind::MESH, params);
-    for node in &mut topology.nodes {
-        for slot in 0..W {
-            if node.kind(slot) == kind::MESH {
-                let (_, from, child) = old.leaves[node.link(slot) as usize];
-                node.copy_child(slot, &old.nodes[from as usize], child as usize);
-            }
-        }
-    }
-    let levels = Levels::gather(inner_nodes::<N, W>(&topology, 0));
+    let levels = Levels::gather(topology.leveled(0));
     for &node in levels.nodes() {
-        topology.nodes[node as usize] = refit::level(&topology.nodes, node);
+        topology.nodes[node as usize] = refit::top(&topology.nodes, &leaves.instances, &leaves.roots, node);
     }
-    TopTree::new::<W>(topology, levels, |leaf| old.leaves[leaf as usize].0)
+    TopTree::new::<W>(topology, levels)
 }
 
 impl<N: LightNode<W>, const W: usize> Scene<N, W> {
@@ -156,26 +159,21 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         params: &RebuildParams,
         refitted: impl IntoIterator<Item = u32>,
     ) -> Rebuild<N, W> {
-        let top = params.top.then(|| {
-            let mut nodes = Vec::with_capacity(self.top.leaves.len());
-            let mut leaves = Vec::with_capacity(self.instances.len());
-            for (i, &index) in (0..).zip(&self.top.leaves) {
-                let node = &self.nodes[index as usize];
-                nodes.push(*node);
-                for slot in 0..W {
-                    if node.kind(slot) == kind::MESH {
-                        leaves.push((node.link(slot), i, slot as u32));
-                    }
-                }
-            }
-            TopLeaves { nodes, leaves }
+        let top = params.top.then(|| TopLeaves {
+            instances: self.instances.clone(),
+            roots: self.roots.clone(),
+            live: (0..)
+                .zip(&self.placed)
+                .filter(|(_, placed)| placed.live)
+                .map(|(index, _)| index)
+                .collect(),
         });
         let drifted = refitted.into_iter().filter(|&blas| {
             let own = &self.blases[blas as usize];
             let nodes = &self.nodes[own.nodes.start as usize..own.nodes.end as usize];
             params.drift.is_finite()
                 && !nodes.is_empty()
-                && drift(nodes, &self.roots[blas as usize].bounds()) > params.drift * own.cost
+                && drift(nodes, &self.roots[blas as usize].summary::<N::Summary>().bounds()) > params.drift * own.cost
         });
         let bottoms = drifted.map(|blas| {
             let own = &self.blases[blas as usize];
@@ -192,6 +190,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             taken: self.now(),
             top,
             bottoms: bottoms.collect(),
+            layout: PhantomData,
         }
     }
 

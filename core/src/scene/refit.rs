@@ -5,11 +5,10 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::Scene;
-use super::blas::Owner;
-use crate::lanes;
 use crate::levels::Levels;
 use crate::node::LightNode;
 use crate::refit;
+use crate::sweep;
 use crate::tree::INVALID;
 
 /// Where more than this share of the top level's leaves changed, all of it is refitted by its ready-made lists.
@@ -60,8 +59,8 @@ impl Pending {
 }
 
 /// What a refit does: what a mirror of the scene's arrays must copy before it, and the lists of the passes that then make its
-/// nodes the same. Copy first, then run [`refit::leaves`], [`refit::level`], [`refit::root`], [`refit::mesh_leaves`] and
-/// [`refit::level`] over the lists in this order, each range of levels by itself.
+/// nodes the same. Copy first, then run [`refit::bottom`], [`refit::root`] and [`refit::top`] over the lists in this order,
+/// each range of levels by itself.
 #[derive(Clone, Debug, Default)]
 pub struct Work {
     /// Nodes whose links or kinds changed.
@@ -73,14 +72,10 @@ pub struct Work {
     /// Instances that changed.
     pub written_instances: Vec<Range<u32>>,
     /// Nodes of bottom levels whose triangles changed.
-    pub leaves: Vec<u32>,
-    /// Those of them with inner children.
-    pub levels: Levels,
-    /// Bottom levels whose root changed: another node, or other bounds. A mirror takes the node from [`Scene::roots`].
+    pub bottom: Levels,
+    /// Bottom levels whose root changed: another node, or another summary. A mirror takes the node from [`Scene::roots`].
     pub roots: Vec<u32>,
-    /// Nodes of the top level with instances that changed.
-    pub instances: Vec<u32>,
-    /// Nodes of the top level above those.
+    /// Nodes of the top level with instances that changed, and those above them.
     pub top: Levels,
 }
 
@@ -88,11 +83,7 @@ impl Work {
     /// Number of nodes and roots that the passes compute.
     #[must_use]
     pub fn computed(&self) -> usize {
-        self.leaves.len()
-            + self.levels.nodes().len()
-            + self.roots.len()
-            + self.instances.len()
-            + self.top.nodes().len()
+        self.bottom.nodes().len() + self.roots.len() + self.top.nodes().len()
     }
 }
 
@@ -113,17 +104,20 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         self.planned = false;
         let work = core::mem::take(&mut self.work);
         self.refits += u64::from(work.computed() > 0);
-        lanes::leaves(&mut self.nodes, &self.triangles, &work.leaves);
-        for range in work.levels.ranges() {
-            lanes::level(&mut self.nodes, &work.levels.nodes()[range]);
+        for range in work.bottom.ranges() {
+            sweep::bottom(&mut self.nodes, &self.triangles, &work.bottom.nodes()[range]);
         }
         for &blas in &work.roots {
             let root = self.roots[blas as usize].node;
             self.roots[blas as usize] = refit::root(&self.nodes, root);
         }
-        lanes::mesh_leaves(&mut self.nodes, &self.instances, &self.roots, &work.instances);
         for range in work.top.ranges() {
-            lanes::level(&mut self.nodes, &work.top.nodes()[range]);
+            sweep::top(
+                &mut self.nodes,
+                &self.instances,
+                &self.roots,
+                &work.top.nodes()[range],
+            );
         }
         self.work = work;
     }
@@ -148,18 +142,17 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         let mut lists = Vec::new();
         for &blas in &pending.blases {
             let own = &self.blases[blas as usize];
-            work.leaves.extend(own.nodes.clone());
             lists.push(&own.levels);
         }
-        work.levels = Levels::join(&lists);
+        work.bottom = Levels::join(&lists);
         for &blas in pending.blases.union(&pending.built) {
             work.roots.push(blas);
-            instances.extend(self.users_of(blas));
+            let mesh = self.blases[blas as usize].mesh;
+            instances.extend(&self.meshes[mesh as usize].users);
         }
 
         let all = self.top.leaves.len();
         if pending.whole_top || instances.len() > all * W / MOST {
-            work.instances = self.top.leaves.clone();
             work.top = self.top.levels.clone();
         } else {
             self.dirty_top(&instances, &pending.top_nodes, &mut work);
@@ -167,41 +160,20 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         self.work = work;
     }
 
-    /// The leaves of the given instances and all nodes above them and above the given ones.
+    /// The leaves of the given instances, the given nodes, and all nodes above them.
     fn dirty_top(&mut self, instances: &[u32], nodes: &[u32], work: &mut Work) {
-        let mut leaves: Vec<u32> = instances
-            .iter()
-            .map(|&i| self.placed[i as usize].node)
-            .filter(|&node| node != INVALID)
-            .collect();
-        leaves.sort_unstable();
-        leaves.dedup();
+        let leaves = instances.iter().map(|&i| self.placed[i as usize].node);
         let mut pairs = Vec::new();
         self.top.mark += 1;
-        for &start in leaves.iter().chain(nodes) {
-            let mut node = self.parents[start as usize];
+        for start in leaves.chain(nodes.iter().copied()) {
+            let mut node = start;
             while node != INVALID && self.top.marks[node as usize] != self.top.mark {
                 self.top.marks[node as usize] = self.top.mark;
                 pairs.push((self.top.node_levels[node as usize], node));
                 node = self.parents[node as usize];
             }
         }
-        work.instances = leaves;
         work.top = Levels::gather(pairs);
-    }
-
-    /// Indices of the instances of a bottom level.
-    fn users_of(&self, blas: u32) -> Vec<u32> {
-        match self.blases[blas as usize].owner {
-            Owner::Instance(index) => alloc::vec![index],
-            Owner::Mesh(mesh) => {
-                let users = self.meshes[mesh as usize].users.iter();
-                users
-                    .copied()
-                    .filter(|&user| self.placed[user as usize].own.is_none())
-                    .collect()
-            }
-        }
     }
 }
 

@@ -7,8 +7,9 @@ use super::Scene;
 use crate::build::{Primitive, Topology, build};
 use crate::levels::Levels;
 use crate::node::{LightNode, kind};
+use crate::summary::Summary;
 use crate::trail::{BitTrail, max_levels};
-use crate::tree::{INVALID, MeshLeaf};
+use crate::tree::INVALID;
 
 /// The top level's place among the nodes.
 #[derive(Clone, Debug, Default)]
@@ -16,7 +17,7 @@ pub(super) struct Top {
     pub root: u32,
     /// Its nodes: one range after a rebuild, more after instances were added.
     pub ranges: Vec<Range<u32>>,
-    /// Its nodes with inner children.
+    /// Its nodes by level.
     pub levels: Levels,
     /// Its nodes with instances.
     pub leaves: Vec<u32>,
@@ -51,16 +52,15 @@ struct Place {
 }
 
 impl<N> TopTree<N> {
-    /// The tree of `topology`, whose leaves link to instances, in bounds. Its trails are of the leaves in any order of
-    /// their own; `instances` says which of them is which instance.
-    pub fn new<const W: usize>(topology: Topology<N>, levels: Levels, instances: impl Fn(u32) -> u32) -> Self
+    /// The tree of `topology`, whose leaves link to instances.
+    pub fn new<const W: usize>(topology: Topology<N>, levels: Levels) -> Self
     where
         N: LightNode<W>,
     {
         let trails = topology.trails.iter();
         let mut places: Vec<Place> = trails
-            .map(|&(leaf, trail)| Place {
-                instance: instances(leaf),
+            .map(|&(instance, trail)| Place {
+                instance,
                 node: INVALID,
                 slot: 0,
                 trail,
@@ -99,7 +99,7 @@ impl<N> TopTree<N> {
         Self {
             nodes: alloc::vec![N::EMPTY],
             node_levels: alloc::vec![0],
-            levels: Levels::default(),
+            levels: Levels::gather(alloc::vec![(0, 0)]),
             leaves: Vec::new(),
             depth: 1,
             places: Vec::new(),
@@ -243,8 +243,8 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
 
     fn primitive(&self, index: u32) -> Primitive {
         let instance = &self.instances[index as usize];
-        let bounds = self.roots[instance.blas as usize].bounds();
-        Primitive::new(index, &instance.to_world(&bounds))
+        let local = self.roots[instance.blas as usize].summary::<N::Summary>();
+        Primitive::new(index, &local.to_world(instance))
     }
 
     /// Walks the top level and notes where everything is: parents, levels, lists, and the place and trail of each instance.
@@ -263,21 +263,20 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         while let Some((node, level, trail)) = stack.pop() {
             self.top.node_levels[node as usize] = level;
             self.top.depth = self.top.depth.max(level + 1);
-            let (mut inner, mut leaf) = (false, false);
+            let mut leaf = false;
             for slot in (0..W).rev() {
                 let (to, link) = {
                     let own = &self.nodes[node as usize];
                     (own.kind(slot), own.link(slot))
                 };
-                let way = trail.with::<W>(level, slot as u32);
+                let own_trail = trail.with::<W>(level, slot as u32);
                 if to == kind::INNER {
-                    inner = true;
-                    stack.push((link, level + 1, way));
+                    stack.push((link, level + 1, own_trail));
                 } else if to == kind::MESH {
                     leaf = true;
                     let instance = &mut self.instances[link as usize];
-                    if instance.trail() != way {
-                        instance.set_trail(way);
+                    if instance.trail() != own_trail {
+                        instance.set_trail(own_trail);
                         self.pending.written_instances.push(link);
                     }
                     let placed = &mut self.placed[link as usize];
@@ -285,9 +284,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
                     placed.slot = slot as u32;
                 }
             }
-            if inner {
-                pairs.push((level, node));
-            }
+            pairs.push((level, node));
             if leaf {
                 self.top.leaves.push(node);
             }

@@ -2,15 +2,14 @@
 
 use alloc::vec::Vec;
 
-use super::blas::{Owner, no_instance, put};
+use super::blas::put;
 use super::edit::{Edit, EditError, InstanceId, MeshId};
-use super::{Mesh, Placed, Scene, blas};
-use crate::exact;
+use super::{Mesh, Placed, Scene};
 use crate::instance::Instance;
 use crate::light::EmissiveTriangle;
 use crate::node::LightNode;
 use crate::transform::{Extent, Transform};
-use crate::tree::{INVALID, MeshLeaf};
+use crate::tree::INVALID;
 
 /// What a batch of edits made.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -69,7 +68,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
 
     fn add_mesh(&mut self, triangles: &[EmissiveTriangle]) -> MeshId {
         let index = self.mesh_ranges.take(1).start;
-        let blas = self.add_blas(Owner::Mesh(index), triangles);
+        let blas = self.add_blas(index, triangles);
         let generation = match self.meshes.get(index as usize) {
             Some(old) => old.generation + 1,
             None => 0,
@@ -108,7 +107,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             user,
             transform,
             radiance,
-            own: None,
+            listed: self.live.len() as u32,
             lights: self
                 .lights
                 .take(self.blases[blas as usize].triangles.len() as u32),
@@ -117,7 +116,9 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             born: self.clock,
         };
         put(&mut self.placed, index, placed.clone(), &placed);
-        put(&mut self.instances, index, no_instance(), &no_instance());
+        put(&mut self.instances, index, NO_INSTANCE, &NO_INSTANCE);
+        self.live.push(index);
+        self.list(self.live.len() as u32 - 1);
         self.place(index);
         InstanceId { index, generation }
     }
@@ -128,118 +129,67 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         let placed = &mut self.placed[index as usize];
         placed.live = false;
         placed.node = INVALID;
-        let (mesh, user, own, lights) = (placed.mesh, placed.user, placed.own.take(), placed.lights.clone());
+        let (mesh, user, listed, lights) = (placed.mesh, placed.user, placed.listed, placed.lights.clone());
         let users = &mut self.meshes[mesh as usize].users;
         users.swap_remove(user as usize);
         if let Some(&moved) = users.get(user as usize) {
             self.placed[moved as usize].user = user;
         }
-        if let Some((blas, _)) = own {
-            self.remove_blas(blas);
+        // The last of the list takes its entry.
+        self.live.swap_remove(listed as usize);
+        if let Some(&moved) = self.live.get(listed as usize) {
+            self.placed[moved as usize].listed = listed;
+            self.list(listed);
         }
-        self.instances[index as usize] = no_instance();
+        let old = self.instances[index as usize].listed;
+        self.instances[index as usize] = Instance {
+            listed: old,
+            ..NO_INSTANCE
+        };
         self.pending.written_instances.push(index);
         self.lights.give(lights.clone());
         self.removed_lights.push(lights);
         self.placed_ranges.give(index..index + 1);
     }
 
+    /// Writes entry `entry` of the list of instances in use into the record that holds it.
+    fn list(&mut self, entry: u32) {
+        self.instances[entry as usize].listed = self.live[entry as usize];
+        self.pending.written_instances.push(entry);
+    }
+
     fn deform(&mut self, id: MeshId, triangles: &[EmissiveTriangle], extent: Extent) {
         let blas = self.meshes[id.index as usize].blas;
         self.blases[blas as usize].extent = extent;
         self.write_triangles(blas, triangles);
-        // Instances with triangles of their own need them anew; the others may need some now, or no more.
-        for k in 0..self.meshes[id.index as usize].users.len() {
-            let user = self.meshes[id.index as usize].users[k];
-            if let Some((own, baked)) = self.placed[user as usize].own {
-                self.bake(own, id.index, &baked);
-            }
-            self.place(user);
-        }
     }
 
-    /// Writes a mesh's triangles, brought through `transform`, into a bottom level of an instance's own.
-    fn bake(&mut self, own: u32, mesh: u32, transform: &Transform) {
-        let baked = self.baked(mesh, transform);
-        self.blases[own as usize].extent = Extent::of(&baked);
-        self.write_triangles(own, &baked);
-    }
-
-    fn baked(&self, mesh: u32, transform: &Transform) -> Vec<EmissiveTriangle> {
-        let shared = &self.blases[self.meshes[mesh as usize].blas as usize].triangles;
-        self.triangles[shared.start as usize..shared.end as usize]
-            .iter()
-            .map(|triangle| transform.bake(triangle))
-            .collect()
-    }
-
-    /// Brings the words of an instance in line with its transform and radiance: by the shared bottom level where that can
-    /// serve, or by one of its own, as it is or written anew.
+    /// Brings the words of an instance in line with its transform and radiance.
     fn place(&mut self, index: u32) {
-        let (mesh, transform, radiance, own) = {
-            let placed = &self.placed[index as usize];
-            (placed.mesh, placed.transform, placed.radiance, placed.own)
-        };
-        let shared = self.meshes[mesh as usize].blas;
-        let by_shared = transform.similarity(&self.blases[shared as usize].extent, radiance);
-        let (instance, blas) = match (by_shared, own) {
-            (Some(instance), _) => {
-                if let Some((own, _)) = own {
-                    self.placed[index as usize].own = None;
-                    self.remove_blas(own);
-                }
-                (instance, shared)
-            }
-            (None, Some((own, baked))) => (self.place_own(index, own, &baked), own),
-            (None, None) => {
-                let triangles = self.baked(mesh, &transform);
-                let own = self.add_blas(Owner::Instance(index), &triangles);
-                self.placed[index as usize].own = Some((own, transform));
-                (in_world(radiance), own)
-            }
-        };
+        let placed = &self.placed[index as usize];
+        let blas = self.meshes[placed.mesh as usize].blas;
         let old = self.instances[index as usize];
         self.instances[index as usize] = Instance {
             root: self.roots[blas as usize].node,
             blas,
-            first: self.placed[index as usize].lights.start,
+            first: placed.lights.start,
             first_triangle: self.blases[blas as usize].triangles.start,
+            count: placed.lights.len() as u32,
+            listed: old.listed,
             trail: old.trail,
-            ..instance
+            ..placed.transform.instance(placed.radiance)
         };
         self.pending.mark_instance(index);
     }
 
-    /// The instance of its own bottom level `own`, whose triangles were brought through `baked`: moved since then, or
-    /// brought through the transform of now.
-    fn place_own(&mut self, index: u32, own: u32, baked: &Transform) -> Instance {
-        let (mesh, transform, radiance) = {
-            let placed = &self.placed[index as usize];
-            (placed.mesh, placed.transform, placed.radiance)
-        };
-        let extent = self.blases[own as usize].extent;
-        let since = transform.since(baked);
-        if transform == *baked {
-            in_world(radiance)
-        } else if let Some(moved) = since.and_then(|since| since.similarity(&extent, radiance)) {
-            moved
-        } else {
-            self.bake(own, mesh, &transform);
-            self.placed[index as usize].own = Some((own, transform));
-            in_world(radiance)
-        }
-    }
-
     /// After a bottom level got other nodes: its instances must know the root.
     pub(super) fn reroot(&mut self, blas: u32) {
-        let users: Vec<u32> = match self.blases[blas as usize].owner {
-            blas::Owner::Instance(index) => alloc::vec![index],
-            blas::Owner::Mesh(mesh) => self.meshes[mesh as usize].users.clone(),
-        };
+        let mesh = self.blases[blas as usize].mesh;
+        let users = self.meshes[mesh as usize].users.clone();
         let root = self.roots[blas as usize].node;
         for user in users {
             let instance = &mut self.instances[user as usize];
-            if instance.blas() == blas && instance.root != root {
+            if instance.root != root {
                 instance.root = root;
                 self.pending.mark_instance(user);
             }
@@ -247,11 +197,9 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     }
 }
 
-/// An instance of a bottom level in world space.
-fn in_world(radiance: f32) -> Instance {
-    Instance {
-        flux: exact::max(radiance, 0.0),
-        radiance,
-        ..Instance::world(INVALID, INVALID)
-    }
-}
+/// The words of an instance that is not in use.
+const NO_INSTANCE: Instance = Instance {
+    flux: 0.0,
+    radiance: 0.0,
+    ..Instance::IDENTITY
+};

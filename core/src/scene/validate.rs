@@ -7,7 +7,7 @@ use super::Scene;
 use crate::node::{LightNode, kind};
 use crate::refit;
 use crate::trail::{BitTrail, max_levels};
-use crate::tree::{INVALID, MeshLeaf};
+use crate::tree::INVALID;
 use crate::validate::{Violation, What, contained, equal, same_words};
 
 /// What a valid scene consists of.
@@ -17,11 +17,11 @@ pub struct SceneStats {
     pub nodes: u32,
     /// Instances in use.
     pub instances: u32,
-    /// Bottom levels in use: those shared, and those of single instances.
+    /// Bottom levels in use.
     pub blases: u32,
     /// Lights in the world.
     pub lights: u32,
-    /// Greatest number of nodes on a way from the root to a light.
+    /// Greatest number of nodes on a path from the root to a light.
     pub depth: u32,
 }
 
@@ -80,11 +80,10 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
                 equal(INVALID, triangle, What::Triangle, 1, count)?;
             }
             self.refit_again(&found, &mut again, false);
-            let bounds = refit::root(&again, root).bounds();
             same_words(
                 INVALID,
                 index as u32,
-                &refit::BlasRoot::new(root, &bounds),
+                &refit::root(&again, root),
                 &self.roots[index],
             )?;
             used_triangles.push(blas.triangles.clone());
@@ -181,11 +180,11 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             let own = &self.nodes[node as usize];
             for slot in 0..W {
                 let (to, link) = (own.kind(slot), own.link(slot));
-                let way = trail.with::<W>(level, slot as u32);
+                let own_trail = trail.with::<W>(level, slot as u32);
                 if to == kind::INNER {
-                    stack.push((link, node, level + 1, way));
+                    stack.push((link, node, level + 1, own_trail));
                 } else if to == leaf {
-                    found.leaves.push((link, node, slot as u32, way));
+                    found.leaves.push((link, node, slot as u32, own_trail));
                 } else {
                     equal(node, slot as u32, What::Kind, kind::EMPTY, to)?;
                 }
@@ -208,11 +207,10 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         }
         for &(_, node) in &levels {
             again[node as usize] = if top {
-                refit::mesh_leaves(again, &self.instances, &self.roots, node)
+                refit::top(again, &self.instances, &self.roots, node)
             } else {
-                refit::leaves(again, &self.triangles, node)
+                refit::bottom(again, &self.triangles, node)
             };
-            again[node as usize] = refit::level(again, node);
         }
     }
 
@@ -246,22 +244,31 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             count,
             placed.lights.end - placed.lights.start,
         )?;
-        if placed.own.is_none() {
-            let expected = placed.transform.similarity(&own.extent, placed.radiance);
-            let Some(expected) = expected else {
-                return Err(bad(INVALID, index, What::Blas, INVALID, blas));
-            };
-            let expected = crate::instance::Instance {
-                root: found.root,
-                trail: found.trail,
-                blas: found.blas,
-                first: found.first,
-                first_triangle: found.first_triangle,
-                ..expected
-            };
-            same_words(INVALID, index, &expected, found)?;
-        }
-        Ok(())
+        let expected = crate::instance::Instance {
+            root: found.root,
+            trail: found.trail,
+            blas: found.blas,
+            first: found.first,
+            first_triangle: found.first_triangle,
+            count,
+            listed: found.listed,
+            ..placed.transform.instance(placed.radiance)
+        };
+        same_words(INVALID, index, &expected, found)?;
+        equal(
+            INVALID,
+            index,
+            What::Listed,
+            self.live[placed.listed as usize],
+            index,
+        )?;
+        equal(
+            INVALID,
+            index,
+            What::Listed,
+            index,
+            self.instances[placed.listed as usize].listed,
+        )
     }
 
     /// The children of what `node` links to lie within what it holds of them.
@@ -270,7 +277,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         for slot in 0..W {
             if own.kind(slot) == kind::INNER {
                 let child = own.link(slot);
-                contained(&own.bounds(slot), child, &self.nodes[child as usize])?;
+                contained(&own.summary(slot), child, &self.nodes[child as usize])?;
             }
         }
         Ok(())

@@ -23,10 +23,6 @@ pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-pub(super) fn length(v: [f64; 3]) -> f64 {
-    square_root(dot(v, v))
-}
-
 /// Without the standard library: Newton's steps from the exponent halved, to within some units of the last place.
 pub(super) fn square_root(x: f64) -> f64 {
     if x <= 0.0 {

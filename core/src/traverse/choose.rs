@@ -1,44 +1,80 @@
 //! The choice of a child.
 
-use crate::exact::{self, hash};
+use crate::exact;
+use crate::importance::pairwise_sum;
 
-/// A slot with probability weight / sum: pairs of neighbours choose between their two, pairs of pairs between those, and
-/// so on, with fresh bits on every storey, so that they do not run dry in deep trees. The pairs of one storey may share
-/// theirs since only one of them counts in the end.
-///
-/// The smaller side of a choice is taken when `u · both < smaller`, with a `u` that resolves far below 2^-24: so a side
-/// of tiny probability is neither starved nor favoured.
+/// Ranges of numbers are at most this long, 2^22: sums and products with them are exact in `f32`.
+pub(super) const FULL: u32 = 1 << 22;
+/// Bits of [`FULL`].
+pub(super) const FULL_BITS: u32 = 22;
+
+/// Share of a range that is given out by weight, 1 − 2^-15. The sum of up to 16 weights, its reciprocal and the numbers that
+/// the least weights are raised to are together too large by less than the rest, which goes to the last child.
+const GIVEN: f32 = 1.0 - exact::pow2(-15);
+
+/// The numbers of a range that choose a child.
+#[derive(Clone, Copy)]
+pub(super) struct Share {
+    pub slot: u32,
+    /// The first of them.
+    pub first: u32,
+    /// How many there are; 0 for a child without weight.
+    pub count: u32,
+}
+
+/// Shares the numbers `0..range` out among the children, to each at least one where its weight is positive. Returns the share
+/// that holds `number`, or with `follow` the share of `wanted`.
 #[inline(always)]
-pub(super) fn choose<const W: usize>(weights: &[f32; W], random: u32, position: u32) -> u32 {
-    let mut slots = [0; W];
+pub(super) fn choose<const W: usize>(
+    weights: &[f32; W],
+    range: u32,
+    number: u32,
+    follow: bool,
+    wanted: u32,
+) -> Share {
+    let sum = pairwise_sum(weights);
+    let alive = sum > 0.0;
+    let scale = (range as i32 as f32) * GIVEN * exact::recip(if alive { sum } else { 1.0 });
+    let mut counts = [0u32; W];
     for slot in 0..W {
-        slots[slot] = slot as u32;
+        let w = weights[slot];
+        let whole = exact::floor_small(w * scale);
+        let at_least_one = if whole == 0 { 1 } else { whole };
+        counts[slot] = if w > 0.0 { at_least_one } else { 0 };
     }
-    let mut sums = *weights;
+    // Inclusive prefix sums, by doubling steps.
+    let mut ends = counts;
     let mut stride = 1;
-    for storey in 0..4 {
-        let u = dense_unit(random.wrapping_add((position * 4 + storey).wrapping_mul(0x9e37_79b9)));
-        for slot in 0..W {
-            if slot & (2 * stride - 1) == 0 && slot + stride < W {
-                let (a, b) = (sums[slot], sums[slot + stride]);
-                let both = a + b;
-                let smaller = exact::min(a, b);
-                let second = (u * both < smaller) == (b <= a);
-                slots[slot] = if second { slots[slot + stride] } else { slots[slot] };
-                sums[slot] = both;
+    for _ in 0..4 {
+        for i in 0..W {
+            // From the last on, so that no step sees a sum of its own step.
+            let slot = W - 1 - i;
+            if slot >= stride {
+                ends[slot] = ends[slot].wrapping_add(ends[slot - stride]);
             }
         }
         stride *= 2;
     }
-    slots[0]
-}
-
-/// A uniform number in `[0, 1]` that resolves 2^-48; 1 only by rounding, with a probability of 2^-24.
-#[inline(always)]
-fn dense_unit(seed: u32) -> f32 {
-    let high = hash(seed);
-    // The first 24 bits suffice unless they are zeros; then bits scrambled from the other eight follow them: as many
-    // different values as there are seeds for them.
-    let low = high.wrapping_mul(0x9e37_79b9) ^ 0x5bd1_e995;
-    (high >> 8) as i32 as f32 * exact::pow2(-24) + (low >> 8) as i32 as f32 * exact::pow2(-48)
+    // The slot is the number of shares that end at or before the number, but not beyond the last child with weight.
+    let (mut passed, mut last) = (0, 0);
+    for slot in 0..W {
+        passed += u32::from(ends[slot] <= number);
+        last = if counts[slot] > 0 { slot as u32 } else { last };
+    }
+    let found = if passed < last { passed } else { last };
+    let slot = if follow { wanted } else { found };
+    let (mut end, mut count) = (0, 0);
+    for s in 0..W {
+        let own = !exact::mask(s as u32 ^ slot);
+        end = exact::masked_u32(own, ends[s], end);
+        count = exact::masked_u32(own, counts[s], count);
+    }
+    let first = end.wrapping_sub(count);
+    let to_the_end = range.wrapping_sub(first);
+    let all = if slot == last { to_the_end } else { count };
+    Share {
+        slot,
+        first,
+        count: if count > 0 && alive { all } else { 0 },
+    }
 }

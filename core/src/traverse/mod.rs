@@ -1,18 +1,19 @@
 //! Sampling one light with its exact probability, and the probability of any light.
 //!
-//! At each node a child is chosen with probability importance / sum of importances (paper section 3.6). Importances are
-//! bounds, so a child may be worth entering while none of *its* children is: a dead branch. Peers lose such samples.
-//! Here a dead child's probability passes to its sibling: to the nearest light of the sibling that can be reached.
-//! [`sample`](fn@sample) then returns a light whenever one can be reached, and the returned `pmf` is still exact, because the
-//! probability that a light takes over from dead neighbours is found again by looking at just those neighbours
-//! (`dead.rs`). No light loses probability by this, so the variance is never above that of losing the sample.
+//! At each node a child is chosen with a probability in proportion to its weight (paper section 3.6). Weights are positive
+//! wherever there is flux, so every walk ends at a light after at most as many steps as the tree is deep; nothing is searched.
+//!
+//! One number drives the whole walk. It is a fixed-point number whose leading bits choose among the children of the root; what
+//! remains of it, stretched to the whole range again, chooses at the next node. The order of numbers is thereby the order of
+//! lights in the tree: stratified numbers give stratified lights. Ranges are integers, and the probability returned is the very
+//! share of numbers that lead to the light.
 
-mod beside;
+mod batch;
 mod choose;
-mod dead;
-mod descend;
-mod neighbor;
+mod random;
 mod sample;
-mod search;
+mod walk;
 
+pub use batch::sample_batch;
+pub use random::Random64;
 pub use sample::{SampledLight, pmf, sample};

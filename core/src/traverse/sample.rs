@@ -1,78 +1,216 @@
 //! The two questions that a renderer asks of a light BVH.
 
-use super::dead::{Dead, adopted, heir};
-use super::descend::{Guide, Start, descend};
+use super::choose::FULL_BITS;
+use super::random::Random64;
+use super::walk::{Walk, uniform_numbers};
+use crate::exact;
 use crate::importance::ImportanceModel;
 use crate::node::LightNode;
 use crate::point::ShadingPoint;
 use crate::trail::Path;
-use crate::tree::{INVALID, LightTree, MeshLeaf};
+use crate::tree::{INVALID, LightTree};
 
 /// A light and the probability with which it was chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SampledLight {
-    /// Index of the emissive triangle; [`INVALID`] when no light can contribute at the point.
+    /// Index of the emissive triangle; [`INVALID`] when no light has flux.
     pub light: u32,
     /// Probability of this light at this point, in (0, 1]; 0 with [`INVALID`].
     pub pmf: f32,
 }
 
 impl SampledLight {
-    /// No light can contribute.
+    /// No light has flux.
     pub const NONE: Self = Self {
         light: INVALID,
         pmf: 0.0,
     };
 }
 
-/// Chooses one light for `point` by `random`, any 32 uniform bits (paper section 3.6).
+/// Chooses one light for `point` by `random` (paper section 3.6), after at most as many steps as the tree is deep.
 ///
-/// A light is returned whenever one has importance at the point; see the [module](super) for dead branches. The pmf is
-/// to the bit the one that [`pmf`] gives for the light.
+/// A light is returned whenever one has flux. The pmf is to the bit the one that [`pmf`] gives for the light, and the share
+/// of random numbers that choose it.
+#[inline]
 #[must_use]
-pub fn sample<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: usize>(
-    tree: &LightTree<'_, N, L>,
+pub fn sample<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    tree: &LightTree<'_, N>,
     point: &ShadingPoint,
-    random: u32,
+    random: Random64,
 ) -> SampledLight {
-    let guide = Guide {
-        path: Path::default(),
-        random,
-    };
-    let mut d = descend::<N, I, L, false, W>(tree, point, &guide, &Start::root(tree));
-    let mut dead = Dead::UNKNOWN;
-    if d.light == INVALID {
-        let (found, known, start) = heir::<N, I, L, W>(tree, point, &d);
-        dead = known;
-        if found.light != INVALID {
-            let path = tree.path_of(found.light, found.mesh);
-            d = descend::<N, I, L, true, W>(tree, point, &Guide { path, random }, &start);
-        }
+    let mut walk = begin::<N, I, W>(tree, point, random);
+    // A single exit at the head, no early return: rust-gpu miscompiles some of the others (spirt issue 31).
+    let mut done = walk.walk.done;
+    while !done {
+        walk.walk.step::<N, I, W>(tree, point);
+        done = walk.walk.done;
     }
-    if d.light == INVALID {
-        SampledLight::NONE
-    } else {
-        SampledLight {
-            light: d.light,
-            pmf: d.pmf + adopted::<N, I, L, W>(tree, point, &d, &dead),
+    walk.end::<N, I, W>(tree)
+}
+
+/// A walk, and what it was started for.
+#[derive(Clone, Copy)]
+pub(super) struct Started {
+    pub walk: Walk,
+    /// The light of a uniform choice, or [`INVALID`].
+    light: u32,
+    /// Its instance, or [`INVALID`].
+    instance: u32,
+}
+
+/// Starts a walk by a random number: down the tree, or for a share of the numbers along the path to a light out of all alike.
+#[inline(always)]
+pub(super) fn begin<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    tree: &LightTree<'_, N>,
+    point: &ShadingPoint,
+    random: Random64,
+) -> Started {
+    let taken = uniform_numbers::<N, I, W>();
+    let (mut light, mut instance, mut path) = (INVALID, INVALID, Path::default());
+    if taken > 0 && (random.high >> (32 - FULL_BITS)) < taken {
+        // The numbers below `taken` are all numbers halved so often.
+        let stretched = random.shifted(I::UNIFORM_HALVINGS);
+        (light, instance) = uniform(tree, stretched);
+        path = tree.path_of(triangle_of(tree, light, instance), instance);
+    }
+    Started {
+        walk: Walk::start(tree, point, random, taken, light != INVALID, path),
+        light,
+        instance,
+    }
+}
+
+impl Started {
+    /// The light at the end of the walk.
+    #[inline(always)]
+    pub fn end<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+        &self,
+        tree: &LightTree<'_, N>,
+    ) -> SampledLight {
+        let walk = &self.walk;
+        let chosen = self.light != INVALID;
+        let reached = walk.triangle != INVALID;
+        let instance = if chosen { self.instance } else { walk.instance };
+        let light = if chosen {
+            self.light
+        } else {
+            light_of(tree, walk.triangle, walk.instance)
+        };
+        let by_tree = if reached { walk.probability() } else { 0.0 };
+        let pmf = by_tree + uniform_probability::<N, I, W>(tree, instance);
+        if chosen | reached {
+            SampledLight { light, pmf }
+        } else {
+            SampledLight::NONE
         }
     }
 }
 
-/// The probability with which [`sample`] returns triangle `light` of mesh light `mesh` ([`INVALID`] in a single-level
-/// tree) at `point`: 0 if it has no importance there, or if there is no such light.
+/// The probability with which [`sample`] returns light `light` of instance `instance` ([`INVALID`] in a single-level
+/// tree) at `point`: 0 if there is no such light.
+#[inline]
 #[must_use]
-pub fn pmf<N: LightNode<W>, I: ImportanceModel, L: MeshLeaf, const W: usize>(
-    tree: &LightTree<'_, N, L>,
+pub fn pmf<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    tree: &LightTree<'_, N>,
     point: &ShadingPoint,
     light: u32,
-    mesh: u32,
+    instance: u32,
 ) -> f32 {
-    let path = tree.path_of(light, mesh);
-    let d = descend::<N, I, L, true, W>(tree, point, &Guide { path, random: 0 }, &Start::root(tree));
-    if d.light == light && light != INVALID {
-        d.pmf + adopted::<N, I, L, W>(tree, point, &d, &Dead::UNKNOWN)
+    let triangle = triangle_of(tree, light, instance);
+    let path = tree.path_of(triangle, instance);
+    let number = Random64 { high: 0, low: 0 };
+    let taken = uniform_numbers::<N, I, W>();
+    let mut walk = Walk::start(tree, point, number, taken, true, path);
+    let mut done = walk.done;
+    while !done {
+        walk.step::<N, I, W>(tree, point);
+        done = walk.done;
+    }
+    let found = (walk.triangle == triangle) & (walk.instance == instance) & (triangle != INVALID);
+    let by_tree = if found { walk.probability() } else { 0.0 };
+    let uniform = uniform_probability::<N, I, W>(tree, instance);
+    if is_light(tree, light, instance) {
+        by_tree + uniform
     } else {
         0.0
+    }
+}
+
+/// A light out of all alike, and its instance: out of all instances alike, and out of the instance's lights alike. That needs
+/// no table of lights, which would have to change whenever an instance comes or goes.
+#[inline(always)]
+fn uniform<N>(tree: &LightTree<'_, N>, random: Random64) -> (u32, u32) {
+    let (mut light, mut found) = (INVALID, INVALID);
+    if tree.live > 0 {
+        let (entry, rest) = random.pick(tree.live);
+        if entry < tree.instances.len() as u32 {
+            let instance = tree.instances[entry as usize].listed;
+            if instance < tree.instances.len() as u32 {
+                let own = &tree.instances[instance as usize];
+                if own.count > 0 {
+                    light = own.first.wrapping_add(rest.pick(own.count).0);
+                    found = instance;
+                }
+            }
+        }
+    } else if tree.lights > 0 {
+        light = random.pick(tree.lights).0;
+    }
+    (light, found)
+}
+
+/// The probability of a light of `instance` by a uniform choice, times the share of such choices.
+#[inline(always)]
+fn uniform_probability<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    tree: &LightTree<'_, N>,
+    instance: u32,
+) -> f32 {
+    let taken = uniform_numbers::<N, I, W>();
+    let mut probability = 0.0;
+    if taken > 0 {
+        let within = tree.live > 0 && instance < tree.instances.len() as u32;
+        let own = if within {
+            tree.instances[instance as usize].count
+        } else {
+            tree.lights
+        };
+        let choices = if tree.live > 0 { tree.live } else { 1 };
+        let share = taken as i32 as f32 * exact::pow2(-(FULL_BITS as i32));
+        let one = exact::div(share, (if own > 0 { own } else { 1 } & COUNT_MASK) as i32 as f32);
+        probability = exact::div(one, (choices & COUNT_MASK) as i32 as f32);
+    }
+    probability
+}
+
+/// Counts stay below 2^31, also in hostile words: conversions from `u32` above are wrong on one device.
+const COUNT_MASK: u32 = 0x7fff_ffff;
+
+#[inline(always)]
+fn triangle_of<N>(tree: &LightTree<'_, N>, light: u32, instance: u32) -> u32 {
+    if instance < tree.instances.len() as u32 && tree.live > 0 {
+        tree.instances[instance as usize].triangle_of(light)
+    } else {
+        light
+    }
+}
+
+#[inline(always)]
+fn light_of<N>(tree: &LightTree<'_, N>, triangle: u32, instance: u32) -> u32 {
+    if instance < tree.instances.len() as u32 {
+        tree.instances[instance as usize].light_of(triangle)
+    } else {
+        triangle
+    }
+}
+
+/// Whether there is such a light.
+#[inline(always)]
+fn is_light<N>(tree: &LightTree<'_, N>, light: u32, instance: u32) -> bool {
+    if tree.live > 0 {
+        let within = instance < tree.instances.len() as u32;
+        let own = &tree.instances[if within { instance as usize } else { 0 }];
+        within & (light.wrapping_sub(own.first) < own.count)
+    } else {
+        (light < tree.lights) & (instance == INVALID)
     }
 }

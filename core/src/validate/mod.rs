@@ -13,7 +13,7 @@ use core::fmt;
 use crate::bvh::LightBvh;
 use crate::lights::Lights;
 use crate::node::LightNode;
-use crate::tree::{INVALID, MeshLeaf};
+use crate::tree::INVALID;
 
 /// What a valid light BVH consists of.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +22,7 @@ pub struct Stats {
     pub nodes: u32,
     /// Number of leaves: triangles, and in a two-level BVH mesh lights too.
     pub leaves: u32,
-    /// Greatest number of nodes on a way from the root to a light.
+    /// Greatest number of nodes on a path from the root to a light.
     pub depth: u32,
     /// Bytes that sampling and pmf read.
     pub bytes: usize,
@@ -82,34 +82,17 @@ pub enum What {
     TrailHigh,
     /// Depth of the whole.
     Depth,
-    /// How often a node is in the list of levels: once if it has inner children, else never.
+    /// How often a node is in the list of levels: once.
     Listed,
     /// Level of a node in the list: that of its range, and below the range before.
     ListedLevel,
-    /// A word that does not show in the decoded bounds; the number counts the words of a child.
+    /// A word of a node that does not show in the decoded summaries; the number counts words.
     Word(u32),
-    /// Bounds that refit would not give, by component: 0–2 least corner, 3–5 greatest corner, 6–8 axis, 9 cos θ_o,
-    /// 10 cos θ_e, 11 Φ.
-    Bounds(u32),
-    /// A component of a child's bounds that reaches out of its parent's; counted as in [`Bounds`](Self::Bounds).
-    Containment(u32),
+    /// A component of a child's summary that refit would not give.
+    Bounds(&'static str),
+    /// A component of a child's summary that reaches out of its parent's.
+    Containment(&'static str),
 }
-
-/// Names of the components of bounds, in the order of [`What::Bounds`].
-const COMPONENTS: [&str; 12] = [
-    "least x",
-    "least y",
-    "least z",
-    "greatest x",
-    "greatest y",
-    "greatest z",
-    "axis x",
-    "axis y",
-    "axis z",
-    "cos θ_o",
-    "cos θ_e",
-    "flux",
-];
 
 impl What {
     /// Whether the words are the bits of an `f32`.
@@ -121,7 +104,6 @@ impl What {
 
 impl fmt::Display for What {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let name = |component: u32| COMPONENTS.get(component as usize).copied().unwrap_or("word");
         match *self {
             Self::MeshCount => write!(f, "number of mesh lights"),
             Self::RootCount => write!(f, "number of bottom levels"),
@@ -142,9 +124,9 @@ impl fmt::Display for What {
             Self::Depth => write!(f, "depth"),
             Self::Listed => write!(f, "times in the list of levels"),
             Self::ListedLevel => write!(f, "level in the list of levels"),
-            Self::Word(word) => write!(f, "word {word} of the child"),
-            Self::Bounds(component) => write!(f, "{} of the refitted bounds", name(component)),
-            Self::Containment(component) => write!(f, "{} within the parent's bounds", name(component)),
+            Self::Word(word) => write!(f, "word {word} of the node"),
+            Self::Bounds(component) => write!(f, "{component} after a refit"),
+            Self::Containment(component) => write!(f, "{component} within the parent's"),
         }
     }
 }
@@ -187,14 +169,14 @@ pub(crate) fn equal(node: u32, slot: u32, what: What, expected: u32, found: u32)
     }
 }
 
-impl<N: LightNode<W>, const W: usize, L: MeshLeaf> LightBvh<N, W, L> {
+impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
     /// Checks every invariant of the BVH over `lights`, which must be those of the last refit:
     /// - each link is in range and of a kind that its level may hold; each node of each tree is reached exactly once;
     /// - each triangle and each mesh light is a leaf exactly once, and its trail leads to just that leaf;
     /// - the lists of levels are complete and run from the deepest level to the root;
     /// - no tree is deeper than a trail can say;
-    /// - every word of every bounds is what refit makes of the lights;
-    /// - a child's box, cone and flux lie within its parent's.
+    /// - every word of every summary is what refit makes of the lights;
+    /// - a child's bounds, where the layout stores bounds, lie within its parent's.
     ///
     /// # Errors
     /// The first [`Violation`].

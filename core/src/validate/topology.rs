@@ -8,8 +8,8 @@ use crate::bvh::LightBvh;
 use crate::levels::Levels;
 use crate::lights::Lights;
 use crate::node::{LightNode, kind};
-use crate::trail::{BitTrail, max_levels, slot_bits};
-use crate::tree::{INVALID, MeshLeaf};
+use crate::trail::{BitTrail, max_levels, trail_words};
+use crate::tree::INVALID;
 
 /// Level of a node that was not reached.
 const UNREACHED: u32 = INVALID;
@@ -33,8 +33,8 @@ struct Walk<'a, N, const W: usize> {
 }
 
 /// Checks everything but the bounds; returns the number of leaves.
-pub(super) fn validate<N: LightNode<W>, const W: usize, L: MeshLeaf>(
-    bvh: &LightBvh<N, W, L>,
+pub(super) fn validate<N: LightNode<W>, const W: usize>(
+    bvh: &LightBvh<N, W>,
     lights: &Lights,
 ) -> Result<u32, Violation> {
     let tree = bvh.tree();
@@ -50,7 +50,7 @@ pub(super) fn validate<N: LightNode<W>, const W: usize, L: MeshLeaf>(
         INVALID,
         What::MeshCount,
         meshes,
-        tree.meshes.len() as u32,
+        tree.instances.len() as u32,
     )?;
     let words = triangles.wrapping_mul(tree.trail_words);
     equal(
@@ -92,7 +92,7 @@ pub(super) fn validate<N: LightNode<W>, const W: usize, L: MeshLeaf>(
             foreign: What::Link,
             counted: What::Mesh,
         };
-        let trail = |mesh: u32| tree.meshes[mesh as usize].trail();
+        let trail = |mesh: u32| tree.instances[mesh as usize].trail();
         equal(
             INVALID,
             INVALID,
@@ -101,7 +101,7 @@ pub(super) fn validate<N: LightNode<W>, const W: usize, L: MeshLeaf>(
             bvh.roots().len() as u32,
         )?;
         top_depth = walk.tree(tree.root, tree.root..count, &mesh_leaves, trail)?;
-        for (mesh, light) in tree.meshes.iter().enumerate() {
+        for (mesh, light) in tree.instances.iter().enumerate() {
             let range = lights.mesh(mesh);
             equal(
                 INVALID,
@@ -110,15 +110,15 @@ pub(super) fn validate<N: LightNode<W>, const W: usize, L: MeshLeaf>(
                 range.start as u32,
                 light.light_of(range.start as u32),
             )?;
-            equal(INVALID, mesh as u32, What::Blas, mesh as u32, light.blas())?;
+            equal(INVALID, mesh as u32, What::Blas, mesh as u32, light.blas)?;
             equal(
                 INVALID,
                 mesh as u32,
                 What::Root,
-                light.root(),
+                light.root,
                 bvh.roots()[mesh].node,
             )?;
-            let depth = walk.tree(light.root(), 0..tree.root, &triangle_leaves(range), trail_of)?;
+            let depth = walk.tree(light.root, 0..tree.root, &triangle_leaves(range), trail_of)?;
             bottom_depth = bottom_depth.max(depth);
         }
     } else {
@@ -142,7 +142,7 @@ pub(super) fn validate<N: LightNode<W>, const W: usize, L: MeshLeaf>(
         bottom_depth + top_depth,
         bvh.depth(),
     )?;
-    let words = if bottom_depth * slot_bits(W) <= 32 { 1 } else { 2 };
+    let words = trail_words(W, bottom_depth);
     equal(INVALID, INVALID, What::TrailWords, words, tree.trail_words)?;
     let split = if bvh.is_two_level() { tree.root } else { count };
     walk.lists(bvh.bottom_levels(), 0..split)?;
@@ -261,8 +261,7 @@ impl<N: LightNode<W>, const W: usize> Walk<'_, N, W> {
             above = level.unwrap_or(above);
         }
         for (node, &seen) in part.zip(&times) {
-            let inner = (0..W).any(|slot| self.nodes[node as usize].kind(slot) == kind::INNER);
-            equal(node, INVALID, What::Listed, u32::from(inner), seen)?;
+            equal(node, INVALID, What::Listed, 1, seen)?;
         }
         Ok(())
     }

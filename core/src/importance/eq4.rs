@@ -1,0 +1,156 @@
+//! The paper's importance, Eq. 4.
+
+use glam::Vec3;
+
+use super::{ImportanceModel, Scaled, on_one_scale};
+use crate::exact::{self, exponent, pow2, recip_rough, rsqrt_rough, significand};
+use crate::node::BoundsNode;
+use crate::point::ShadingPoint;
+use crate::vector::{dot, length_squared};
+
+/// What [`Eq4`] needs to know of the lights below a child; a node layout decodes it.
+#[derive(Clone, Copy, Debug)]
+pub struct Cluster {
+    /// Centre C of the box, metres.
+    pub center: Vec3,
+    /// Half extents of the box, metres.
+    pub extent: Vec3,
+    /// Squared radius of a sphere around the box, m².
+    pub radius_squared: f32,
+    /// Axis of the normals' cone; of length 1, or shorter by at most 2^-8.
+    pub axis: Vec3,
+    /// cos θ_o.
+    pub cos_theta_o: f32,
+    /// sin θ_o.
+    pub sin_theta_o: f32,
+    /// cos θ_e.
+    pub cos_theta_e: f32,
+    /// Flux Φ, W.
+    pub phi: f32,
+}
+
+/// Slack of the cosines, 2^-8: the least that both count where their bound is not zero.
+const SLACK: f32 = 0.003_906_25;
+
+/// Least factor, 2^-10, also where a bound is zero. It then says that nothing below contributes, but a rounded bound is no
+/// proof, and no weight is zero where there is flux. Smaller ones change no variance to three digits (moments of variance with
+/// floors of 10^-3 and of zero: `docs/walk.md`).
+const FLOOR: f32 = pow2(-10);
+
+/// Share of the distance by which a box may lie below the horizon, 2^-20: it covers the rounding of the products.
+const HORIZON_SLACK: f32 = pow2(-20);
+
+/// Share of r² added to d² (see [`Eq4`]). A constant of its own: rust-gpu does not fold an expression of literals.
+const SOFTENING: f32 = 1.0 / 12.0;
+
+/// Squared distances count as at least this, m²: 2^-100.
+const MIN_DISTANCE_SQUARED: f32 = pow2(-100);
+
+/// Length added along the cone's axis: a sign that depends on a subnormal product, which it absorbs, would not be the same
+/// on a device that flushes those. A relative 2^-60 of the least distance.
+const TINY_LENGTH: f32 = pow2(-110);
+
+/// Eq. 4 of Freire & Pereira 2023 (after Conty Estevez & Kulla 2018, section 4.2, Eq. 3): flux, distance, orientation of
+/// the emitters and incident angle.
+///
+/// θ_u, the uncertainty angle, is that of the sphere around the box. Four departures from the letter of Eq. 4:
+/// - ‖X − C‖² is softened by r²/12, since the centre stands for lights all over the box; Falcor and pbrt clamp instead.
+/// - cos θ'_i is not taken as absolute: an opaque surface receives nothing from behind. A zero normal drops the factor.
+/// - cos θ'_i is bounded by the box's highest corner above the surface, not by the sphere: it is zero just when the whole
+///   box lies below the horizon.
+/// - The product of both cosines is at least 2^-10, also where a bound says zero.
+#[derive(Clone, Copy, Debug)]
+pub struct Eq4;
+
+impl<N: BoundsNode<W>, const W: usize> ImportanceModel<N, W> for Eq4 {
+    const UNIFORM_HALVINGS: u32 = 0;
+
+    #[inline(always)]
+    fn weights(node: &N, point: &ShadingPoint) -> [f32; W] {
+        let mut scaled = [Scaled {
+            significand: 0.0,
+            exponent: -1024,
+        }; W];
+        for slot in 0..W {
+            let cluster = node.cluster(slot);
+            let (factor, d_squared) = Eq4::factor(&cluster, point);
+            scaled[slot] = over_distance(&cluster, d_squared, factor);
+        }
+        on_one_scale(&scaled)
+    }
+}
+
+impl Eq4 {
+    /// The product of the cosines' bounds, [`FLOOR`] where it is zero, and d².
+    #[inline(always)]
+    pub(crate) fn factor(cluster: &Cluster, point: &ShadingPoint) -> (f32, f32) {
+        let v = cluster.center - point.position();
+        let n = point.normal();
+        let d_squared = exact::max(length_squared(v), MIN_DISTANCE_SQUARED);
+        let r_squared = cluster.radius_squared;
+
+        // Lengths instead of sines and cosines: with d = |v|, d cos θ = −axis·v, d sin θ_u = r, and the others by
+        // Pythagoras. Every root then starts from d² and none waits for another. Selects, not branches: the compiler
+        // computes a node's children side by side.
+        let along_axis = TINY_LENGTH - dot(cluster.axis, v);
+        let across_axis = root(d_squared - along_axis * along_axis);
+        let radius = root(r_squared);
+        let tangent = root(d_squared - r_squared);
+        let inverse = rsqrt_rough(d_squared);
+        let inverse_squared = inverse * inverse;
+
+        // Inside the sphere the lights may be anywhere.
+        let inside = r_squared >= d_squared;
+
+        // The incident cosine that the highest corner of the box has, as seen at the centre's distance; 1 in a volume.
+        let in_volume = (n.x == 0.0) & (n.y == 0.0) & (n.z == 0.0);
+        let reach_up = (exact::abs(n.x) * cluster.extent.x + exact::abs(n.y) * cluster.extent.y)
+            + exact::abs(n.z) * cluster.extent.z;
+        let cos_incident = (dot(n, v) + reach_up) * inverse;
+        let bounded = exact::min(exact::max(cos_incident, SLACK), 1.0);
+        let above = if cos_incident < -HORIZON_SLACK {
+            0.0
+        } else {
+            bounded
+        };
+        let incident = if in_volume { 1.0 } else { above };
+
+        // cos θ' = cos max(0, θ − θ_o − θ_u), with α = θ_o + θ_u; an α above π shows in its negative sine.
+        let cos_alpha = cluster.cos_theta_o * tangent - cluster.sin_theta_o * radius;
+        let sin_alpha = cluster.sin_theta_o * tangent + cluster.cos_theta_o * radius;
+        let facing = (along_axis * cos_alpha + across_axis * sin_alpha) * inverse_squared;
+        let surrounded = inside | (sin_alpha < 0.0) | (along_axis >= cos_alpha);
+        let reach = if surrounded { 1.0 } else { facing } + SLACK;
+        let orientation = if reach > cluster.cos_theta_e { reach } else { 0.0 };
+
+        (exact::max(incident * orientation, FLOOR), d_squared)
+    }
+}
+
+/// Φ · factor / (d² + r²/12), exponents apart.
+#[inline(always)]
+fn over_distance(cluster: &Cluster, distance_squared: f32, factor: f32) -> Scaled {
+    let soft = exact::max(
+        distance_squared + cluster.radius_squared * SOFTENING,
+        MIN_DISTANCE_SQUARED,
+    );
+    let value = significand(cluster.phi) * recip_rough(significand(soft)) * factor;
+    // The comparison also turns the NaN of hostile words into "no importance".
+    let shines = cluster.phi > 0.0;
+    Scaled {
+        significand: if shines & (value > 0.0) { value } else { 0.0 },
+        exponent: if shines {
+            exponent(cluster.phi) - exponent(soft)
+        } else {
+            -1024
+        },
+    }
+}
+
+/// Square root by the rough reciprocal root; 2^-62 for anything below 2^-124.
+#[inline(always)]
+fn root(x: f32) -> f32 {
+    const LEAST: f32 = pow2(-124);
+    let bounded = exact::max(x, LEAST);
+    bounded * rsqrt_rough(bounded)
+}

@@ -1,0 +1,44 @@
+//! Flux over squared distance, without cosines.
+
+use super::{ImportanceModel, Scaled, on_one_scale};
+use crate::exact::{self, exponent, pow2, recip_rough, significand};
+use crate::node::LightNode;
+use crate::point::ShadingPoint;
+use crate::summary::Summary;
+use crate::vector::length_squared;
+
+/// Squared distances count as at least this, m²: 2^-100.
+const MIN_DISTANCE_SQUARED: f32 = pow2(-100);
+
+/// Φ/(d² + σ²), σ² the variance of the lights' positions: the cheap end of the trade between speed and accuracy, right where
+/// lights shine everywhere. On any layout.
+#[derive(Clone, Copy, Debug)]
+pub struct FluxOverDistance;
+
+impl<N: LightNode<W>, const W: usize> ImportanceModel<N, W> for FluxOverDistance {
+    const UNIFORM_HALVINGS: u32 = 0;
+
+    #[inline(always)]
+    fn weights(node: &N, point: &ShadingPoint) -> [f32; W] {
+        let mut scaled = [Scaled {
+            significand: 0.0,
+            exponent: -1024,
+        }; W];
+        for slot in 0..W {
+            let summary = node.summary(slot);
+            let (phi, away) = (summary.phi(), summary.center() - point.position());
+            let soft = exact::max(length_squared(away) + summary.spread(), MIN_DISTANCE_SQUARED);
+            let value = significand(phi) * recip_rough(significand(soft));
+            let shines = (phi > 0.0) & (value > 0.0);
+            scaled[slot] = Scaled {
+                significand: if shines { value } else { 0.0 },
+                exponent: if shines {
+                    exponent(phi) - exponent(soft)
+                } else {
+                    -1024
+                },
+            };
+        }
+        on_one_scale(&scaled)
+    }
+}

@@ -1,0 +1,88 @@
+//! How much a set of lights may matter to a point: what children are chosen by.
+//!
+//! A weight need not be accurate. It is positive wherever there is flux, so that no light is ever lost, and it has the same
+//! bits on both processors. What is approximate about it costs variance.
+
+mod eq4;
+mod flux;
+
+pub use eq4::{Cluster, Eq4};
+pub use flux::FluxOverDistance;
+
+use crate::exact;
+use crate::point::ShadingPoint;
+
+/// A measure of what the lights below each child of a node may contribute at a point. A type chooses it, so that kernels
+/// contain one only.
+pub trait ImportanceModel<N, const W: usize> {
+    /// Share of samples that choose among all lights alike, as the number of times that 1 is halved: 5 for 1/32. 0 is for none
+    /// and costs nothing. See [`Defensive`].
+    const UNIFORM_HALVINGS: u32;
+
+    /// The weights of the children of `node` at `point`, a point in the node's space: each zero where the child has no flux,
+    /// else positive and at most 2^120. Hostile words may give anything.
+    fn weights(node: &N, point: &ShadingPoint) -> [f32; W];
+}
+
+/// The importance `I` with a share of 2^-`HALVINGS` of samples that choose among all lights alike (a defensive mixture:
+/// Hesterberg 1995). A light that `I` underrates then keeps that share of its uniform probability, and its contribution to the
+/// variance stays bounded. `HALVINGS` is from 1 to 20; 5, a share of 3 %, is good (measured in `docs/walk.md`).
+#[derive(Clone, Copy, Debug)]
+pub struct Defensive<I, const HALVINGS: u32>(core::marker::PhantomData<I>);
+
+impl<N, I: ImportanceModel<N, W>, const HALVINGS: u32, const W: usize> ImportanceModel<N, W>
+    for Defensive<I, HALVINGS>
+{
+    const UNIFORM_HALVINGS: u32 = {
+        assert!(1 <= HALVINGS && HALVINGS <= 20, "a share of uniform choice from 1/2 to 2^-20");
+        HALVINGS
+    };
+
+    #[inline(always)]
+    fn weights(node: &N, point: &ShadingPoint) -> [f32; W] {
+        I::weights(node, point)
+    }
+}
+
+/// The sum of neighbours, of pairs of neighbours, and so on; for up to 16 children.
+#[inline(always)]
+pub(crate) fn pairwise_sum<const W: usize>(weights: &[f32; W]) -> f32 {
+    let mut sums = *weights;
+    let mut stride = 1;
+    for _ in 0..4 {
+        for slot in 0..W {
+            if slot & (2 * stride - 1) == 0 && slot + stride < W {
+                sums[slot] += sums[slot + stride];
+            }
+        }
+        stride *= 2;
+    }
+    sums[0]
+}
+
+/// A weight `significand · 2^exponent`. The exponent is kept apart because Φ/d² of the accepted domain spans 2^±300.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Scaled {
+    /// Zero without any flux, else in `[2^-24, 8)`.
+    pub significand: f32,
+    /// Exponent of two; −1024 without any flux.
+    pub exponent: i32,
+}
+
+/// Brings the weights of a node's children to one scale: that of the greatest exponent. A weight below 2^-60 of the scale
+/// counts as that much, so a positive weight stays positive.
+#[inline(always)]
+pub(crate) fn on_one_scale<const W: usize>(scaled: &[Scaled; W]) -> [f32; W] {
+    let mut greatest = -1024;
+    for slot in 0..W {
+        let e = scaled[slot].exponent;
+        greatest = if e > greatest { e } else { greatest };
+    }
+    let mut weights = [0.0; W];
+    for slot in 0..W {
+        let below = scaled[slot].exponent - greatest;
+        let bounded = if below < -60 { -60 } else { below };
+        weights[slot] = scaled[slot].significand * exact::pow2(bounded);
+    }
+    weights
+}

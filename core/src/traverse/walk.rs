@@ -1,0 +1,155 @@
+//! One walk from the root to a light, chosen by a number or along a known path.
+
+use super::choose::{FULL, FULL_BITS, choose};
+use super::random::Random64;
+use crate::exact;
+use crate::importance::ImportanceModel;
+use crate::node::{LightNode, kind};
+use crate::point::ShadingPoint;
+use crate::trail::{Path, max_levels};
+use crate::tree::{INVALID, LightTree};
+
+/// Number of halvings after which a probability falls no further: it is never below 2^-120 where it is positive. Such a light
+/// is never drawn, and must not seem impossible.
+const MOST_HALVINGS: u32 = 120 - FULL_BITS;
+
+/// The state of a walk.
+///
+/// The numbers that lead here are a range of integers, `0..range`, of which one is the number of this walk; `range` lies in
+/// (2^21, 2^22]. Each choice cuts the range down to the child's share and doubles it until it is that long again, bits of
+/// the number following in from below. So the range and the count of doublings are the probability, exactly.
+#[derive(Clone, Copy)]
+pub(super) struct Walk {
+    /// The node to look at.
+    pub index: u32,
+    /// The triangle reached, or [`INVALID`].
+    pub triangle: u32,
+    /// The instance passed, or [`INVALID`].
+    pub instance: u32,
+    /// Whether the walk has ended.
+    pub done: bool,
+    position: u32,
+    /// The path to follow, with `follow`.
+    path: Path,
+    follow: bool,
+    /// Its upper 22 bits are the number within the range.
+    number: Random64,
+    range: u32,
+    halvings: u32,
+    /// The point in the space of the node.
+    point: ShadingPoint,
+    steps: u32,
+}
+
+impl Walk {
+    /// At the root, with the numbers from `taken` on; the others chose another way to a light. With `follow` along `path`.
+    #[inline(always)]
+    pub fn start<N>(
+        tree: &LightTree<'_, N>,
+        point: &ShadingPoint,
+        number: Random64,
+        taken: u32,
+        follow: bool,
+        path: Path,
+    ) -> Self {
+        let mut walk = Self {
+            index: tree.root,
+            triangle: INVALID,
+            instance: INVALID,
+            done: tree.depth == 0,
+            position: 0,
+            path,
+            follow,
+            number,
+            range: FULL,
+            halvings: 0,
+            point: *point,
+            steps: tree.depth,
+        };
+        walk.narrow(taken, FULL - taken);
+        walk
+    }
+
+    /// Goes one node down. `world` is the point in the world.
+    #[inline(always)]
+    pub fn step<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+        &mut self,
+        tree: &LightTree<'_, N>,
+        world: &ShadingPoint,
+    ) {
+        // An index out of range (hostile words) reads node 0 and ends the walk.
+        let valid = self.index < tree.nodes.len() as u32;
+        let node = &tree.nodes[if valid { self.index as usize } else { 0 }];
+        let weights = I::weights(node, &self.point);
+        let wanted = self.path.slot::<W>(self.position);
+        let number = self.number.high >> (32 - FULL_BITS);
+        let share = choose(&weights, self.range, number, self.follow, wanted);
+        let within = share.slot < W as u32;
+        let slot = if within { share.slot as usize } else { 0 };
+        let (to, link) = (node.kind(slot), node.link(slot));
+        let passes = valid & within & (share.count > 0) & (share.count <= self.range);
+        let count = if passes { share.count } else { 1 };
+        self.narrow(share.first, count);
+
+        let levels = max_levels(W);
+        // Running off the end of a tree's levels (hostile words only) must not look like the next tree's first level.
+        let last_of_tree = self.position + 1 == levels || self.position + 1 == 2 * levels;
+        let enters = passes
+            & (to == kind::MESH)
+            & (self.position < levels)
+            & (link < tree.instances.len() as u32);
+        let descends = passes & (to == kind::INNER) & !last_of_tree;
+        let at_light = passes & (to == kind::LIGHT);
+        self.triangle = if at_light { link } else { INVALID };
+        self.steps = self.steps.wrapping_sub(1);
+        self.done = !(enters | descends) | (self.steps == 0);
+        if enters {
+            let instance = &tree.instances[link as usize];
+            self.instance = link;
+            self.index = instance.root;
+            self.position = levels;
+            self.point = instance.to_local(world);
+        } else {
+            self.index = if descends { link } else { self.index };
+            self.position += u32::from(descends);
+        }
+    }
+
+    /// Cuts the range down to `count` numbers from `first` on, and doubles it to its usual length.
+    #[inline(always)]
+    fn narrow(&mut self, first: u32, count: u32) {
+        // As many doublings as make the greatest number, `count` − 1, one of 22 bits.
+        let greatest = (count.wrapping_sub(1) & (FULL - 1)) as i32 as f32;
+        let bits = exact::exponent(greatest) + 1;
+        let missing = FULL_BITS as i32 - if bits < 0 { 0 } else { bits };
+        let missing = if missing < 0 { 0 } else { missing as u32 };
+        let rest = Random64 {
+            high: self.number.high.wrapping_sub(first << (32 - FULL_BITS)),
+            low: self.number.low,
+        };
+        self.number = rest.shifted(missing);
+        self.range = count << missing;
+        self.halvings += missing;
+    }
+
+    /// The probability of having come here, by the tree: the share of all numbers that lead here.
+    #[inline(always)]
+    pub fn probability(&self) -> f32 {
+        let halvings = if self.halvings < MOST_HALVINGS {
+            self.halvings
+        } else {
+            MOST_HALVINGS
+        };
+        (self.range as i32 as f32) * exact::pow2(-((FULL_BITS + halvings) as i32))
+    }
+}
+
+/// Numbers below this choose among all lights alike, out of [`FULL`].
+#[inline(always)]
+pub(super) fn uniform_numbers<N, I: ImportanceModel<N, W>, const W: usize>() -> u32 {
+    if I::UNIFORM_HALVINGS > 0 {
+        FULL >> I::UNIFORM_HALVINGS
+    } else {
+        0
+    }
+}
