@@ -1,18 +1,53 @@
-//! The light BVH that the kernels are compiled for, and its picker for the renderer.
+//! The light BVHs that the kernels are compiled for, and their picker for the renderer.
+
+use core::marker::PhantomData;
 
 use bytemuck::{Pod, Zeroable};
-use lightbvh::{CompactNode, Eq4, INVALID, Instance, LightTree, ShadingPoint, traverse};
+use lightbvh::{
+    CompactNode, Defensive, Eq4, INVALID, ImportanceModel, Instance, LightNode, LightTree, Random64, ShadingPoint, traverse,
+};
 
 use crate::shading::pick::{PickLight, Picked};
 
-/// Children per node.
-pub const WIDTH: usize = 4;
-/// Node layout.
+/// A layout with its importance: what one set of kernels is compiled for.
+pub trait Choice<const W: usize>: Copy + Send + Sync + 'static {
+    /// The node layout.
+    type Node: LightNode<W> + core::fmt::Debug;
+    /// What children are chosen by.
+    type Importance: ImportanceModel<Self::Node, W> + Send + Sync + 'static;
+    /// Name for tables and options.
+    const NAME: &'static str;
+    /// What the names of its kernels end in.
+    const SUFFIX: &'static str;
+}
+
+/// The paper's importance, Eq. 4, on quantised bounds, 4 children to a node.
+#[derive(Clone, Copy, Debug)]
+pub struct Paper;
+
+impl Choice<4> for Paper {
+    type Node = CompactNode<4>;
+    type Importance = Eq4;
+    const NAME: &'static str = "eq4";
+    const SUFFIX: &'static str = "_eq4";
+}
+
+/// The default: the layout and importance that measured best for their time, 8 children to a node, with a share of 1/32 of
+/// uniform choice.
+#[derive(Clone, Copy, Debug)]
+pub struct Standard;
+
+impl Choice<WIDTH> for Standard {
+    type Node = Node;
+    type Importance = Defensive<Eq4, 5>;
+    const NAME: &'static str = "moments";
+    const SUFFIX: &'static str = "";
+}
+
+/// Children per node of [`Standard`].
+pub const WIDTH: usize = 8;
+/// Node layout of [`Standard`].
 pub type Node = CompactNode<WIDTH>;
-/// Importance.
-pub type Importance = Eq4;
-/// The tree that kernels walk: leaves of a top level are instances.
-pub type Tree<'a> = LightTree<'a, Node, Instance>;
 
 /// What a [`LightTree`] holds besides its arrays; part of the push constants.
 #[repr(C)]
@@ -22,48 +57,69 @@ pub struct TreePush {
     pub root: u32,
     /// Words per bit trail, 1 or 2.
     pub trail_words: u32,
-    /// 1 when the tree has mesh lights, else 0: an empty buffer cannot be bound, so its length does not tell.
-    pub two_level: u32,
+    /// Number of instances in use; 0 in a single-level tree.
+    pub live: u32,
+    /// Number of triangles of a single-level tree.
+    pub lights: u32,
+    /// Greatest number of nodes on a path.
+    pub depth: u32,
 }
 
 impl TreePush {
-    /// The tree over the given arrays.
-    #[inline]
+    /// What `tree` holds besides its arrays.
     #[must_use]
-    pub fn tree<'a>(&self, nodes: &'a [Node], meshes: &'a [Instance], trails: &'a [u32]) -> Tree<'a> {
-        LightTree {
-            nodes,
-            root: self.root,
-            meshes,
-            trails,
-            trail_words: self.trail_words,
+    pub fn of<N>(tree: &LightTree<'_, N>) -> Self {
+        Self {
+            root: tree.root,
+            trail_words: tree.trail_words,
+            live: tree.live,
+            lights: tree.lights,
+            depth: tree.depth,
         }
     }
 
-    /// The picker over that tree.
+    /// The tree over the given arrays.
     #[inline]
     #[must_use]
-    pub fn picker<'a>(&self, nodes: &'a [Node], meshes: &'a [Instance], trails: &'a [u32]) -> BvhPicker<'a> {
-        BvhPicker {
-            tree: self.tree(nodes, meshes, trails),
-            two_level: self.two_level != 0,
+    pub fn tree<'a, N>(&self, nodes: &'a [N], instances: &'a [Instance], trails: &'a [u32]) -> LightTree<'a, N> {
+        LightTree {
+            nodes,
+            root: self.root,
+            instances,
+            trails,
+            trail_words: self.trail_words,
+            live: self.live,
+            lights: self.lights,
+            depth: self.depth,
         }
     }
 }
 
 /// Picks lights by sampling a light BVH.
 #[derive(Clone, Copy)]
-pub struct BvhPicker<'a> {
+pub struct BvhPicker<'a, C: Choice<W>, const W: usize> {
     /// The light BVH.
-    pub tree: Tree<'a>,
-    /// Whether it has mesh lights; as [`TreePush::two_level`].
-    pub two_level: bool,
+    pub tree: LightTree<'a, C::Node>,
+    choice: PhantomData<C>,
 }
 
-impl PickLight for BvhPicker<'_> {
+impl<'a, C: Choice<W>, const W: usize> BvhPicker<'a, C, W> {
+    /// The picker over `tree`.
+    #[inline]
+    #[must_use]
+    pub fn new(tree: LightTree<'a, C::Node>) -> Self {
+        Self {
+            tree,
+            choice: PhantomData,
+        }
+    }
+}
+
+impl<C: Choice<W>, const W: usize> PickLight for BvhPicker<'_, C, W> {
     #[inline]
     fn pick(&self, point: &ShadingPoint, random: u32) -> Picked {
-        let sampled = traverse::sample::<Node, Importance, Instance, WIDTH>(&self.tree, point, random);
+        let random = Random64::from(random);
+        let sampled = traverse::sample::<C::Node, C::Importance, W>(&self.tree, point, random);
         Picked {
             light: sampled.light,
             pmf: sampled.pmf,
@@ -72,7 +128,7 @@ impl PickLight for BvhPicker<'_> {
 
     #[inline]
     fn pmf(&self, point: &ShadingPoint, light: u32, mesh: u32) -> f32 {
-        let mesh = if self.two_level { mesh } else { INVALID };
-        traverse::pmf::<Node, Importance, Instance, WIDTH>(&self.tree, point, light, mesh)
+        let instance = if self.tree.live > 0 { mesh } else { INVALID };
+        traverse::pmf::<C::Node, C::Importance, W>(&self.tree, point, light, instance)
     }
 }
