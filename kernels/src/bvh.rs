@@ -49,6 +49,23 @@ pub const WIDTH: usize = 8;
 /// Node layout of [`Standard`].
 pub type Node = CompactNode<WIDTH>;
 
+/// The node of a choice that is made for one width only: what a kernel's buffer holds.
+pub type NodeOf<C> = <C as Kernels>::Node;
+
+/// A choice by itself, its width known.
+pub trait Kernels {
+    /// The node layout.
+    type Node;
+}
+
+impl Kernels for Standard {
+    type Node = Node;
+}
+
+impl Kernels for Paper {
+    type Node = CompactNode<4>;
+}
+
 /// What a [`LightTree`] holds besides its arrays; part of the push constants.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]

@@ -1,10 +1,6 @@
-//! Passes `refit_leaves`, `refit_level`, `refit_roots`, `refit_instances`, `refit_level` again: new bounds bottom-up (paper
-//! section 3.4) of the nodes listed, so that only what changed costs anything. One invocation writes one node or root; a
-//! barrier stands between dispatches.
-
-mod climb;
-
-pub use climb::{refit_climb, refit_climb_top};
+//! Passes `refit_bottom`, `refit_roots`, `refit_top`: new summaries bottom-up (paper section 3.4) of the nodes listed, so that
+//! only what changed costs anything. One invocation writes one node or root; a barrier stands between dispatches, of which
+//! there is one for each level.
 
 use bytemuck::{Pod, Zeroable};
 use glam::UVec3;
@@ -12,7 +8,7 @@ use lightbvh::refit::{self, BlasRoot};
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
-use crate::bvh::{Node, WIDTH};
+use crate::bvh::{NodeOf, Paper, Standard};
 use crate::invocation;
 
 /// Push constants of the refit passes.
@@ -25,79 +21,86 @@ pub struct RefitPush {
     pub count: u32,
 }
 
-/// Pass 1: nodes `list[first + i]` take the bounds of their triangles.
-#[spirv(compute(threads(64), entry_point_name = "refit_leaves"))]
-pub fn refit_leaves(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(push_constant)] push: &RefitPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] triangles: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] nodes: &mut [Node],
-) {
-    let i = invocation(id);
-    let entry = push.first.wrapping_add(i);
-    if i < push.count && entry < list.len() as u32 {
-        let node = list[entry as usize];
-        if node < nodes.len() as u32 {
-            nodes[node as usize] = refit::leaves::<Node, WIDTH>(nodes, triangles, node);
+/// The three passes for one choice.
+macro_rules! refit_passes {
+    ($choice:ty, $bottom:ident, $bottom_name:tt, $roots:ident, $roots_name:tt, $top:ident, $top_name:tt) => {
+        /// Nodes `list[first + i]` of bottom levels, all of one level, take the summaries of their triangles and of the nodes
+        /// below them.
+        #[spirv(compute(threads(64), entry_point_name = $bottom_name))]
+        pub fn $bottom(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(push_constant)] push: &RefitPush,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] triangles: &[EmissiveTriangle],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] nodes: &mut [NodeOf<$choice>],
+        ) {
+            let i = invocation(id);
+            let entry = push.first.wrapping_add(i);
+            if i < push.count && entry < list.len() as u32 {
+                let node = list[entry as usize];
+                if node < nodes.len() as u32 {
+                    nodes[node as usize] = refit::bottom(nodes, triangles, node);
+                }
+            }
         }
-    }
+
+        /// The summaries of bottom levels `list[first + i]` from their root nodes.
+        #[spirv(compute(threads(64), entry_point_name = $roots_name))]
+        pub fn $roots(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(push_constant)] push: &RefitPush,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] nodes: &[NodeOf<$choice>],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] roots: &mut [BlasRoot],
+        ) {
+            let i = invocation(id);
+            let entry = push.first.wrapping_add(i);
+            if i < push.count && entry < list.len() as u32 {
+                let blas = list[entry as usize];
+                if blas < roots.len() as u32 {
+                    roots[blas as usize] = refit::root(nodes, roots[blas as usize].node);
+                }
+            }
+        }
+
+        /// Top-level nodes `list[first + i]`, all of one level, take the summaries of their instances, from the bottom levels'
+        /// roots, and of the nodes below them.
+        #[spirv(compute(threads(64), entry_point_name = $top_name))]
+        pub fn $top(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(push_constant)] push: &RefitPush,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] roots: &[BlasRoot],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] nodes: &mut [NodeOf<$choice>],
+        ) {
+            let i = invocation(id);
+            let entry = push.first.wrapping_add(i);
+            if i < push.count && entry < list.len() as u32 {
+                let node = list[entry as usize];
+                if node < nodes.len() as u32 {
+                    nodes[node as usize] = refit::top(nodes, instances, roots, node);
+                }
+            }
+        }
+    };
 }
 
-/// Passes 2 and 5: the nodes `list[first + i]` of one level take the bounds of the level below. One dispatch per level,
-/// of all bottom levels together.
-#[spirv(compute(threads(64), entry_point_name = "refit_level"))]
-pub fn refit_level(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(push_constant)] push: &RefitPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] nodes: &mut [Node],
-) {
-    let i = invocation(id);
-    let entry = push.first.wrapping_add(i);
-    if i < push.count && entry < list.len() as u32 {
-        let node = list[entry as usize];
-        if node < nodes.len() as u32 {
-            nodes[node as usize] = refit::level::<Node, WIDTH>(nodes, node);
-        }
-    }
-}
-
-/// Pass 3: the bounds of bottom levels `list[first + i]` from their root nodes.
-#[spirv(compute(threads(64), entry_point_name = "refit_roots"))]
-pub fn refit_roots(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(push_constant)] push: &RefitPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] nodes: &[Node],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] roots: &mut [BlasRoot],
-) {
-    let i = invocation(id);
-    let entry = push.first.wrapping_add(i);
-    if i < push.count && entry < list.len() as u32 {
-        let blas = list[entry as usize];
-        if blas < roots.len() as u32 {
-            roots[blas as usize] = refit::root::<Node, WIDTH>(nodes, roots[blas as usize].node);
-        }
-    }
-}
-
-/// Pass 4: top-level nodes `list[first + i]` take the bounds of their instances from the bottom levels' roots.
-#[spirv(compute(threads(64), entry_point_name = "refit_instances"))]
-pub fn refit_instances(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(push_constant)] push: &RefitPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] roots: &[BlasRoot],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] nodes: &mut [Node],
-) {
-    let i = invocation(id);
-    let entry = push.first.wrapping_add(i);
-    if i < push.count && entry < list.len() as u32 {
-        let node = list[entry as usize];
-        if node < nodes.len() as u32 {
-            nodes[node as usize] = refit::mesh_leaves::<Node, Instance, WIDTH>(nodes, instances, roots, node);
-        }
-    }
-}
+refit_passes!(
+    Standard,
+    refit_bottom,
+    "refit_bottom",
+    refit_roots,
+    "refit_roots",
+    refit_top,
+    "refit_top"
+);
+refit_passes!(
+    Paper,
+    refit_bottom_eq4,
+    "refit_bottom_eq4",
+    refit_roots_eq4,
+    "refit_roots_eq4",
+    refit_top_eq4,
+    "refit_top_eq4"
+);

@@ -7,7 +7,7 @@ use lightbvh::exact::hash;
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
-use crate::bvh::{Node, TreePush};
+use crate::bvh::{BvhPicker, NodeOf, Paper, Standard, TreePush};
 use crate::invocation;
 use crate::shading::camera::Camera;
 use crate::shading::material::Material;
@@ -72,41 +72,49 @@ pub struct RenderPush {
     pub tree: TreePush,
 }
 
-/// Direct lighting by lights chosen from a light BVH of one or two levels.
-#[spirv(compute(threads(64), entry_point_name = "render_bvh"))]
-pub fn render_bvh(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(push_constant)] push: &RenderPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] camera: &[Camera],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] nodes: &[Node],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] meshes: &[Instance],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] trails: &[u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] results: &mut [[f32; 3]],
-) {
-    let i = invocation(id);
-    if i < push.count {
-        let scene = Scene {
-            surfaces: Surfaces {
-                nodes: ray_nodes,
-                triangles: surfaces,
-            },
-            materials,
-            lights,
-        };
-        let picker = push.tree.picker(nodes, meshes, trails);
-        results[i as usize] = render_pixel(
-            &scene,
-            &camera[0],
-            &push.params,
-            &picker,
-            push.first.wrapping_add(i),
-        );
-    }
+/// Pass `render_bvh` for one choice.
+macro_rules! render_pass {
+    ($choice:ty, $pass:ident, $name:tt) => {
+        /// Direct lighting by lights chosen from a light BVH of one or two levels.
+        #[spirv(compute(threads(64), entry_point_name = $name))]
+        pub fn $pass(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(push_constant)] push: &RenderPush,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] camera: &[Camera],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] nodes: &[NodeOf<$choice>],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] trails: &[u32],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] results: &mut [[f32; 3]],
+        ) {
+            let i = invocation(id);
+            if i < push.count {
+                let scene = Scene {
+                    surfaces: Surfaces {
+                        nodes: ray_nodes,
+                        triangles: surfaces,
+                    },
+                    materials,
+                    lights,
+                };
+                let picker = BvhPicker::<$choice, _>::new(push.tree.tree(nodes, instances, trails));
+                results[i as usize] = render_pixel(
+                    &scene,
+                    &camera[0],
+                    &push.params,
+                    &picker,
+                    push.first.wrapping_add(i),
+                );
+            }
+        }
+    };
 }
+
+render_pass!(Standard, render_bvh, "render_bvh");
+render_pass!(Paper, render_bvh_eq4, "render_bvh_eq4");
 
 /// Direct lighting by lights chosen in proportion to their power. `thresholds` is [`Power`]'s table.
 #[spirv(compute(threads(64), entry_point_name = "render_power"))]

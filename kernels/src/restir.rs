@@ -16,7 +16,7 @@ use glam::UVec3;
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
-use crate::bvh::{Node, TreePush};
+use crate::bvh::{BvhPicker, NodeOf, Paper, Standard, TreePush};
 use crate::invocation;
 use crate::shading::camera::Camera;
 use crate::shading::material::Material;
@@ -31,7 +31,7 @@ use crate::shading::restir::temporal::{Before, temporal};
 use crate::shading::restir::{PixelReservoir, RestirParams};
 use crate::shading::trace::{RayNode, SurfaceTriangle, Surfaces};
 
-/// Push constants of all passes; 76 bytes.
+/// Push constants of all passes; 84 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct RestirPush {
@@ -45,7 +45,7 @@ pub struct RestirPush {
     pub tree: TreePush,
 }
 
-const _: () = assert!(size_of::<RestirPush>() == 76);
+const _: () = assert!(size_of::<RestirPush>() == 84);
 
 /// Pass 1 with candidates in proportion to power. `thresholds` is [`Power`]'s table.
 #[spirv(compute(threads(64), entry_point_name = "restir_initial_power"))]
@@ -79,39 +79,47 @@ pub fn restir_initial_power(
     }
 }
 
-/// Pass 1 with candidates from the light BVH.
-#[spirv(compute(threads(64), entry_point_name = "restir_initial_bvh"))]
-pub fn restir_initial_bvh(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(push_constant)] push: &RestirPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] camera: &[Camera],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] nodes: &[Node],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] meshes: &[Instance],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] trails: &[u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] gbuffer: &mut [Surface],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 9)] reservoirs: &mut [PixelReservoir],
-) {
-    let i = invocation(id);
-    let pixel = push.first.wrapping_add(i);
-    if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-        let scene = Scene {
-            surfaces: Surfaces {
-                nodes: ray_nodes,
-                triangles: surfaces,
-            },
-            materials,
-            lights,
-        };
-        let surface = first_surface(&scene, &camera[0], &push.params, pixel);
-        let picker = push.tree.picker(nodes, meshes, trails);
-        gbuffer[pixel as usize] = surface;
-        reservoirs[pixel as usize] = first_reservoir(&scene, &push.params, &picker, &surface, pixel);
-    }
+/// Pass `restir_initial_bvh` for one choice.
+macro_rules! initial_pass {
+    ($choice:ty, $pass:ident, $name:tt) => {
+        /// Pass 1 with candidates from the light BVH.
+        #[spirv(compute(threads(64), entry_point_name = $name))]
+        pub fn $pass(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(push_constant)] push: &RestirPush,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] camera: &[Camera],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] nodes: &[NodeOf<$choice>],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] trails: &[u32],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] gbuffer: &mut [Surface],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 9)] reservoirs: &mut [PixelReservoir],
+        ) {
+            let i = invocation(id);
+            let pixel = push.first.wrapping_add(i);
+            if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
+                let scene = Scene {
+                    surfaces: Surfaces {
+                        nodes: ray_nodes,
+                        triangles: surfaces,
+                    },
+                    materials,
+                    lights,
+                };
+                let surface = first_surface(&scene, &camera[0], &push.params, pixel);
+                let picker = BvhPicker::<$choice, _>::new(push.tree.tree(nodes, instances, trails));
+                gbuffer[pixel as usize] = surface;
+                reservoirs[pixel as usize] = first_reservoir(&scene, &push.params, &picker, &surface, pixel);
+            }
+        }
+    };
 }
+
+initial_pass!(Standard, restir_initial_bvh, "restir_initial_bvh");
+initial_pass!(Paper, restir_initial_bvh_eq4, "restir_initial_bvh_eq4");
 
 /// Pass 2 without bias; `before_*` is the frame before, `before_camera` its camera.
 #[spirv(compute(threads(64), entry_point_name = "restir_temporal_unbiased"))]

@@ -195,7 +195,7 @@ mod tests {
         assert_eq!(drift(&[node, node], &whole), 2.0 * found);
         // What an empty slot holds is nothing, whatever its bounds.
         node.set_child(1, kind::EMPTY, 0);
-        node.set_bounds(1, &whole);
+        node.set_summaries(&[children[0], whole]);
         let found = drift(&[node], &whole);
         let expected = 3.0 * a / (8.0 * all);
         assert!(

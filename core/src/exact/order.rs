@@ -29,7 +29,7 @@ pub fn clamp(x: f32, lo: f32, hi: f32) -> f32 {
     }
 }
 
-/// All ones for a `count` of 1 to 2^31, zero for 0: for [`masked`].
+/// All ones for a `count` of 1 to 2^31, zero for 0: for [`masked_u32`].
 #[inline(always)]
 #[must_use]
 pub(crate) fn mask(count: u32) -> u32 {
@@ -38,15 +38,7 @@ pub(crate) fn mask(count: u32) -> u32 {
 
 /// `a` where `mask` is all ones, `b` where it is zero: a select that stays one.
 ///
-/// Processors of the x86 family have no conditional move for floats, so there the compiler makes a branch of most
-/// selects; and a branch that hangs on chance is foretold wrongly half of the time.
-#[inline(always)]
-#[must_use]
-pub(crate) fn masked(mask: u32, a: f32, b: f32) -> f32 {
-    f32::from_bits(masked_u32(mask, a.to_bits(), b.to_bits()))
-}
-
-/// [`masked`] for integers.
+/// On x86 the compiler makes a branch of many selects, and a branch that depends on chance is mispredicted half the time.
 #[inline(always)]
 #[must_use]
 pub(crate) fn masked_u32(mask: u32, a: u32, b: u32) -> u32 {
@@ -119,9 +111,7 @@ mod tests {
             assert_eq!((mask(0), mask(count)), (0, u32::MAX), "{count}");
         }
         for (a, b) in words.iter().flat_map(|&a| words.map(|b| (a, b))) {
-            let (x, y) = (f32::from_bits(a), f32::from_bits(b));
-            assert_eq!(masked(mask(3), x, y).to_bits(), a);
-            assert_eq!(masked(mask(0), x, y).to_bits(), b);
+            assert_eq!((masked_u32(mask(3), a, b), masked_u32(mask(0), a, b)), (a, b));
         }
     }
 

@@ -97,7 +97,7 @@ impl<N> TopTree<N> {
         N: LightNode<W>,
     {
         Self {
-            nodes: alloc::vec![N::EMPTY],
+            nodes: alloc::vec![without_children::<N, W>()],
             node_levels: alloc::vec![0],
             levels: Levels::gather(alloc::vec![(0, 0)]),
             leaves: Vec::new(),
@@ -110,7 +110,7 @@ impl<N> TopTree<N> {
 impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     /// A top level without instances: one empty node.
     pub(super) fn empty_top(&mut self) {
-        self.replace_top(&[N::EMPTY]);
+        self.replace_top(&[without_children::<N, W>()]);
     }
 
     /// Puts `nodes`, links counting from the first, which is the root, in place of the top level. Bounds of instances that
@@ -291,6 +291,13 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         }
         self.top.levels = Levels::gather(pairs);
     }
+}
+
+/// A node without children, as refit leaves it.
+fn without_children<N: LightNode<W>, const W: usize>() -> N {
+    let mut node = N::EMPTY;
+    node.set_summaries(&[N::Summary::EMPTY; W]);
+    node
 }
 
 #[cfg(test)]

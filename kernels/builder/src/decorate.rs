@@ -7,7 +7,6 @@
 //! Nothing here asks a device for a feature: no execution mode and no capability is added.
 
 use crate::branches::one_armed;
-use crate::publish::publish;
 use crate::{Unreadable, load};
 use rspirv::binary::Assemble;
 use rspirv::dr::{Instruction, Module, Operand};
@@ -16,7 +15,7 @@ use std::collections::HashSet;
 
 /// Returns the module with `NoContraction` on the result of every float operation, without debug information (it
 /// holds absolute paths and whole source files), without the capability that braked `spirv-opt`, without empty arms
-/// of branches, and, where it has atomics, with accesses that atomics order.
+/// of branches.
 ///
 /// # Errors
 /// When the words are not a SPIR-V module.
@@ -25,7 +24,6 @@ pub fn decorate(words: &[u32]) -> Result<Vec<u32>, Unreadable> {
     strip_debug(&mut module);
     strip_brake(&mut module);
     one_armed(&mut module);
-    publish(&mut module);
     forbid_contraction(&mut module);
     Ok(module.assemble())
 }

@@ -2,7 +2,7 @@
 //!
 //! The program `build-kernels` compiles every entry point of `lightbvh-kernels`, then for each module
 //! 1. [`decorate`] forbids contraction and re-association of every float operation, strips what is not needed, takes
-//!    empty arms out of branches, and opens the memory of kernels with arrival counters to their other invocations,
+//!    empty arms out of branches,
 //! 2. [`verify`] refuses whatever Vulkan does not define to the bit on every device,
 //! 3. [`reflect`] reads the interface that the host must offer,
 //! 4. [`manifest`] records sources, compiler and hashes beside the committed modules.
@@ -15,7 +15,6 @@ mod branches;
 pub mod decorate;
 pub mod files;
 pub mod manifest;
-mod publish;
 pub mod reflect;
 pub mod sources;
 pub mod verify;

@@ -5,7 +5,6 @@
 //! follows the Vulkan specification, "Precision and Operation of SPIR-V Instructions": additions, subtractions and
 //! products are correctly rounded, comparisons and moves are exact, division has 2.5 ULP, and so on.
 
-mod arrivals;
 mod permitted;
 mod search;
 
@@ -91,7 +90,6 @@ pub fn verify(name: &str, words: &[u32]) -> Result<(), VerifyError> {
     types_and_constants(&module, &mut findings);
     decorations(&module, &mut findings);
     bodies(&module, &mut findings);
-    arrivals::arrivals(&module, &mut findings);
     match findings.0 {
         violations if violations.is_empty() => Ok(()),
         violations => Err(VerifyError::Refused {

@@ -3,11 +3,11 @@
 use alloc::vec;
 
 use super::*;
-use crate::{CompactNode, Edit, EmissiveTriangle, LightBounds, Transform};
+use crate::{CompactNode, Edit, EmissiveTriangle, Transform};
 
 type Tree = Scene<CompactNode<2>, 2>;
 
-/// Two meshes of 5 and 4 triangles; three instances of each, one of them with triangles of its own; levels to spare.
+/// Two meshes of 5 and 4 triangles; three instances of each, one of them stretched; levels to spare.
 fn scene() -> Tree {
     let lamp = |i: u16| {
         let x = f32::from(i);
@@ -61,9 +61,9 @@ fn a_sound_scene_is_counted() {
         SceneStats {
             nodes: used.map(|range| range.end - range.start).sum(),
             instances: 6,
-            blases: 4,
+            blases: 2,
             lights: 3 * 9,
-            depth: scene.top.depth + scene.blases.iter().map(|blas| blas.depth).max().expect("four"),
+            depth: scene.top.depth + scene.blases.iter().map(|blas| blas.depth).max().expect("two"),
         }
     );
 }
@@ -198,26 +198,25 @@ fn broken_instances_are_found() {
         s.placed[2].lights = s.placed[0].lights.clone();
         s.instances[2].first = s.instances[0].first;
     });
-    finds(What::Word(15), |s| s.instances[2].translation[0] = 0.5);
-    finds(What::Blas, |s| s.placed[2].transform.columns[0][0] = 3.0);
+    finds(What::Word(17), |s| s.instances[2].translation[0] = 0.5);
+    finds(What::Word(8), |s| s.placed[2].transform.columns[0][0] = 3.0);
+    finds(What::Word(6), |s| s.instances[2].count += 1);
+    // The list of instances in use: a wrong entry, and a record that is not at its place.
+    finds(What::Listed, |s| s.instances[2].listed ^= 1);
+    finds(What::Listed, |s| s.live.swap(2, 3));
 }
 
 #[test]
 fn broken_bounds_are_found() {
     let root = scene().top.root as usize;
     // The words of flux, two slots each.
-    finds(What::Bounds(11), |s| {
+    finds(What::Bounds("flux"), |s| {
         bytemuck::cast_slice_mut::<_, u32>(&mut s.nodes[root..=root])[10] ^= 1 << 20;
     });
-    finds(What::Bounds(0), |s| {
+    finds(What::Bounds("least x"), |s| {
         let node = s.blases[0].nodes.start as usize;
-        let bounds = s.nodes[node].bounds(0);
-        s.nodes[node].set_bounds(
-            0,
-            &LightBounds {
-                min: bounds.min - 1.0,
-                ..bounds
-            },
-        );
+        let mut children = [s.nodes[node].summary(0), s.nodes[node].summary(1)];
+        children[0].min -= 1.0;
+        s.nodes[node].set_summaries(&children);
     });
 }

@@ -1,7 +1,6 @@
 //! What a module may contain, and what to write instead of the rest.
 
 use super::Refusal;
-use crate::publish::is_atomic;
 use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Capability, GlslStd450Op as GLOp, Op};
 
@@ -39,12 +38,12 @@ pub(super) fn operation(op: Op) -> Result<(), Refusal> {
             "float atomics depend on the order of arrival",
             "let one invocation compute in a fixed order",
         ),
-        _ if is_atomic(op) => refuse(
+        _ if format!("{op:?}").starts_with("Atomic") => refuse(
             "what atomics give depends on the order of arrival",
-            "count arrivals with `arrive` (kernels/src/arrival.rs), and let the last one compute",
+            "let one invocation compute in a fixed order",
         ),
         Op::ControlBarrier | Op::MemoryBarrier => refuse(
-            "no kernel waits for other invocations, and arrivals order memory by themselves",
+            "no kernel waits for other invocations",
             "use one dispatch after the other",
         ),
         _ => refuse(
@@ -147,7 +146,7 @@ fn is_structure(op: Op) -> bool {
     )
 }
 
-/// Integer and boolean operations, the counting of arrivals among them.
+/// Integer and boolean operations.
 fn is_integer(op: Op) -> bool {
     matches!(
         op,
@@ -193,8 +192,6 @@ fn is_integer(op: Op) -> bool {
             | Op::LogicalNotEqual
             | Op::Any
             | Op::All
-            // Further conditions in `arrivals`.
-            | Op::AtomicIAdd
     )
 }
 

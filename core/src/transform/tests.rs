@@ -1,0 +1,241 @@
+//! Maps against arithmetic in `f64`; every limit on both of its sides.
+
+extern crate std;
+
+use super::vector::square_root;
+use super::*;
+use crate::exact::{hash, pow2, unit_f32};
+use crate::light::EmissiveTriangle;
+
+#[test]
+fn square_roots_are_those_of_the_hardware() {
+    for i in 0..2000 {
+        let x = (f64::from(i) * 0.37 - 300.0).exp2();
+        let relative = square_root(x) / std::primitive::f64::sqrt(x) - 1.0;
+        assert!(relative.abs() < 1e-15, "{x}: {relative}");
+    }
+    assert_eq!((square_root(0.0), square_root(-1.0)), (0.0, 0.0));
+}
+
+fn map(columns: [[f32; 3]; 3], translation: [f32; 3]) -> Transform {
+    Transform { columns, translation }
+}
+
+/// Entries from −2 to 2, translation from −20 to 20.
+fn random(seed: u32) -> Transform {
+    let mut state = hash(seed);
+    let mut unit = || {
+        state = hash(state);
+        4.0 * unit_f32(state) - 2.0
+    };
+    map(
+        [0; 3].map(|_| [0; 3].map(|_| unit())),
+        [0; 3].map(|_| 10.0 * unit()),
+    )
+}
+
+fn diagonal(x: f32, y: f32, z: f32) -> Transform {
+    map([[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]], [0.0; 3])
+}
+
+fn wide(columns: &[[f32; 3]; 3]) -> [[f64; 3]; 3] {
+    columns.map(|column| column.map(f64::from))
+}
+
+fn norm(columns: &[[f64; 3]; 3]) -> f64 {
+    columns.iter().flatten().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+fn determinant(columns: &[[f32; 3]; 3]) -> f64 {
+    let [a, b, c] = wide(columns);
+    dot(a, cross(b, c))
+}
+
+/// The columns of A times the columns of B.
+fn product(a: &[[f32; 3]; 3], b: &[[f32; 3]; 3]) -> [[f64; 3]; 3] {
+    let (a, b) = (wide(a), wide(b));
+    core::array::from_fn(|column| {
+        core::array::from_fn(|row| (0..3).map(|k| a[k][row] * b[column][k]).sum())
+    })
+}
+
+/// How far a matrix is from the identity, entry by entry.
+fn off_identity(columns: &[[f64; 3]; 3]) -> f64 {
+    let mut most = 0.0f64;
+    for column in 0..3 {
+        for row in 0..3 {
+            let expected = f64::from(u8::from(row == column));
+            most = most.max((columns[column][row] - expected).abs());
+        }
+    }
+    most
+}
+
+#[test]
+fn inverses_of_random_maps() {
+    let mut mirrored = 0;
+    for seed in 0..2000 {
+        let transform = random(seed);
+        let instance = transform.instance(1.0);
+        assert_eq!(instance.columns, transform.columns);
+        assert_eq!(instance.translation, transform.translation);
+        // Each entry of the inverse is rounded once, by 2^-24 of itself; a product's entry is a sum over a row times a column,
+        // at most the product of the norms. 1 % for the arithmetic in f64.
+        let norms = norm(&wide(&instance.columns)) * norm(&wide(&instance.inverse));
+        let most = 1.01 * f64::from(pow2(-24)) * norms;
+        for found in [
+            product(&instance.columns, &instance.inverse),
+            product(&instance.inverse, &instance.columns),
+        ] {
+            let off = off_identity(&found);
+            assert!(off <= most, "{seed}: {off} > {most}");
+            assert!(norms > 160.0 || off < 1e-5, "{seed}: {off}");
+        }
+        let per_inverse = f64::from(instance.per_inverse) * norm(&wide(&instance.inverse));
+        assert!((per_inverse - SQRT_3).abs() < 1e-6, "{seed}");
+        assert_eq!(instance.mirrored, u32::from(determinant(&transform.columns) < 0.0), "{seed}");
+        mirrored += instance.mirrored;
+    }
+    // Half of all maps mirror: 1000 ± 5 standard deviations of 22.4.
+    assert!((888..=1112).contains(&mirrored), "{mirrored}");
+}
+
+/// Its square is the mean of the squared area that a unit area of each of three perpendicular planes becomes.
+#[test]
+fn the_flux_factor_is_the_mean_change_of_area() {
+    for seed in 0..500 {
+        let [a, b, c] = wide(&random(seed).columns);
+        let areas = [cross(b, c), cross(c, a), cross(a, b)].map(|n| dot(n, n));
+        let expected = (areas.iter().sum::<f64>() / 3.0).sqrt();
+        let found = f64::from(random(seed).instance(0.25).flux);
+        assert!((found / (0.25 * expected) - 1.0).abs() < 1e-6, "{seed}: {found}");
+    }
+    // A similarity changes every area alike.
+    assert_eq!(diagonal(3.0, -3.0, 3.0).instance(1.0).flux, 9.0);
+    // A flattened mesh keeps what lay in the plane.
+    let flat = diagonal(2.0, 2.0, 0.0).instance(1.0).flux;
+    assert!((flat - 4.0 / 3.0_f32.sqrt()).abs() < 1e-6, "{flat}");
+    // Whatever shines in the mesh shines in the world, in the range of the flux.
+    for scale in [0.0, pow2(-70), pow2(-60), pow2(-51), pow2(40)] {
+        let flux = diagonal(scale, scale, scale).instance(1.0).flux;
+        let expected = if scale < pow2(-50) { pow2(-100) } else { pow2(80) };
+        assert_eq!(flux, expected, "{scale}");
+        assert_eq!(diagonal(scale, scale, scale).instance(0.0).flux, 0.0);
+    }
+}
+
+#[test]
+fn extremes_stay_in_the_range_of_the_words() {
+    let (large, small) = (pow2(40), pow2(-60));
+    for exponent in -60..=40 {
+        let scale = pow2(exponent);
+        let instance = diagonal(scale, -scale, scale).instance(1.0);
+        let inverse = pow2(-exponent);
+        assert_eq!(instance.inverse, diagonal(inverse, -inverse, inverse).columns);
+        assert_eq!(instance.mirrored, 1);
+    }
+    let one = [1.0, 0.0, -1.0];
+    let maps = [
+        diagonal(large, 1.0, small),
+        diagonal(large, large, small),
+        diagonal(small, small, large),
+        diagonal(0.0, 0.0, 0.0),
+        diagonal(0.0, 0.0, large),
+        diagonal(small.next_down(), 0.0, 0.0),
+        diagonal(f32::from_bits(1), f32::from_bits(1), f32::from_bits(1)),
+        map([[large; 3]; 3], [-large; 3]),
+        map([[small; 3]; 3], [f32::from_bits(1); 3]),
+        map([one, one, one], [0.0; 3]),
+        map([one, one, [0.0, 1.0, 0.0]], [0.0; 3]),
+        map([one, one.map(|x| x * 3.0), [0.0; 3]], [0.0; 3]),
+        // Of full rank by a hair.
+        map([one, [1.0, 0.0, (-1.0f32).next_up()], [0.0, 1.0, 0.0]], [0.0; 3]),
+        map([one.map(|x| x * large), [1.0, 1.0, 1.0], one.map(|x| x * small)], [0.0; 3]),
+    ];
+    for (i, transform) in maps.iter().enumerate() {
+        for radiance in [0.0, 1.0, pow2(-40), pow2(40)] {
+            let instance = transform.instance(radiance);
+            let entry = |x: f32, most: f32| x.to_bits() == 0 || (small..=most).contains(&exact::abs(x));
+            assert!(instance.columns.iter().flatten().all(|&x| entry(x, large)), "{i}: {instance:?}");
+            assert!(
+                instance.inverse.iter().flatten().all(|&x| entry(x, pow2(60))),
+                "{i}: {instance:?}"
+            );
+            assert!(instance.per_inverse.is_finite() && instance.per_inverse >= 0.0, "{i}");
+            let shines = (pow2(-100)..=pow2(100)).contains(&instance.flux);
+            assert!(shines == (radiance > 0.0), "{i}: {instance:?}");
+        }
+    }
+    // A singular map mirrors nothing: triangles keep the order of their vertices.
+    for transform in &maps[9..12] {
+        assert_eq!(transform.instance(1.0).mirrored, 0);
+    }
+}
+
+#[test]
+fn entries_and_reach_are_limited() {
+    let most = MAX_COORDINATE;
+    for column in 0..4 {
+        for row in 0..3 {
+            for value in [most, -most, most.next_up(), f32::NAN, f32::NEG_INFINITY] {
+                let mut transform = diagonal(0.0, 0.0, 0.0);
+                let [a, b, c] = &mut transform.columns;
+                [a, b, c, &mut transform.translation][column][row] = value;
+                // Of no size, so that nothing is too far.
+                match transform.check(&Extent { radius: 0.0 }) {
+                    Ok(()) => assert_eq!(exact::abs(value), most),
+                    Err(TransformError::Entry {
+                        row: r,
+                        column: c,
+                        value: v,
+                    }) => {
+                        assert_eq!((r, c, v.to_bits()), (row, column, value.to_bits()));
+                        assert!(exact::abs(value) != most);
+                    }
+                    Err(error) => panic!("{error}"),
+                }
+            }
+        }
+    }
+    // Each of the four parts reaches a fourth of the way.
+    let quarter = 0.25 * most;
+    for row in 0..3 {
+        let mut transform = diagonal(0.0, 0.0, 0.0);
+        for column in &mut transform.columns {
+            column[row] = -0.5 * quarter;
+        }
+        transform.translation[row] = quarter;
+        assert_eq!(transform.check(&Extent { radius: 2.0 }), Ok(()));
+        let error = transform.check(&Extent { radius: 2.001 }).expect_err("farther");
+        let TransformError::TooFar { metres } = error else {
+            panic!("{error}");
+        };
+        assert!(exact::abs(metres / most - 1.000_375) < 1e-6, "{metres}");
+    }
+}
+
+#[test]
+fn extents() {
+    let triangle = |p| EmissiveTriangle {
+        p,
+        radiance: [1.0; 3],
+        mesh: 0,
+        flags: 0,
+    };
+    let right = triangle([[0.0, 0.0, -12.0], [3.0, 0.0, -12.0], [0.0, 4.0, -12.0]]);
+    let turned = |k: usize| triangle(core::array::from_fn(|i| right.p[(i + k) % 3]));
+    for k in 0..3 {
+        let extent = Extent::of(&[turned(k)]);
+        assert!((extent.radius / square_root(160.0) - 1.0).abs() < 1e-14, "{extent:?}");
+    }
+    let far = triangle([[0.0; 3], [20.0, 0.0, 0.0], [10.0, 0.0, 0.0]]);
+    let small = triangle([[0.0; 3], [0.5, 0.0, 0.0], [0.0, 0.5, 0.0]]);
+    // The greatest, whatever the order, and however many threads there are.
+    for triangles in [[right, far, small], [small, far, right]] {
+        let many: alloc::vec::Vec<_> = triangles.iter().cycle().take(10_000).copied().collect();
+        for extent in [Extent::of(&triangles), Extent::of(&many)] {
+            assert_eq!(extent.radius, 20.0);
+        }
+    }
+    assert_eq!(Extent::of(&[]).radius, 0.0);
+}
