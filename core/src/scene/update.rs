@@ -116,7 +116,13 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             born: self.clock,
         };
         put(&mut self.placed, index, placed.clone(), &placed);
-        put(&mut self.instances, index, NO_INSTANCE, &NO_INSTANCE);
+        // The record may hold an entry of the list, which is not this instance's to take.
+        let listed = self.instances.get(index as usize).map_or(0, |old| old.listed);
+        let record = Instance {
+            listed,
+            ..NO_INSTANCE
+        };
+        put(&mut self.instances, index, record, &NO_INSTANCE);
         self.live.push(index);
         self.list(self.live.len() as u32 - 1);
         self.place(index);

@@ -60,19 +60,19 @@ fn limit(scene: &Tree, mut edits: Vec<Edit>) {
     assert_eq!((error.edit, error.reason), (last, EditReason::TooMany));
 }
 
+/// As many triangles need more memory than a test should take, so the count of those before them is told.
 #[test]
 fn triangles_are_limited() {
-    let (scene, mesh, instance) = scene(COUNT);
-    // The mesh's own are there already, and the lights of one instance.
-    let most = MAX_LIGHTS / COUNT - 1;
-    limit(&scene, vec![move_to(instance, 1.0); most]);
-    let triangles = triangles(3 * COUNT, 1.0);
-    let mut edits = vec![Edit::AddMesh { triangles }];
-    edits.resize(most - 2, move_to(instance, 1.0));
-    limit(&scene, edits);
-    let mut edits = vec![add(mesh); 5];
-    edits.resize(most, move_to(instance, 1.0));
-    limit(&scene, edits);
+    let (scene, ..) = scene(COUNT);
+    for (more, expected) in [(COUNT, Ok(())), (COUNT + 1, Err(EditReason::TooMany))] {
+        let mut batch = Batch {
+            triangles: MAX_LIGHTS - COUNT,
+            ..Batch::default()
+        };
+        let triangles = triangles(more, 1.0);
+        let found = scene.check_one(&mut batch, &mut Edit::AddMesh { triangles });
+        assert_eq!(found, expected, "{more}");
+    }
 }
 
 #[test]
