@@ -13,7 +13,7 @@ use crate::levels::Levels;
 use crate::lights::Lights;
 use crate::node::{LightNode, kind};
 use crate::refit::BlasRoot;
-use crate::trail::{BitTrail, slot_bits};
+use crate::trail::{BitTrail, trail_words};
 use crate::tree::{MeshLeaf, MeshLight};
 
 impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
@@ -109,7 +109,7 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
     }
 
     fn empty(lights: &Lights, depth: u32) -> Self {
-        let trail_words = if depth * slot_bits(W) <= 32 { 1 } else { 2 };
+        let trail_words = trail_words(W, depth);
         Self {
             nodes: Vec::new(),
             root: 0,

@@ -12,7 +12,7 @@ use crate::levels::Levels;
 use crate::light::EmissiveTriangle;
 use crate::node::{LightNode, kind};
 use crate::refit::{self, BlasRoot};
-use crate::trail::slot_bits;
+use crate::trail::trail_words;
 use crate::transform::Extent;
 use crate::tree::INVALID;
 
@@ -171,7 +171,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     /// Makes trails as wide as trees of `depth` levels need, for all triangles.
     fn reserve_trails(&mut self, depth: u32) {
         let end = self.triangle_ranges.end() as usize;
-        if self.trail_words == 1 && depth * slot_bits(W) > 32 {
+        if self.trail_words == 1 && trail_words(W, depth) == 2 {
             self.trail_words = 2;
             let narrow = core::mem::take(&mut self.trails);
             self.trails = narrow.into_iter().flat_map(|low| [low, 0]).collect();

@@ -8,7 +8,7 @@ use crate::bvh::LightBvh;
 use crate::levels::Levels;
 use crate::lights::Lights;
 use crate::node::{LightNode, kind};
-use crate::trail::{BitTrail, max_levels, slot_bits};
+use crate::trail::{BitTrail, max_levels, trail_words};
 use crate::tree::{INVALID, MeshLeaf};
 
 /// Level of a node that was not reached.
@@ -142,7 +142,7 @@ pub(super) fn validate<N: LightNode<W>, const W: usize, L: MeshLeaf>(
         bottom_depth + top_depth,
         bvh.depth(),
     )?;
-    let words = if bottom_depth * slot_bits(W) <= 32 { 1 } else { 2 };
+    let words = trail_words(W, bottom_depth);
     equal(INVALID, INVALID, What::TrailWords, words, tree.trail_words)?;
     let split = if bvh.is_two_level() { tree.root } else { count };
     walk.lists(bvh.bottom_levels(), 0..split)?;
