@@ -10,26 +10,48 @@ pub struct BitTrail {
     pub high: u32,
 }
 
-/// Bits that a slot of a `W`-wide node takes: a power of two, so that no slot straddles the words.
+/// Bits that a slot of a `W`-wide node takes, `W` in 2..=16. Slots of three bits leave the two highest bits of a word
+/// unused, so that no slot straddles the words.
 #[must_use]
 pub const fn slot_bits(w: usize) -> u32 {
     match w {
         0..=2 => 1,
         3..=4 => 2,
+        5..=8 => 3,
         _ => 4,
     }
 }
 
-/// Greatest number of levels of one tree of `W`-wide nodes: as many as a trail holds. The builders keep to it.
+/// Slots that one word of a trail holds: 32, 16, 10 or 8.
 #[must_use]
-pub const fn max_levels(w: usize) -> u32 {
-    64 / slot_bits(w)
+pub const fn word_levels(w: usize) -> u32 {
+    32 / slot_bits(w)
 }
 
-/// Words of a trail in trees of at most `depth` levels: 1 where one holds it, else 2.
+/// Greatest number of levels of one tree of `W`-wide nodes: as many as a trail of two words holds. The builders keep to
+/// it.
+#[must_use]
+pub const fn max_levels(w: usize) -> u32 {
+    2 * word_levels(w)
+}
+
+/// Words that the trails of a tree of `depth` levels take: one, or two.
 #[must_use]
 pub const fn trail_words(w: usize, depth: u32) -> u32 {
-    if depth * slot_bits(w) <= 32 { 1 } else { 2 }
+    if depth <= word_levels(w) { 1 } else { 2 }
+}
+
+/// Refuses, when it is compiled, a width whose slots no trail can name.
+struct Width<const W: usize>;
+
+impl<const W: usize> Width<W> {
+    /// Bits of a slot.
+    const BITS: u32 = {
+        assert!(W >= 2 && W <= 16, "a node has 2 to 16 children");
+        slot_bits(W)
+    };
+    /// The greatest slot that the bits can name.
+    const MASK: u32 = (1 << Self::BITS) - 1;
 }
 
 impl BitTrail {
@@ -37,20 +59,19 @@ impl BitTrail {
     #[inline(always)]
     #[must_use]
     pub fn slot<const W: usize>(self, level: u32) -> u32 {
-        let bit = level * slot_bits(W);
-        let word = if bit < 32 { self.low } else { self.high };
-        (word >> (bit & 31)) & ((1 << slot_bits(W)) - 1)
+        let (shift, is_low) = Self::place::<W>(level);
+        let word = if is_low { self.low } else { self.high };
+        (word >> shift) & Width::<W>::MASK
     }
 
     /// The trail with `slot` taken at `level` in `0..max_levels(W)`.
     #[inline(always)]
     #[must_use]
     pub fn with<const W: usize>(self, level: u32, slot: u32) -> Self {
-        let bit = level * slot_bits(W);
-        let shift = bit & 31;
-        let clear = !(((1u32 << slot_bits(W)) - 1) << shift);
+        let (shift, is_low) = Self::place::<W>(level);
+        let clear = !(Width::<W>::MASK << shift);
         let set = slot << shift;
-        if bit < 32 {
+        if is_low {
             Self {
                 low: (self.low & clear) | set,
                 high: self.high,
@@ -61,6 +82,18 @@ impl BitTrail {
                 high: (self.high & clear) | set,
             }
         }
+    }
+
+    /// The lowest bit of the slot at `level` within its word, and whether that is the low word.
+    #[inline(always)]
+    fn place<const W: usize>(level: u32) -> (u32, bool) {
+        let is_low = level < word_levels(W);
+        let within = if is_low {
+            level
+        } else {
+            level.wrapping_sub(word_levels(W))
+        };
+        (within.wrapping_mul(Width::<W>::BITS) & 31, is_low)
     }
 }
 
@@ -104,5 +137,49 @@ impl Path {
                 bottom: self.bottom.with::<W>(position - levels, slot),
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every slot at every level is found again, whatever the others are.
+    fn keeps_slots<const W: usize>() {
+        let slots = |level: u32, seed: u32| noise(level * 7 + seed) % W as u32;
+        for seed in 0..50 {
+            let mut trail = BitTrail { low: !0, high: !0 };
+            for level in (0..max_levels(W)).rev() {
+                trail = trail.with::<W>(level, slots(level, seed));
+            }
+            for level in 0..max_levels(W) {
+                assert_eq!(trail.slot::<W>(level), slots(level, seed), "W {W}, level {level}");
+            }
+        }
+    }
+
+    fn noise(x: u32) -> u32 {
+        crate::exact::hash(x)
+    }
+
+    #[test]
+    fn slots_are_kept() {
+        keeps_slots::<2>();
+        keeps_slots::<3>();
+        keeps_slots::<4>();
+        keeps_slots::<5>();
+        keeps_slots::<8>();
+        keeps_slots::<9>();
+        keeps_slots::<16>();
+    }
+
+    #[test]
+    fn levels_fill_the_words() {
+        let levels = [2, 3, 4, 5, 8, 9, 16].map(max_levels);
+        assert_eq!(levels, [64, 32, 32, 20, 20, 16, 16]);
+        assert_eq!(
+            [trail_words(8, 10), trail_words(8, 11), trail_words(2, 32)],
+            [1, 2, 1]
+        );
     }
 }

@@ -8,13 +8,18 @@ use crate::exact::{max, min, rsqrt_rough};
 use crate::node::{LightNode, kind};
 use crate::summary::Summary;
 
-/// What a split is judged by.
+/// How a tree is built: what a split is judged by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Heuristic {
     /// Surface area heuristic, paper Eq. 2: Σ n·a.
     Sah,
     /// Surface area orientation heuristic, paper Eq. 3: k_r · Σ Φ·a·M_Ω.
     Saoh,
+    /// Ward's criterion: Σ Φ · variance of position (Ward 1963), wide nodes from the start.
+    Ward,
+    /// Clusters of up to `W` lights by Morton code, Ward's criterion above them: several times faster, and 5 to 20 % more
+    /// variance on most scenes.
+    Morton,
 }
 
 /// Scales that make the costs within one node comparable and free of units: everything lies in about 0..1, so no scale
@@ -49,7 +54,8 @@ impl Scales {
         let count = group.count as f32 * self.per_count;
         match heuristic {
             Heuristic::Sah => count * self.area(group),
-            Heuristic::Saoh => {
+            // The wide builder never asks.
+            Heuristic::Saoh | Heuristic::Ward | Heuristic::Morton => {
                 let flux = group.phi * self.per_phi + DEGENERATE * count;
                 flux * self.area(group) * orientation_measure(cos_theta_o(group))
             }
@@ -62,7 +68,7 @@ impl Scales {
         let extent = (node.high[axis] - node.low[axis]) * self.per_extent;
         match heuristic {
             Heuristic::Sah => 1.0,
-            Heuristic::Saoh => 1.0 / max(extent, 1e-6),
+            Heuristic::Saoh | Heuristic::Ward | Heuristic::Morton => 1.0 / max(extent, 1e-6),
         }
     }
 

@@ -2,10 +2,11 @@
 
 use alloc::vec::Vec;
 
-use super::BuildParams;
 use super::binary::{Binary, LEAF, binary_tree};
 use super::collapse::{Collapse, binary_levels};
 use super::primitive::Primitive;
+use super::ward::{WardPrimitive, build_ward};
+use super::{BuildParams, Heuristic};
 use crate::node::{LightNode, kind};
 use crate::trail::BitTrail;
 
@@ -35,6 +36,10 @@ pub(crate) fn build<N: LightNode<W>, const W: usize>(
     leaf_kind: u32,
     params: &BuildParams,
 ) -> Topology<N> {
+    if matches!(params.heuristic, Heuristic::Ward | Heuristic::Morton) {
+        let mut centres: Vec<WardPrimitive> = primitives.iter().map(WardPrimitive::of_bounds).collect();
+        return build_ward::<N, W>(&mut centres, leaf_kind, params);
+    }
     let mut out = Topology {
         nodes: Vec::with_capacity(primitives.len()),
         levels: Vec::with_capacity(primitives.len()),

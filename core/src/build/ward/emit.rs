@@ -1,0 +1,211 @@
+//! From ranges to nodes: which node, which slot, which trail.
+
+use alloc::vec::Vec;
+
+#[cfg(feature = "rayon")]
+use rayon::prelude::*;
+
+use super::grow::{Children, Growth};
+use super::range::Range;
+use crate::build::topology::Topology;
+use crate::node::{LightNode, kind};
+use crate::trail::{BitTrail, max_levels};
+
+/// What primitives stand for.
+pub(crate) trait Leaves: Sync {
+    /// Levels of nodes that a primitive takes at most.
+    const LEVELS: u32;
+    /// Number of lights of primitive `index`.
+    fn count(&self, index: u32) -> usize;
+    /// Light `k` of primitive `index`.
+    fn light(&self, index: u32, k: usize) -> u32;
+}
+
+/// Every primitive is a light.
+pub(super) struct Single;
+
+impl Leaves for Single {
+    const LEVELS: u32 = 0;
+
+    fn count(&self, _: u32) -> usize {
+        1
+    }
+
+    fn light(&self, index: u32, _: usize) -> u32 {
+        index
+    }
+}
+
+/// Emits nodes, whose children are found by `growth`.
+pub(super) struct Emitter<'a, L, const W: usize> {
+    pub leaves: &'a L,
+    pub leaf_kind: u32,
+    pub growth: Growth<'a>,
+}
+
+impl<L: Leaves, const W: usize> Emitter<'_, L, W> {
+    /// Emits the node over `range` at `level`; recursion is as deep as the tree, at most 64.
+    pub fn node<N: LightNode<W>>(
+        &self,
+        range: Range<'_>,
+        level: u32,
+        trail: BitTrail,
+        out: &mut Topology<N>,
+    ) {
+        if let [group] = &*range.here
+            && L::LEVELS > 0
+        {
+            let node = out.node(level);
+            let mut slot = 0;
+            return self.lights(group.index, node, &mut slot, level, trail, out);
+        }
+        let below = max_levels(W) - L::LEVELS - level - 1;
+        let growth = Growth {
+            capacity: W.checked_pow(below).unwrap_or(usize::MAX),
+            ..self.growth
+        };
+        #[cfg(feature = "rayon")]
+        let large = range.len() >= 2 * super::SUBTREE;
+        let children: Children<'_, W> = growth.children(range, self.leaves);
+
+        // The subtrees of a large node in parallel; then they are put together in order.
+        #[cfg(feature = "rayon")]
+        if large {
+            return self.in_parallel(children, level, trail, out);
+        }
+        let node = out.node(level);
+        let mut slot = 0;
+        for (range, opened) in children.into_iter() {
+            if let Some(index) = self.leaf(&range, opened) {
+                self.lights(index, node, &mut slot, level, trail, out);
+            } else {
+                out.link(node, slot);
+                self.node(range, level + 1, trail.with::<W>(level, slot as u32), out);
+                slot += 1;
+            }
+        }
+    }
+
+    /// No nodes yet, and room for the tree over `count` primitives: nodes are seldom filled by less than five eighths.
+    pub fn room_for<N: LightNode<W>>(&self, count: usize) -> Topology<N> {
+        let groups = L::LEVELS as usize * count;
+        let lights = if groups > 0 { count * W } else { count };
+        let nodes = groups + 2 * count / W + 1;
+        Topology {
+            nodes: Vec::with_capacity(nodes),
+            levels: Vec::with_capacity(nodes),
+            trails: Vec::with_capacity(lights),
+            depth: 0,
+        }
+    }
+
+    /// The primitive of `range`, if its lights are children of the same node.
+    fn leaf(&self, range: &Range<'_>, opened: bool) -> Option<u32> {
+        match &*range.here {
+            [only] if opened || self.leaves.count(only.index) == 1 => Some(only.index),
+            _ => None,
+        }
+    }
+
+    /// Puts the lights of primitive `index` into `node`, from `slot` on.
+    fn lights<N: LightNode<W>>(
+        &self,
+        index: u32,
+        node: usize,
+        slot: &mut usize,
+        level: u32,
+        trail: BitTrail,
+        out: &mut Topology<N>,
+    ) {
+        for k in 0..self.leaves.count(index) {
+            let light = self.leaves.light(index, k);
+            out.nodes[node].set_child(*slot, self.leaf_kind, light);
+            out.trails.push((light, trail.with::<W>(level, *slot as u32)));
+            *slot += 1;
+        }
+    }
+
+    #[cfg(feature = "rayon")]
+    fn in_parallel<N: LightNode<W>>(
+        &self,
+        children: Children<'_, W>,
+        level: u32,
+        trail: BitTrail,
+        out: &mut Topology<N>,
+    ) {
+        let mut slot = 0;
+        let numbered: Vec<_> = children
+            .into_iter()
+            .map(|(range, opened)| {
+                let first = slot;
+                let leaf = self.leaf(&range, opened);
+                slot += leaf.map_or(1, |index| self.leaves.count(index));
+                (range, leaf, first)
+            })
+            .collect();
+        let parts: Vec<_> = numbered
+            .into_par_iter()
+            .with_max_len(1)
+            .map(|(range, leaf, slot)| {
+                let subtree = leaf.is_none().then(|| {
+                    let mut subtree = self.room_for(range.len());
+                    let own = trail.with::<W>(level, slot as u32);
+                    self.node(range, level + 1, own, &mut subtree);
+                    subtree
+                });
+                (leaf, slot, subtree)
+            })
+            .collect();
+        let node = out.node(level);
+        for (leaf, mut slot, subtree) in parts {
+            if let Some(index) = leaf {
+                self.lights(index, node, &mut slot, level, trail, out);
+            } else if let Some(subtree) = subtree {
+                out.link(node, slot);
+                out.append(&subtree);
+            }
+        }
+    }
+}
+
+impl<N> Topology<N> {
+    /// A new node without children; returns its index.
+    fn node<const W: usize>(&mut self, level: u32) -> usize
+    where
+        N: LightNode<W>,
+    {
+        self.nodes.push(N::EMPTY);
+        self.levels.push(level);
+        self.depth = self.depth.max(level + 1);
+        self.nodes.len() - 1
+    }
+
+    /// Links `slot` of `node` to the node that is emitted next.
+    fn link<const W: usize>(&mut self, node: usize, slot: usize)
+    where
+        N: LightNode<W>,
+    {
+        let next = self.nodes.len() as u32;
+        self.nodes[node].set_child(slot, kind::INNER, next);
+    }
+
+    /// Takes over the nodes of a subtree, whose links count from its root.
+    #[cfg(feature = "rayon")]
+    fn append<const W: usize>(&mut self, subtree: &Self)
+    where
+        N: LightNode<W>,
+    {
+        let base = self.nodes.len() as u32;
+        self.nodes.extend_from_slice(&subtree.nodes);
+        for node in &mut self.nodes[base as usize..] {
+            for slot in 0..W {
+                if node.kind(slot) == kind::INNER {
+                    node.relink(slot, base + node.link(slot));
+                }
+            }
+        }
+        self.levels.extend_from_slice(&subtree.levels);
+        self.trails.extend_from_slice(&subtree.trails);
+        self.depth = self.depth.max(subtree.depth);
+    }
+}
