@@ -7,7 +7,7 @@ use crate::exact::{self, exponent, pow2, significand};
 use crate::instance::Instance;
 use crate::light::EmissiveTriangle;
 use crate::summary::{SUMMARY_WORDS, Summary};
-use crate::vector::{cross, dot, length_squared};
+use crate::vector::{cross, dot, length_squared, max3, min3};
 
 /// Smallest flux that is not zero, W: smaller ones count as this much.
 pub const MIN_PHI: f32 = pow2(-100);
@@ -258,20 +258,6 @@ impl Summary for LightBounds {
             phi: words[11],
         }
     }
-}
-
-/// Component-wise minimum.
-#[inline]
-#[must_use]
-pub fn min3(a: Vec3, b: Vec3) -> Vec3 {
-    Vec3::new(exact::min(a.x, b.x), exact::min(a.y, b.y), exact::min(a.z, b.z))
-}
-
-/// Component-wise maximum.
-#[inline]
-#[must_use]
-pub fn max3(a: Vec3, b: Vec3) -> Vec3 {
-    Vec3::new(exact::max(a.x, b.x), exact::max(a.y, b.y), exact::max(a.z, b.z))
 }
 
 #[inline(always)]

@@ -11,13 +11,16 @@ use crate::bounds::{LightBounds, MAX_SUM, MIN_PHI};
 use crate::cone::normalized;
 use crate::exact::{self, exponent, flush, pow2, significand};
 use crate::light::{EmissiveTriangle, MIN_COORDINATE};
+use crate::moments::LightMoments;
 use crate::point::ShadingPoint;
 use crate::trail::BitTrail;
-use crate::vector::{dot, length_squared};
+use crate::vector::{dot, greatest_exponent, length_squared, max3};
 
 /// Lengths below this in a mesh's space count as zero, metres: 2^-60. Entries of the maps are zero or at least 2^-60, so no
 /// product with them is subnormal.
 const TINY: f32 = pow2(-60);
+/// A constant of its own: rust-gpu does not fold an expression of literals.
+const THIRD: f32 = 1.0 / 3.0;
 /// Greatest magnitude of a coordinate in a mesh's space, 2^60.
 const FAR: f32 = pow2(60);
 
@@ -244,6 +247,73 @@ impl Instance {
             },
             cos_theta_e: local.cos_theta_e,
             phi: self.flux_to_world(local.phi, 1.0),
+        }
+    }
+
+    /// Moments in the world of what has the moments `local` in the space of the mesh: exact for the deviations, as far as they
+    /// are alike in all directions across the mean normal.
+    #[inline(always)]
+    pub(crate) fn moments_to_world(&self, local: &LightMoments) -> LightMoments {
+        let m_squared = length_squared(local.m);
+        let directed = m_squared > pow2(-16);
+        let per_length = exact::rsqrt(if directed { m_squared } else { 1.0 });
+        let axis = local.m * per_length;
+        let mapped = self.normal_to_world(axis);
+        let mapped_squared = length_squared(mapped);
+        let has_axis = directed & (mapped_squared > pow2(-40));
+        let per_mapped = exact::rsqrt(if has_axis { mapped_squared } else { 1.0 });
+        let world_axis = mapped * per_mapped;
+        // The factor on areas is that of the normals as far as they agree.
+        let along_axis = if has_axis { mapped_squared * per_mapped } else { 1.0 };
+        let area = exact::clamp(1.0 + m_squared * (along_axis - 1.0), pow2(-20), 2.0);
+
+        // Map and deviations of about 1, by powers of two.
+        let entries = max3(
+            absolute(self.column(0)),
+            max3(absolute(self.column(1)), absolute(self.column(2))),
+        );
+        let map_exponent = greatest_exponent(entries, -100);
+        let own_exponent = greatest_exponent(Vec3::new(local.across, local.along, 0.0), -100);
+        let to_one = pow2(-map_exponent);
+        let (a, b, c) = (
+            flushed(self.column(0) * to_one),
+            flushed(self.column(1) * to_one),
+            flushed(self.column(2) * to_one),
+        );
+        let across = local.across * pow2(-own_exponent);
+        let along = local.along * pow2(-own_exponent);
+        let (va, vn) = (across * across, along * along);
+        let norm = (length_squared(a) + length_squared(b)) + length_squared(c);
+        let stretched = (a * axis.x + b * axis.y) + c * axis.z;
+        let total = va * norm + (vn - va) * length_squared(stretched);
+        let back = Vec3::new(dot(a, world_axis), dot(b, world_axis), dot(c, world_axis));
+        let turned = dot(back, axis);
+        let along_world = va * length_squared(back) + (vn - va) * (turned * turned);
+        let total = exact::flush(exact::max(total, 0.0), pow2(-60));
+        let along_world = exact::flush(exact::max(along_world, 0.0), pow2(-60));
+        let along_world = if has_axis {
+            exact::min(along_world, total)
+        } else {
+            total * THIRD
+        };
+        let unit = pow2(map_exponent + own_exponent);
+        let h = flushed(local.h);
+        let (x, y, z) = (
+            absolute(self.column(0)),
+            absolute(self.column(1)),
+            absolute(self.column(2)),
+        );
+        LightMoments {
+            phi: self.flux_to_world(local.phi, area),
+            c: self.forward(flushed(local.c)) + self.origin(),
+            across: exact::sqrt((total - along_world) * 0.5) * unit,
+            along: exact::sqrt(along_world) * unit,
+            m: if has_axis {
+                world_axis * (m_squared * per_length)
+            } else {
+                Vec3::new(0.0, 0.0, 0.0)
+            },
+            h: (x * h.x + y * h.y) + z * h.z,
         }
     }
 

@@ -4,7 +4,8 @@ use core::marker::PhantomData;
 
 use bytemuck::{Pod, Zeroable};
 use lightbvh::{
-    CompactNode, Defensive, Eq4, INVALID, ImportanceModel, Instance, LightNode, LightTree, Random64, ShadingPoint, traverse,
+    CompactNode, Defensive, Eq4, INVALID, ImportanceModel, Instance, LightNode, LightTree, MomentNode, Moments, Random64,
+    ShadingPoint, traverse,
 };
 
 use crate::shading::pick::{PickLight, Picked};
@@ -39,7 +40,7 @@ pub struct Standard;
 
 impl Choice<WIDTH> for Standard {
     type Node = Node;
-    type Importance = Defensive<Eq4, 5>;
+    type Importance = Defensive<Moments, 5>;
     const NAME: &'static str = "moments";
     const SUFFIX: &'static str = "";
 }
@@ -47,7 +48,7 @@ impl Choice<WIDTH> for Standard {
 /// Children per node of [`Standard`].
 pub const WIDTH: usize = 8;
 /// Node layout of [`Standard`].
-pub type Node = CompactNode<WIDTH>;
+pub type Node = MomentNode<WIDTH>;
 
 /// The node of a choice that is made for one width only: what a kernel's buffer holds.
 pub type NodeOf<C> = <C as Kernels>::Node;

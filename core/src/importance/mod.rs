@@ -5,9 +5,12 @@
 
 mod eq4;
 mod flux;
+mod moments;
 
 pub use eq4::{Cluster, Eq4};
 pub use flux::FluxOverDistance;
+pub use moments::Moments;
+pub(crate) use moments::{Lobe, frame, recip_positive, side, weight};
 
 use crate::exact;
 use crate::point::ShadingPoint;

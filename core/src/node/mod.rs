@@ -3,16 +3,26 @@
 //! A node holds its children's summaries, not its own: one fetch per level decides which child to enter. Width and layout
 //! are type parameters, so a kernel holds the code of one layout only.
 
+mod codes;
 mod compact;
 mod full;
+mod moment;
+mod moment_full;
+mod moment_lean;
 
+pub(crate) use codes::BREADTH_BIAS;
 pub use compact::CompactNode;
 pub use full::FullNode;
+pub use moment::MomentNode;
+pub use moment_full::FullMomentNode;
+pub use moment_lean::LeanMomentNode;
 
 use bytemuck::Pod;
+use glam::Vec3;
 
 use crate::bounds::LightBounds;
 use crate::importance::Cluster;
+use crate::moments::LightMoments;
 use crate::summary::Summary;
 
 /// Version of the node layouts' words; raised whenever a layout changes.
@@ -71,4 +81,11 @@ pub trait LightNode<const W: usize>: Pod + Send + Sync {
 pub trait BoundsNode<const W: usize>: LightNode<W, Summary = LightBounds> {
     /// The child's bounds as [`Eq4`](crate::Eq4) needs them.
     fn cluster(&self, slot: usize) -> Cluster;
+}
+
+/// A layout that stores [`LightMoments`].
+pub trait MomentLayout<const W: usize>: LightNode<W, Summary = LightMoments> {
+    /// The weights of the children at the point `p` with the normal `n`, in the node's space; see
+    /// [`ImportanceModel::weights`](crate::ImportanceModel::weights).
+    fn moment_weights(&self, p: Vec3, n: Vec3) -> [f32; W];
 }

@@ -174,16 +174,18 @@ fn uniform_probability<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize
         } else {
             tree.lights
         };
-        let choices = if tree.live > 0 { tree.live } else { 1 };
         let share = taken as i32 as f32 * exact::pow2(-(FULL_BITS as i32));
-        let one = exact::div(share, (if own > 0 { own } else { 1 } & COUNT_MASK) as i32 as f32);
-        probability = exact::div(one, (choices & COUNT_MASK) as i32 as f32);
+        probability = exact::div(exact::div(share, at_least_one(own)), at_least_one(tree.live));
     }
     probability
 }
 
-/// Counts stay below 2^31, also in hostile words: conversions from `u32` above are wrong on one device.
-const COUNT_MASK: u32 = 0x7fff_ffff;
+/// A count to divide by. It stays below 2^31, also in hostile words: conversions from `u32` above are wrong on one device.
+#[inline(always)]
+fn at_least_one(count: u32) -> f32 {
+    let bounded = count & 0x7fff_ffff;
+    (if bounded > 0 { bounded } else { 1 }) as i32 as f32
+}
 
 #[inline(always)]
 fn triangle_of<N>(tree: &LightTree<'_, N>, light: u32, instance: u32) -> u32 {
@@ -206,11 +208,14 @@ fn light_of<N>(tree: &LightTree<'_, N>, triangle: u32, instance: u32) -> u32 {
 /// Whether there is such a light.
 #[inline(always)]
 fn is_light<N>(tree: &LightTree<'_, N>, light: u32, instance: u32) -> bool {
+    let mut known = false;
     if tree.live > 0 {
-        let within = instance < tree.instances.len() as u32;
-        let own = &tree.instances[if within { instance as usize } else { 0 }];
-        within & (light.wrapping_sub(own.first) < own.count)
+        if instance < tree.instances.len() as u32 {
+            let own = &tree.instances[instance as usize];
+            known = light.wrapping_sub(own.first) < own.count;
+        }
     } else {
-        (light < tree.lights) & (instance == INVALID)
+        known = (light < tree.lights) & (instance == INVALID);
     }
+    known
 }

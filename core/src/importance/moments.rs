@@ -1,0 +1,148 @@
+//! The default importance: means of flux, distance and both cosines.
+
+use glam::Vec3;
+
+use super::ImportanceModel;
+use crate::exact::{self, pow2, rsqrt_rough};
+use crate::node::{BREADTH_BIAS, MomentLayout};
+use crate::point::ShadingPoint;
+use crate::vector::{dot, greatest_exponent};
+
+/// Φ · cos θ · cos θ' / d², each a mean over the lights of a child as their moments give it; on the layouts that hold
+/// [`LightMoments`](crate::moments::LightMoments). Formulas and constants are explained, with what was measured, in
+/// `docs/walk.md`.
+#[derive(Clone, Copy, Debug)]
+pub struct Moments;
+
+impl<N: MomentLayout<W>, const W: usize> ImportanceModel<N, W> for Moments {
+    const UNIFORM_HALVINGS: u32 = 0;
+
+    #[inline(always)]
+    fn weights(node: &N, point: &ShadingPoint) -> [f32; W] {
+        node.moment_weights(point.position(), point.normal())
+    }
+}
+
+/// Least cosine that the soft ones are spread by: no light is ever quite out of sight. Its square is the ε of the tables.
+const SOFT: f32 = 0.031_622_78;
+/// What the height of a box above the horizon counts as at least: what is left of a set all below it.
+const FLOOR: f32 = 1.0e-4;
+/// Variance of all three axes in squared breadths: 1 for a flat set, 1.5 for a round one.
+const FAR: f32 = 1.25;
+/// A quarter of it: two factors of the distance, one softer than the other, did better than equal ones.
+const NEAR: f32 = 0.5;
+/// Squared distances, in units of the scale, are at least this: about (2^-25)². It absorbs whatever devices flush.
+const LEAST_DISTANCE: f32 = pow2(-50);
+/// A frame this much smaller than its distance counts as this small: its square is far below LEAST_DISTANCE's part of 1.
+const LEAST_FRAME: i32 = -40;
+
+/// What all children of a node share of the evaluation at a point: one power of two makes every length about 1.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Frame {
+    /// Origin minus point, scaled.
+    pub x: Vec3,
+    /// The node's unit, scaled: 2^-40 to 1.
+    pub unit: f32,
+}
+
+impl Frame {
+    /// What brings a shifted breadth code to its length.
+    #[inline(always)]
+    pub fn breadth_bias(&self) -> u32 {
+        self.unit.to_bits().wrapping_sub(ONE_BITS).wrapping_add((BREADTH_BIAS as u32) << 23)
+    }
+}
+
+/// The bits of 1.
+const ONE_BITS: u32 = 0x3f80_0000;
+
+/// The scale is the exponent of the greater of distance (of the frame's origin) and unit. So squares of what follows neither
+/// overflow nor underflow, and a scene scaled by a power of two gives the same bits.
+#[inline(always)]
+pub(crate) fn frame(origin: Vec3, unit_exponent: i32, p: Vec3) -> Frame {
+    let x = origin - p;
+    let e = greatest_exponent(x, unit_exponent);
+    let below = unit_exponent - e;
+    let bounded = if below < LEAST_FRAME { LEAST_FRAME } else { below };
+    Frame {
+        x: x * pow2(-e),
+        unit: pow2(bounded),
+    }
+}
+
+/// The receiver as the weight needs it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Side {
+    /// Twice the normal; a zero normal, in a volume, gives all children the same factor.
+    pub n: Vec3,
+    /// The normal by the unit of the children's mean normals, and minus twice that unit.
+    pub for_m: Vec3,
+    pub m_unit: f32,
+}
+
+#[inline(always)]
+pub(crate) fn side(n: Vec3, m_unit: f32) -> Side {
+    Side {
+        n: n + n,
+        for_m: n * m_unit,
+        m_unit: -2.0 * m_unit,
+    }
+}
+
+/// A child as the weight needs it, lengths in units of the frame's scale.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lobe {
+    pub phi: f32,
+    pub x: Vec3,
+    /// √2 times the deviation across the mean normal, and how much less than it the one along is: their ratio less 1.
+    pub breadth: f32,
+    pub less: f32,
+    /// Mean normal, in units of [`Side::m_unit`].
+    pub m: Vec3,
+    /// √(1 − |m|²).
+    pub spread: f32,
+    /// Twice the height of the box above its centre, along the receiver's normal, in breadths.
+    pub reach: f32,
+}
+
+/// Twice a soft max(0, cosine): `2 max(0, a) + s·cut / (2|a| + s)`. Where cut = s that is about a + √(a² + s²), without its
+/// root and without its cancellation. As numerator and denominator, for one reciprocal serves both cosines and the
+/// distance; `a` comes doubled.
+#[inline(always)]
+fn soft(doubled: f32, s: f32, cut: f32) -> (f32, f32) {
+    let below = exact::abs(doubled) + s;
+    (exact::max(doubled, 0.0) * below + s * cut, below)
+}
+
+/// [`recip_rough`](exact::recip_rough) of a positive number, whose sign need not be kept.
+#[inline(always)]
+pub(crate) fn recip_positive(x: f32) -> f32 {
+    let seed = f32::from_bits(0x7ef3_11c7_u32.wrapping_sub(x.to_bits()));
+    seed * (2.0 - x * seed)
+}
+
+/// Φ · soft cos θ · soft cos θ' / distance², positive for any positive Φ.
+#[inline(always)]
+pub(crate) fn weight(l: &Lobe, side: &Side) -> f32 {
+    let squared = l.breadth * l.breadth;
+    let d_squared = dot(l.x, l.x) + LEAST_DISTANCE;
+    let near = d_squared + NEAR * squared;
+    let inverse = rsqrt_rough(d_squared + FAR * squared);
+    let u = l.breadth * inverse;
+
+    // The receiver's side. The spread along its normal is the breadth, but less where that runs along the mean normal.
+    let turn = dot(side.for_m, l.m);
+    let incident_spread = SOFT + u * (1.0 + l.less * (turn * turn));
+    let incident = dot(side.n, l.x) * inverse;
+    // What lies above the horizon is no more than the box allows: its top, where it is low, cuts the tail.
+    let cut = exact::min(exact::max(incident + l.reach * u, FLOOR), incident_spread);
+    let (n1, d1) = soft(incident, incident_spread, cut);
+
+    // The emitters' side: spread by the depth of the set along its normal, and by the spread of the normals.
+    let depth = u + u * l.less;
+    let emitted_spread = (SOFT + depth) + l.spread * (0.5 - depth);
+    let emitted = dot(l.m, l.x) * (side.m_unit * inverse);
+    let (n2, d2) = soft(emitted, emitted_spread, emitted_spread);
+
+    (l.phi * (n1 * n2)) * recip_positive((d1 * d2) * near)
+}

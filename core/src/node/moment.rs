@@ -1,0 +1,198 @@
+//! The default layout: quantised moments, 24 bytes per child.
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+
+use super::codes::{
+    BREADTH_MASK, BREADTH_SHIFT, EXTENT_RANGE, PHI_MASK, PHI_SHIFT, SPREAD_UNIT, SQRT_2, SQRT_HALF, WORD_UNIT, breadth_code,
+    breadth_value, field, fraction, header, phi_code, phi_value, spread,
+};
+use super::{LightNode, MomentLayout};
+use crate::exact::{self, pow2};
+use crate::importance::{Lobe, frame, side, weight};
+use crate::moments::LightMoments;
+use crate::vector::abs3;
+
+/// Words of a node: row 0 is the header (origin x, y, z, exponents), the others hold a word of each child.
+const WORD_0: usize = 1;
+const WORD_1: usize = 2;
+const WORD_2: usize = 3;
+const WORD_3: usize = 4;
+const LINK: usize = 5;
+
+/// A node of 24 bytes per child; `W` is at least 4.
+///
+/// | word | content |
+/// |---|---|
+/// | header | origin 3 × f32; exponent of the frame's unit + 127 (8 bits), of the greatest flux + 127 (8 bits) |
+/// | 0 | centre x 15, y 15, kind 2 |
+/// | 1 | centre z 15, deviation along over that across less 1: 6, flux 11 |
+/// | 2 | mean normal 3 × 8, spread of normals 8 |
+/// | 3 | half extents 3 × 8, breadth (√2 times the deviation across) 8 |
+/// | 4 | link |
+#[repr(transparent)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+pub struct MomentNode<const W: usize>([[u32; W]; 6]);
+
+impl<const W: usize> MomentNode<W> {
+    #[inline(always)]
+    fn origin(&self) -> Vec3 {
+        Vec3::new(
+            f32::from_bits(self.0[0][0]),
+            f32::from_bits(self.0[0][1]),
+            f32::from_bits(self.0[0][2]),
+        )
+    }
+
+    #[inline(always)]
+    fn unit_exponent(&self) -> i32 {
+        (self.0[0][3] & 255) as i32 - 127
+    }
+
+    #[inline(always)]
+    fn phi_exponent(&self) -> i32 {
+        ((self.0[0][3] >> 8) & 255) as i32 - 127
+    }
+
+
+
+
+    /// The node of these children; slots of kind 0 are empty.
+    #[inline(always)]
+    fn pack(sets: &[LightMoments; W], kinds: &[u32; W], links: &[u32; W]) -> Self {
+        let mut node = Self::EMPTY;
+        let header = header(sets);
+        node.0[0][0] = header.origin.x.to_bits();
+        node.0[0][1] = header.origin.y.to_bits();
+        node.0[0][2] = header.origin.z.to_bits();
+        node.0[0][3] = (header.unit_exponent + 127) as u32 | (((header.phi_exponent + 127) as u32) << 8);
+        for i in 0..W {
+            let s = &sets[i];
+            let c = (s.c - header.origin) * pow2(-header.unit_exponent);
+            let phi = phi_code(s.phi, header.phi_exponent);
+            let breadth = breadth_code(s.across, header.unit_exponent);
+            let per_breadth = exact::recip(breadth_value(breadth));
+            // From the low fields up: each knows what lies below it.
+            let ratio = exact::min(s.along, s.across * 2.0) * (pow2(-header.unit_exponent) * SQRT_2) * per_breadth;
+            let w1 = field(ratio - 1.0, 15, 6, phi);
+            let w1 = field(c.z, 0, 15, w1);
+            let w0 = field(c.y, 15, 15, kinds[i] & 3);
+            let w0 = field(c.x, 0, 15, w0);
+            let w2 = exact::floor_small(spread(s.m) * 255.0 + 0.5);
+            let w2 = field(s.m.z, 16, 8, w2);
+            let w2 = field(s.m.y, 8, 8, w2);
+            let w2 = field(s.m.x, 0, 8, w2);
+            let h = s.h * pow2(-header.unit_exponent) * (per_breadth * (1.0 / EXTENT_RANGE)) - Vec3::new(1.0, 1.0, 1.0);
+            let w3 = field(h.z, 16, 8, breadth);
+            let w3 = field(h.y, 8, 8, w3);
+            let w3 = field(h.x, 0, 8, w3);
+            let used = (kinds[i] & 3 != 0) & (s.phi > 0.0);
+            node.0[WORD_0][i] = if used { w0 } else { kinds[i] & 3 };
+            node.0[WORD_1][i] = if used { w1 } else { 0 };
+            node.0[WORD_2][i] = if used { w2 } else { 0 };
+            node.0[WORD_3][i] = if used { w3 } else { 0 };
+            node.0[LINK][i] = links[i];
+        }
+        node
+    }
+}
+
+impl<const W: usize> LightNode<W> for MomentNode<W> {
+    type Summary = LightMoments;
+
+    const EMPTY: Self = Self([[0; W]; 6]);
+    const NAME: &'static str = "moments";
+
+    #[inline(always)]
+    fn kind(&self, slot: usize) -> u32 {
+        self.0[WORD_0][slot] & 3
+    }
+
+    #[inline(always)]
+    fn link(&self, slot: usize) -> u32 {
+        self.0[LINK][slot]
+    }
+
+    #[inline(always)]
+    fn summary(&self, slot: usize) -> LightMoments {
+        let (w0, w1, w2, w3) = (
+            self.0[WORD_0][slot],
+            self.0[WORD_1][slot],
+            self.0[WORD_2][slot],
+            self.0[WORD_3][slot],
+        );
+        let unit = pow2(self.unit_exponent());
+        let per_word = unit * WORD_UNIT;
+        let breadth = breadth_value(w3 & 255) * unit;
+        let across = breadth * SQRT_HALF;
+        let h = Vec3::new(fraction(w3, 0), fraction(w3, 8), fraction(w3, 16)) * WORD_UNIT + Vec3::new(1.0, 1.0, 1.0);
+        LightMoments {
+            // The greatest code's value is just below 2: one more than the greatest child's exponent.
+            phi: phi_value(w1 & PHI_MASK, self.phi_exponent()),
+            c: self.origin() + Vec3::new(fraction(w0, 0), fraction(w0, 15), fraction(w1, 0)) * per_word,
+            across,
+            along: across * (fraction(w1, 15) * WORD_UNIT + 1.0),
+            m: Vec3::new(fraction(w2, 0), fraction(w2, 8), fraction(w2, 16)) * WORD_UNIT,
+            h: h * (breadth * EXTENT_RANGE),
+        }
+    }
+
+    fn set_child(&mut self, slot: usize, kind: u32, link: u32) {
+        for row in 1..6 {
+            self.0[row][slot] = 0;
+        }
+        self.0[WORD_0][slot] = kind & 3;
+        self.0[LINK][slot] = link;
+    }
+
+    fn relink(&mut self, slot: usize, link: u32) {
+        self.0[LINK][slot] = link;
+    }
+
+    #[inline(always)]
+    fn set_summaries(&mut self, summaries: &[LightMoments; W]) {
+        let (mut kinds, mut links) = ([0; W], [0; W]);
+        for slot in 0..W {
+            kinds[slot] = self.kind(slot);
+            links[slot] = self.link(slot);
+        }
+        *self = Self::pack(summaries, &kinds, &links);
+    }
+}
+
+impl<const W: usize> MomentLayout<W> for MomentNode<W> {
+    #[inline(always)]
+    fn moment_weights(&self, p: Vec3, n: Vec3) -> [f32; W] {
+        let frame = frame(self.origin(), self.unit_exponent(), p);
+        let side = side(n, WORD_UNIT);
+        let word_unit = frame.unit * WORD_UNIT;
+        let breadth_bias = frame.breadth_bias();
+        let up = abs3(n) * (2.0 * EXTENT_RANGE);
+        let up_sum = (up.x + up.y) + up.z;
+        let up = up * WORD_UNIT;
+        let mut weights = [0.0; W];
+        for i in 0..W {
+            let (w0, w1, w2, w3) = (
+                self.0[WORD_0][i],
+                self.0[WORD_1][i],
+                self.0[WORD_2][i],
+                self.0[WORD_3][i],
+            );
+            let lobe = Lobe {
+                phi: f32::from_bits((w1 & PHI_MASK) << PHI_SHIFT),
+                x: Vec3::new(
+                    frame.x.x + fraction(w0, 0) * word_unit,
+                    frame.x.y + fraction(w0, 15) * word_unit,
+                    frame.x.z + fraction(w1, 0) * word_unit,
+                ),
+                breadth: f32::from_bits(((w3 << BREADTH_SHIFT) & BREADTH_MASK).wrapping_add(breadth_bias)),
+                less: fraction(w1, 15) * WORD_UNIT,
+                m: Vec3::new(fraction(w2, 0), fraction(w2, 8), fraction(w2, 16)),
+                spread: (w2 & 255) as i32 as f32 * SPREAD_UNIT,
+                reach: up_sum + ((up.x * fraction(w3, 0) + up.y * fraction(w3, 8)) + up.z * fraction(w3, 16)),
+            };
+            weights[i] = weight(&lobe, &side);
+        }
+        weights
+    }
+}

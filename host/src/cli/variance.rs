@@ -1,0 +1,211 @@
+//! `lightbvh variance`: the exact relative variance of one light sample, scene by scene.
+//!
+//! At each point the unshadowed diffuse light of every triangle is computed in closed form, and its probability is asked of the
+//! tree: no sampling is involved, so the figure has no noise but that of the choice of points.
+
+mod irradiance;
+mod points;
+
+use std::time::Instant;
+
+use lightbvh::{
+    BuildParams, CompactNode, Defensive, Eq4, FluxOverDistance, FullMomentNode, Heuristic, ImportanceModel, LeanMomentNode,
+    LightBvh, LightNode, Lights, MomentNode, Moments, ShadingPoint,
+};
+use serde::Serialize;
+use serde_json::json;
+
+use self::irradiance::irradiance;
+use super::{Context, Outcome, table};
+use crate::error::HostError;
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// Scenes: random, street, square, carousel, or .gltf and .glb files; the first four if none is named.
+    #[arg(long)]
+    scene: Vec<String>,
+    /// Points on the surfaces of each scene.
+    #[arg(long, default_value_t = 400, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    points: u32,
+    /// Lights of the scene `random`.
+    #[arg(long, default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    lights: u32,
+    /// Frame of the animation.
+    #[arg(long, default_value_t = 0)]
+    frame: u32,
+    /// Every layout, width and importance, not only the default and the paper's.
+    #[arg(long)]
+    all: bool,
+}
+
+/// The variance of one way to sample, over the points of a scene.
+#[derive(Clone, Debug, Serialize)]
+struct Row {
+    scene: String,
+    structure: &'static str,
+    layout: &'static str,
+    importance: &'static str,
+    width: usize,
+    /// Mean over the points of variance / mean².
+    mean: f64,
+    median: f64,
+    p95: f64,
+    /// Share of samples that contribute nothing: no light, or one that sends nothing to the point.
+    nothing: f64,
+}
+
+/// A scene's lights and what every triangle sends to each point.
+struct Subject {
+    name: String,
+    lights: Lights,
+    points: Vec<ShadingPoint>,
+}
+
+pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
+    let named: Vec<String> = if args.scene.is_empty() {
+        ["random", "street", "square", "carousel"].map(String::from).into()
+    } else {
+        args.scene.clone()
+    };
+    let mut rows = Vec::new();
+    for name in named {
+        let start = Instant::now();
+        let (lights, points) = points::of(&name, args.lights, args.frame, args.points)?;
+        let subject = Subject {
+            name,
+            lights,
+            points,
+        };
+        rows.extend(measure(&subject, args.all));
+        eprintln!("{}: {:.1} s", subject.name, start.elapsed().as_secs_f64());
+    }
+    if context.json {
+        table::print_json(&json!({ "points": args.points, "frame": args.frame, "rows": rows }))?;
+    } else {
+        print(&rows)?;
+    }
+    Ok(Outcome::Good)
+}
+
+/// The default importance of the crate: moments with a share of 1/32 of uniform choice.
+type Default32 = Defensive<Moments, 5>;
+
+fn measure(subject: &Subject, all: bool) -> Vec<Row> {
+    let balanced = BuildParams::default();
+    let saoh = BuildParams {
+        heuristic: Heuristic::Saoh,
+        ..balanced
+    };
+    let light: Vec<Vec<f64>> = subject
+        .points
+        .iter()
+        .map(|point| subject.lights.triangles().iter().map(|t| irradiance(t, point)).collect())
+        .collect();
+    let mut rows = Vec::new();
+    let mut add = |new: [Row; 2]| rows.extend(new);
+    add(both::<CompactNode<4>, Eq4, 4>("eq4", subject, &light, &saoh));
+    add(both::<MomentNode<8>, Default32, 8>("moments+1/32", subject, &light, &balanced));
+    if all {
+        add(both::<MomentNode<8>, Moments, 8>("moments", subject, &light, &balanced));
+        add(both::<MomentNode<16>, Default32, 16>("moments+1/32", subject, &light, &balanced));
+        add(both::<MomentNode<16>, Moments, 16>("moments", subject, &light, &balanced));
+        add(both::<MomentNode<4>, Moments, 4>("moments", subject, &light, &balanced));
+        add(both::<FullMomentNode<8>, Moments, 8>("moments", subject, &light, &balanced));
+        add(both::<LeanMomentNode<8>, Moments, 8>("moments", subject, &light, &balanced));
+        add(both::<MomentNode<8>, Default32, 8>("moments+1/32, fast", subject, &light, &BuildParams::FAST));
+        add(both::<MomentNode<8>, Default32, 8>("moments+1/32, best", subject, &light, &BuildParams::BEST));
+        add(both::<CompactNode<8>, Eq4, 8>("eq4", subject, &light, &saoh));
+        add(both::<CompactNode<4>, Eq4, 4>("eq4, ward", subject, &light, &balanced));
+        add(both::<CompactNode<4>, FluxOverDistance, 4>("flux/d²", subject, &light, &saoh));
+    }
+    rows
+}
+
+/// One level and two.
+fn both<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    importance: &'static str,
+    subject: &Subject,
+    light: &[Vec<f64>],
+    params: &BuildParams,
+) -> [Row; 2] {
+    [
+        ("single-level", LightBvh::<N, W>::single_level(&subject.lights, params)),
+        ("two-level", LightBvh::<N, W>::two_level(&subject.lights, params)),
+    ]
+    .map(|(structure, bvh)| {
+        let (variances, nothing) = variances::<N, I, W>(&bvh, subject, light);
+        let count = variances.len().max(1) as f64;
+        let part = |share: f64| variances.get((share * (count - 1.0)) as usize).copied().unwrap_or(0.0);
+        Row {
+            scene: subject.name.clone(),
+            structure,
+            layout: N::NAME,
+            importance,
+            width: W,
+            mean: variances.iter().sum::<f64>() / count,
+            median: part(0.5),
+            p95: part(0.95),
+            nothing,
+        }
+    })
+}
+
+/// The relative variance at each point that any light reaches, sorted, and the mean share of samples that contribute nothing.
+fn variances<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    bvh: &LightBvh<N, W>,
+    subject: &Subject,
+    light: &[Vec<f64>],
+) -> (Vec<f64>, f64) {
+    let mut variances = Vec::new();
+    let mut nothing = 0.0;
+    for (point, light) in subject.points.iter().zip(light) {
+        let (mut mean, mut square, mut useful) = (0.0, 0.0, 0.0);
+        for (i, &sent) in (0..).zip(light) {
+            if sent > 0.0 {
+                let pmf = f64::from(bvh.pmf::<I>(&subject.lights, point, i));
+                mean += sent;
+                square += sent * sent / pmf;
+                useful += pmf;
+            }
+        }
+        if mean > 0.0 {
+            // Below zero by rounding only, where one light counts.
+            variances.push((square / (mean * mean) - 1.0).max(0.0));
+            nothing += 1.0 - useful;
+        }
+    }
+    let count = variances.len().max(1) as f64;
+    variances.sort_by(f64::total_cmp);
+    (variances, nothing / count)
+}
+
+fn print(rows: &[Row]) -> Result<(), HostError> {
+    let header = [
+        "scene",
+        "structure",
+        "layout",
+        "importance",
+        "width",
+        "mean",
+        "median",
+        "p95",
+        "nothing",
+    ];
+    let cells: Vec<Vec<String>> = rows
+        .iter()
+        .map(|row| {
+            vec![
+                row.scene.clone(),
+                row.structure.to_owned(),
+                row.layout.to_owned(),
+                row.importance.to_owned(),
+                row.width.to_string(),
+                format!("{:.3}", row.mean),
+                format!("{:.3}", row.median),
+                format!("{:.3}", row.p95),
+                format!("{:.1} %", 100.0 * row.nothing),
+            ]
+        })
+        .collect();
+    Ok(table::print(&header, &cells)?)
+}
