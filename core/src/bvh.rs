@@ -71,7 +71,12 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
                 *blas = refit::root(&self.nodes, blas.node);
             }
             for range in self.top.ranges() {
-                sweep::top(&mut self.nodes, &self.instances, &self.roots, &self.top.nodes[range]);
+                sweep::top(
+                    &mut self.nodes,
+                    &self.instances,
+                    &self.roots,
+                    &self.top.nodes[range],
+                );
             }
         }
     }

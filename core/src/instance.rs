@@ -264,7 +264,11 @@ impl Instance {
         let per_mapped = exact::rsqrt(if has_axis { mapped_squared } else { 1.0 });
         let world_axis = mapped * per_mapped;
         // The factor on areas is that of the normals as far as they agree.
-        let along_axis = if has_axis { mapped_squared * per_mapped } else { 1.0 };
+        let along_axis = if has_axis {
+            mapped_squared * per_mapped
+        } else {
+            1.0
+        };
         let area = exact::clamp(1.0 + m_squared * (along_axis - 1.0), pow2(-20), 2.0);
 
         // Map and deviations of about 1, by powers of two.

@@ -132,7 +132,9 @@ pub use importance::{Defensive, Eq4, FluxOverDistance, ImportanceModel, Moments}
 pub use instance::Instance;
 pub use light::{EmissiveTriangle, LightError};
 pub use moments::LightMoments;
-pub use node::{BoundsNode, CompactNode, FullMomentNode, FullNode, LeanMomentNode, LightNode, MomentLayout, MomentNode};
+pub use node::{
+    BoundsNode, CompactNode, FullMomentNode, FullNode, LeanMomentNode, LightNode, MomentLayout, MomentNode,
+};
 pub use point::{PointError, ShadingPoint};
 pub use summary::Summary;
 pub use traverse::{Random64, SampledLight};

@@ -20,10 +20,13 @@ use crate::vector::{abs3, cross, dot, flush3, greatest_exponent, max3};
 const LEAST_SHARE: f32 = pow2(-40);
 /// Squares below this, in units of the set's size squared, count as zero: what a device flushes is far below it.
 const LEAST_SQUARE: f32 = pow2(-60);
-/// Squared length of a mean normal below which it has no direction: 2^-16.
+/// Squared length of a mean normal below which it has no direction: 2^-6.
 const LEAST_NORMAL: f32 = pow2(-6);
 /// Least exponent of a set's size: 2^-100 m, the least difference of coordinates.
 pub(crate) const LEAST_EXPONENT: i32 = -100;
+
+/// A constant of its own: rust-gpu does not fold an expression of literals.
+const TWENTY_FOURTH: f32 = 1.0 / 24.0;
 
 /// What is known of a set of lights.
 ///
@@ -70,7 +73,7 @@ impl LightMoments {
         let (da, db) = (a - mean, b - mean);
         // The variance of a triangle is the sum of its vertices' squares over 12, of all axes; it has two.
         let sum = (dot(mean, mean) + dot(da, da)) + dot(db, db);
-        let spread = exact::sqrt(sum * (1.0 / 24.0));
+        let spread = exact::sqrt(sum * TWENTY_FOURTH);
         let unit = pow2(e);
         let normal = cross(a, b);
         let ne = greatest_exponent(normal, -60);
@@ -82,14 +85,15 @@ impl LightMoments {
             exact::rsqrt(n_squared)
         };
         let flat = if sides > 0.0 { 0.0 } else { spread };
-        Self {
+        let moments = Self {
             phi,
             c: p0 + mean * unit,
             across: spread * unit,
             along: flat * unit,
             m: n * sides,
             h: max3(abs3(mean), max3(abs3(da), abs3(db))) * unit,
-        }
+        };
+        if phi > 0.0 { moments } else { Self::EMPTY }
     }
 
     /// The moments of `W` sets together, summed in slot order; sets without flux are ignored.
@@ -108,7 +112,7 @@ impl LightMoments {
         let mut size = LEAST_EXPONENT;
         for i in 0..W {
             let s = &sets[i];
-            let reach = abs3(s.c - origin) + max3(s.h, Vec3::new(s.across, s.along, 0.0));
+            let reach = abs3(from(s, origin)) + max3(s.h, Vec3::new(s.across, s.along, 0.0));
             let e = greatest_exponent(reach, size);
             size = if s.phi > 0.0 { e } else { size };
         }
@@ -127,7 +131,7 @@ impl LightMoments {
             let s = &sets[i];
             let f = exact::flush((s.phi * first) * second, LEAST_SHARE);
             flux += f;
-            c += ((s.c - origin) * to_one) * f;
+            c += (from(s, origin) * to_one) * f;
             m += s.m * f;
         }
         let shines = flux > 0.0;
@@ -149,7 +153,7 @@ impl LightMoments {
         for i in 0..W {
             let s = &sets[i];
             let f = exact::flush((s.phi * first) * second, LEAST_SHARE);
-            let d = (s.c - origin) * to_one - center;
+            let d = from(s, origin) * to_one - center;
             let (sa, sn) = (s.across * to_one, s.along * to_one);
             let (va, vn) = (sa * sa, sn * sn);
             let own = dot(s.m, s.m);
@@ -186,6 +190,16 @@ impl LightMoments {
         } else {
             Self::EMPTY
         }
+    }
+}
+
+/// Where a set's centre lies from `origin`; there, for a set without flux, whose numbers mean nothing.
+#[inline(always)]
+fn from(set: &LightMoments, origin: Vec3) -> Vec3 {
+    if set.phi > 0.0 {
+        set.c - origin
+    } else {
+        Vec3::new(0.0, 0.0, 0.0)
     }
 }
 

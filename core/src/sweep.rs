@@ -22,7 +22,11 @@ const BLOCK: usize = 1 << 14;
 const PIECE: usize = 256;
 
 /// [`refit::bottom`] over `list`, whose nodes are all of one level.
-pub fn bottom<N: LightNode<W>, const W: usize>(nodes: &mut [N], triangles: &[EmissiveTriangle], list: &[u32]) {
+pub fn bottom<N: LightNode<W>, const W: usize>(
+    nodes: &mut [N],
+    triangles: &[EmissiveTriangle],
+    list: &[u32],
+) {
     each(nodes, list, |nodes, index| refit::bottom(nodes, triangles, index));
 }
 
@@ -33,7 +37,9 @@ pub fn top<N: LightNode<W>, const W: usize>(
     roots: &[BlasRoot],
     list: &[u32],
 ) {
-    each(nodes, list, |nodes, index| refit::top(nodes, instances, roots, index));
+    each(nodes, list, |nodes, index| {
+        refit::top(nodes, instances, roots, index)
+    });
 }
 
 /// [`refit::bottom`] over all nodes of a bottom level that stand in depth-first order: children before parents, from the last
@@ -69,7 +75,10 @@ fn each_parallel<N: Copy + Send + Sync>(
     let mut computed: Vec<N> = Vec::with_capacity(BLOCK.min(list.len()));
     for block in list.chunks(BLOCK) {
         let all = &*nodes;
-        let new = block.par_iter().with_min_len(PIECE).map(|&index| refitted(all, index));
+        let new = block
+            .par_iter()
+            .with_min_len(PIECE)
+            .map(|&index| refitted(all, index));
         new.collect_into_vec(&mut computed);
         for (&index, new) in block.iter().zip(&computed) {
             nodes[index as usize] = *new;

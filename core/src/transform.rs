@@ -90,7 +90,10 @@ impl Transform {
     pub(crate) fn instance(&self, radiance: f32) -> Instance {
         let columns = [self.column(0), self.column(1), self.column(2)];
         // Entries of about 1, so that products of three stay in range.
-        let entry = columns.iter().flatten().fold(0.0, |most, &x| greatest(most, magnitude(x)));
+        let entry = columns
+            .iter()
+            .flatten()
+            .fold(0.0, |most, &x| greatest(most, magnitude(x)));
         let per_entry = if entry > 0.0 { 1.0 / entry } else { 0.0 };
         let [a, b, c] = columns.map(|column| column.map(|x| x * per_entry));
         let cofactors = [cross(b, c), cross(c, a), cross(a, b)];
@@ -115,7 +118,9 @@ impl Transform {
         let area = square_root(squares(&cofactors)) / SQRT_3 * (entry * entry);
         let flux = (area * f64::from(radiance)) as f32;
         Instance {
-            columns: self.columns.map(|column| column.map(|x| exact::flush(x, TINY_ENTRY))),
+            columns: self
+                .columns
+                .map(|column| column.map(|x| exact::flush(x, TINY_ENTRY))),
             translation: self.translation.map(|t| exact::flush(t, MIN_COORDINATE)),
             inverse,
             per_inverse: per_inverse as f32,

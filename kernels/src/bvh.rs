@@ -4,8 +4,8 @@ use core::marker::PhantomData;
 
 use bytemuck::{Pod, Zeroable};
 use lightbvh::{
-    CompactNode, Defensive, Eq4, INVALID, ImportanceModel, Instance, LightNode, LightTree, MomentNode, Moments, Random64,
-    ShadingPoint, traverse,
+    CompactNode, Defensive, Eq4, INVALID, ImportanceModel, Instance, LightNode, LightTree, MomentNode,
+    Moments, Random64, ShadingPoint, traverse,
 };
 
 use crate::shading::pick::{PickLight, Picked};
@@ -33,14 +33,14 @@ impl Choice<4> for Paper {
     const SUFFIX: &'static str = "_eq4";
 }
 
-/// The default: the layout and importance that measured best for their time, 8 children to a node, with a share of 1/32 of
+/// The default: the layout and importance that measured best for their time, 8 children to a node, with a share of 1/64 of
 /// uniform choice.
 #[derive(Clone, Copy, Debug)]
 pub struct Standard;
 
 impl Choice<WIDTH> for Standard {
     type Node = Node;
-    type Importance = Defensive<Moments, 5>;
+    type Importance = Defensive<Moments, 6>;
     const NAME: &'static str = "moments";
     const SUFFIX: &'static str = "";
 }
@@ -99,7 +99,12 @@ impl TreePush {
     /// The tree over the given arrays.
     #[inline]
     #[must_use]
-    pub fn tree<'a, N>(&self, nodes: &'a [N], instances: &'a [Instance], trails: &'a [u32]) -> LightTree<'a, N> {
+    pub fn tree<'a, N>(
+        &self,
+        nodes: &'a [N],
+        instances: &'a [Instance],
+        trails: &'a [u32],
+    ) -> LightTree<'a, N> {
         LightTree {
             nodes,
             root: self.root,

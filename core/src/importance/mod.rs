@@ -37,7 +37,10 @@ impl<N, I: ImportanceModel<N, W>, const HALVINGS: u32, const W: usize> Importanc
     for Defensive<I, HALVINGS>
 {
     const UNIFORM_HALVINGS: u32 = {
-        assert!(1 <= HALVINGS && HALVINGS <= 20, "a share of uniform choice from 1/2 to 2^-20");
+        assert!(
+            1 <= HALVINGS && HALVINGS <= 20,
+            "a share of uniform choice from 1/2 to 2^-20"
+        );
         HALVINGS
     };
 

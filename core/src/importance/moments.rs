@@ -29,7 +29,7 @@ const SOFT: f32 = 0.031_622_78;
 const FLOOR: f32 = 1.0e-4;
 /// Variance of all three axes in squared breadths: 1 for a flat set, 1.5 for a round one.
 const FAR: f32 = 1.25;
-/// A quarter of it: two factors of the distance, one softer than the other, did better than equal ones.
+/// The variance in the denominator's second distance: less than in the first, which did better than equal ones.
 const NEAR: f32 = 0.5;
 /// Squared distances, in units of the scale, are at least this: about (2^-25)². It absorbs whatever devices flush.
 const LEAST_DISTANCE: f32 = pow2(-50);
@@ -49,7 +49,10 @@ impl Frame {
     /// What brings a shifted breadth code to its length.
     #[inline(always)]
     pub fn breadth_bias(&self) -> u32 {
-        self.unit.to_bits().wrapping_sub(ONE_BITS).wrapping_add((BREADTH_BIAS as u32) << 23)
+        self.unit
+            .to_bits()
+            .wrapping_sub(ONE_BITS)
+            .wrapping_add((BREADTH_BIAS as u32) << 23)
     }
 }
 

@@ -24,6 +24,8 @@ pub(crate) const BREADTH_MASK: u32 = 0xff << BREADTH_SHIFT;
 pub(crate) const BREADTH_BIAS: i32 = 97;
 /// Half extents are stored up to this many breadths; those of sets whose flux lies mostly in one place are cut.
 pub(crate) const EXTENT_RANGE: f32 = 8.0;
+/// A constant of its own: rust-gpu does not fold an expression of literals.
+pub(crate) const PER_EXTENT_RANGE: f32 = 1.0 / EXTENT_RANGE;
 /// Signed fractions are read as whole words, what lies below them included: it is less than one unit of the code, and the
 /// packer takes it into account. So a component costs one shift and one conversion.
 pub(crate) const WORD_UNIT: f32 = pow2(-31);
@@ -47,7 +49,10 @@ pub(super) fn field(x: f32, shift: u32, bits: u32, low: u32) -> u32 {
     let noise = (low << shift) as i32 as f32 * (pow2(bits as i32 - 1) * WORD_UNIT);
     let bounded = exact::clamp(x, -1.0, 1.0);
     // A positive number below 2^22, of which the floor is taken.
-    let code = exact::floor_small(exact::max(bounded * pow2(bits as i32 - 1) - noise + pow2(bits as i32 - 1) + 0.5, 0.0)) as i32;
+    let code = exact::floor_small(exact::max(
+        bounded * pow2(bits as i32 - 1) - noise + pow2(bits as i32 - 1) + 0.5,
+        0.0,
+    )) as i32;
     let top = 2 * half_range - 1;
     let code = (if code > top { top } else { code }) - half_range;
     let mask = (1_u32 << bits) - 1;
@@ -145,7 +150,6 @@ pub(super) fn breadth_code(deviation: f32, unit_exponent: i32) -> u32 {
 pub(super) fn breadth_value(code: u32) -> f32 {
     f32::from_bits((code << BREADTH_SHIFT).wrapping_add((BREADTH_BIAS as u32) << 23))
 }
-
 
 /// The word's signed fraction whose top bit is `shift` below the word's.
 #[inline(always)]

@@ -4,8 +4,8 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::codes::{
-    BREADTH_MASK, BREADTH_SHIFT, EXTENT_RANGE, PHI_MASK, PHI_SHIFT, SPREAD_UNIT, SQRT_2, SQRT_HALF, WORD_UNIT, breadth_code,
-    breadth_value, field, fraction, header, phi_code, phi_value, spread,
+    BREADTH_MASK, BREADTH_SHIFT, EXTENT_RANGE, PER_EXTENT_RANGE, PHI_MASK, PHI_SHIFT, SPREAD_UNIT, SQRT_2,
+    SQRT_HALF, WORD_UNIT, breadth_code, breadth_value, field, fraction, header, phi_code, phi_value, spread,
 };
 use super::{LightNode, MomentLayout};
 use crate::exact::{self, pow2};
@@ -54,9 +54,6 @@ impl<const W: usize> MomentNode<W> {
         ((self.0[0][3] >> 8) & 255) as i32 - 127
     }
 
-
-
-
     /// The node of these children; slots of kind 0 are empty.
     #[inline(always)]
     fn pack(sets: &[LightMoments; W], kinds: &[u32; W], links: &[u32; W]) -> Self {
@@ -73,7 +70,8 @@ impl<const W: usize> MomentNode<W> {
             let breadth = breadth_code(s.across, header.unit_exponent);
             let per_breadth = exact::recip(breadth_value(breadth));
             // From the low fields up: each knows what lies below it.
-            let ratio = exact::min(s.along, s.across * 2.0) * (pow2(-header.unit_exponent) * SQRT_2) * per_breadth;
+            let ratio =
+                exact::min(s.along, s.across * 2.0) * (pow2(-header.unit_exponent) * SQRT_2) * per_breadth;
             let w1 = field(ratio - 1.0, 15, 6, phi);
             let w1 = field(c.z, 0, 15, w1);
             let w0 = field(c.y, 15, 15, kinds[i] & 3);
@@ -82,7 +80,8 @@ impl<const W: usize> MomentNode<W> {
             let w2 = field(s.m.z, 16, 8, w2);
             let w2 = field(s.m.y, 8, 8, w2);
             let w2 = field(s.m.x, 0, 8, w2);
-            let h = s.h * pow2(-header.unit_exponent) * (per_breadth * (1.0 / EXTENT_RANGE)) - Vec3::new(1.0, 1.0, 1.0);
+            let h = s.h * pow2(-header.unit_exponent) * (per_breadth * PER_EXTENT_RANGE)
+                - Vec3::new(1.0, 1.0, 1.0);
             let w3 = field(h.z, 16, 8, breadth);
             let w3 = field(h.y, 8, 8, w3);
             let w3 = field(h.x, 0, 8, w3);
@@ -125,9 +124,9 @@ impl<const W: usize> LightNode<W> for MomentNode<W> {
         let per_word = unit * WORD_UNIT;
         let breadth = breadth_value(w3 & 255) * unit;
         let across = breadth * SQRT_HALF;
-        let h = Vec3::new(fraction(w3, 0), fraction(w3, 8), fraction(w3, 16)) * WORD_UNIT + Vec3::new(1.0, 1.0, 1.0);
+        let h = Vec3::new(fraction(w3, 0), fraction(w3, 8), fraction(w3, 16)) * WORD_UNIT
+            + Vec3::new(1.0, 1.0, 1.0);
         LightMoments {
-            // The greatest code's value is just below 2: one more than the greatest child's exponent.
             phi: phi_value(w1 & PHI_MASK, self.phi_exponent()),
             c: self.origin() + Vec3::new(fraction(w0, 0), fraction(w0, 15), fraction(w1, 0)) * per_word,
             across,

@@ -27,11 +27,6 @@ impl<const W: usize> FullMomentNode<W> {
         f32::from_bits(self.0[field][slot])
     }
 
-
-
-
-
-
     /// The node of these children; slots of kind 0 are empty.
     #[inline(always)]
     fn pack(sets: &[LightMoments; W], kinds: &[u32; W], links: &[u32; W]) -> Self {
@@ -44,11 +39,30 @@ impl<const W: usize> FullMomentNode<W> {
             let bounded = if e < LEAST_EXPONENT { LEAST_EXPONENT } else { e };
             let to_one = pow2(-bounded);
             let ratio = if s.across > 0.0 {
-                exact::min(exact::min(s.along, s.across + s.across) * to_one * exact::recip(exact::max(s.across * to_one, 0.5)), 2.0)
+                exact::min(
+                    exact::min(s.along, s.across + s.across)
+                        * to_one
+                        * exact::recip(exact::max(s.across * to_one, 0.5)),
+                    2.0,
+                )
             } else {
                 1.0
             };
-            let fields = [s.phi, s.c.x, s.c.y, s.c.z, s.across, ratio, s.m.x, s.m.y, s.m.z, spread(s.m), s.h.x, s.h.y, s.h.z];
+            let fields = [
+                s.phi,
+                s.c.x,
+                s.c.y,
+                s.c.z,
+                s.across,
+                ratio,
+                s.m.x,
+                s.m.y,
+                s.m.z,
+                spread(s.m),
+                s.h.x,
+                s.h.y,
+                s.h.z,
+            ];
             for k in 0..13 {
                 node.0[k][i] = if shines { fields[k].to_bits() } else { 0 };
             }
@@ -77,7 +91,13 @@ impl<const W: usize> LightNode<W> for FullMomentNode<W> {
 
     #[inline(always)]
     fn summary(&self, slot: usize) -> LightMoments {
-        let vector = |field| Vec3::new(self.float(field, slot), self.float(field + 1, slot), self.float(field + 2, slot));
+        let vector = |field| {
+            Vec3::new(
+                self.float(field, slot),
+                self.float(field + 1, slot),
+                self.float(field + 2, slot),
+            )
+        };
         LightMoments {
             phi: self.float(0, slot),
             c: vector(1),
@@ -134,12 +154,14 @@ impl<const W: usize> MomentLayout<W> for FullMomentNode<W> {
         let mut weights = [0.0; W];
         for i in 0..W {
             let phi = self.float(0, i);
+            // Nothing is known of where a child without flux is; a mask, since a select would become a branch.
+            let offset = Vec3::new(self.float(1, i), self.float(2, i), self.float(3, i)) - p;
             // As little as a packed node knows: 2^-62 of the greatest.
             let scaled = exact::max((phi * first) * second, pow2(-62));
             let breadth = exact::max(self.float(4, i) * (to_one * SQRT_2), LEAST_BREADTH);
             let lobe = Lobe {
                 phi: if phi > 0.0 { scaled } else { 0.0 },
-                x: (Vec3::new(self.float(1, i), self.float(2, i), self.float(3, i)) - p) * to_one,
+                x: offset * f32::from_bits(to_one.to_bits() & u32::from(phi > 0.0).wrapping_neg()),
                 breadth,
                 less: self.float(5, i) - 1.0,
                 m: Vec3::new(self.float(6, i), self.float(7, i), self.float(8, i)),

@@ -4,8 +4,8 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::codes::{
-    EXTENT_RANGE, PHI_MASK, PHI_SHIFT, SPREAD_UNIT, SQRT_HALF, WORD_UNIT, breadth_code, breadth_value, field, fraction, header,
-    phi_code, phi_value, spread,
+    EXTENT_RANGE, PHI_MASK, PHI_SHIFT, SPREAD_UNIT, SQRT_HALF, WORD_UNIT, breadth_code, breadth_value, field,
+    fraction, header, phi_code, phi_value, spread,
 };
 use super::{LightNode, MomentLayout};
 use crate::exact::{self, pow2};
@@ -41,9 +41,6 @@ impl<const W: usize> LeanMomentNode<W> {
             f32::from_bits(self.0[0][2]),
         )
     }
-
-
-
 
     /// The node of these children; slots of kind 0 are empty.
     #[inline(always)]
@@ -102,7 +99,8 @@ impl<const W: usize> LightNode<W> for LeanMomentNode<W> {
         let h = 3.0 * across;
         LightMoments {
             phi: phi_value(w1 & PHI_MASK, ((self.0[0][3] >> 8) & 255) as i32 - 127),
-            c: self.origin() + Vec3::new(fraction(w0, 0), fraction(w0, 15), fraction(w1, 0)) * (unit * WORD_UNIT),
+            c: self.origin()
+                + Vec3::new(fraction(w0, 0), fraction(w0, 15), fraction(w1, 0)) * (unit * WORD_UNIT),
             across,
             along: across,
             m: Vec3::new(fraction(w2, 0), fraction(w2, 8), fraction(w2, 16)) * WORD_UNIT,

@@ -126,7 +126,10 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         sweep::bottom_sweep(&mut self.nodes, &self.triangles, nodes.clone());
         self.roots[index as usize] = refit::root(&self.nodes, nodes.start);
         let placed = &self.nodes[nodes.start as usize..nodes.end as usize];
-        self.blases[index as usize].cost = drift(placed, &self.roots[index as usize].summary::<N::Summary>().bounds());
+        self.blases[index as usize].cost = drift(
+            placed,
+            &self.roots[index as usize].summary::<N::Summary>().bounds(),
+        );
         self.pending.mark_built(index);
     }
 

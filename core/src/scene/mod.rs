@@ -182,7 +182,12 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     /// Probability of `light` of `instance` at `point`, a point as for [`sample`](Self::sample); see [`traverse::pmf`]. 0 for an
     /// unknown instance, or a light of another one.
     #[must_use]
-    pub fn pmf<I: ImportanceModel<N, W>>(&self, point: &ShadingPoint, light: u32, instance: InstanceId) -> f32 {
+    pub fn pmf<I: ImportanceModel<N, W>>(
+        &self,
+        point: &ShadingPoint,
+        light: u32,
+        instance: InstanceId,
+    ) -> f32 {
         debug_assert!(point.is_within_reach(), "not a shading point: {point:?}");
         match live(&self.placed, instance) {
             Some(placed) if placed.lights.contains(&light) => {

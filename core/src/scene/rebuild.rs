@@ -173,7 +173,8 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             let nodes = &self.nodes[own.nodes.start as usize..own.nodes.end as usize];
             params.drift.is_finite()
                 && !nodes.is_empty()
-                && drift(nodes, &self.roots[blas as usize].summary::<N::Summary>().bounds()) > params.drift * own.cost
+                && drift(nodes, &self.roots[blas as usize].summary::<N::Summary>().bounds())
+                    > params.drift * own.cost
         });
         let bottoms = drifted.map(|blas| {
             let own = &self.blases[blas as usize];

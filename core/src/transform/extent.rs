@@ -32,8 +32,11 @@ impl Extent {
 }
 
 fn radius_squared(triangles: &[EmissiveTriangle]) -> f64 {
-    triangles.iter().flat_map(|triangle| triangle.p).fold(0.0, |most, p| {
-        let p = p.map(f64::from);
-        greatest(most, dot(p, p))
-    })
+    triangles
+        .iter()
+        .flat_map(|triangle| triangle.p)
+        .fold(0.0, |most, p| {
+            let p = p.map(f64::from);
+            greatest(most, dot(p, p))
+        })
 }

@@ -54,9 +54,7 @@ fn determinant(columns: &[[f32; 3]; 3]) -> f64 {
 /// The columns of A times the columns of B.
 fn product(a: &[[f32; 3]; 3], b: &[[f32; 3]; 3]) -> [[f64; 3]; 3] {
     let (a, b) = (wide(a), wide(b));
-    core::array::from_fn(|column| {
-        core::array::from_fn(|row| (0..3).map(|k| a[k][row] * b[column][k]).sum())
-    })
+    core::array::from_fn(|column| core::array::from_fn(|row| (0..3).map(|k| a[k][row] * b[column][k]).sum()))
 }
 
 /// How far a matrix is from the identity, entry by entry.
@@ -93,7 +91,11 @@ fn inverses_of_random_maps() {
         }
         let per_inverse = f64::from(instance.per_inverse) * norm(&wide(&instance.inverse));
         assert!((per_inverse - SQRT_3).abs() < 1e-6, "{seed}");
-        assert_eq!(instance.mirrored, u32::from(determinant(&transform.columns) < 0.0), "{seed}");
+        assert_eq!(
+            instance.mirrored,
+            u32::from(determinant(&transform.columns) < 0.0),
+            "{seed}"
+        );
         mirrored += instance.mirrored;
     }
     // Half of all maps mirror: 1000 ± 5 standard deviations of 22.4.
@@ -150,18 +152,27 @@ fn extremes_stay_in_the_range_of_the_words() {
         map([one, one.map(|x| x * 3.0), [0.0; 3]], [0.0; 3]),
         // Of full rank by a hair.
         map([one, [1.0, 0.0, (-1.0f32).next_up()], [0.0, 1.0, 0.0]], [0.0; 3]),
-        map([one.map(|x| x * large), [1.0, 1.0, 1.0], one.map(|x| x * small)], [0.0; 3]),
+        map(
+            [one.map(|x| x * large), [1.0, 1.0, 1.0], one.map(|x| x * small)],
+            [0.0; 3],
+        ),
     ];
     for (i, transform) in maps.iter().enumerate() {
         for radiance in [0.0, 1.0, pow2(-40), pow2(40)] {
             let instance = transform.instance(radiance);
             let entry = |x: f32, most: f32| x.to_bits() == 0 || (small..=most).contains(&exact::abs(x));
-            assert!(instance.columns.iter().flatten().all(|&x| entry(x, large)), "{i}: {instance:?}");
+            assert!(
+                instance.columns.iter().flatten().all(|&x| entry(x, large)),
+                "{i}: {instance:?}"
+            );
             assert!(
                 instance.inverse.iter().flatten().all(|&x| entry(x, pow2(60))),
                 "{i}: {instance:?}"
             );
-            assert!(instance.per_inverse.is_finite() && instance.per_inverse >= 0.0, "{i}");
+            assert!(
+                instance.per_inverse.is_finite() && instance.per_inverse >= 0.0,
+                "{i}"
+            );
             let shines = (pow2(-100)..=pow2(100)).contains(&instance.flux);
             assert!(shines == (radiance > 0.0), "{i}: {instance:?}");
         }
@@ -226,7 +237,10 @@ fn extents() {
     let turned = |k: usize| triangle(core::array::from_fn(|i| right.p[(i + k) % 3]));
     for k in 0..3 {
         let extent = Extent::of(&[turned(k)]);
-        assert!((extent.radius / square_root(160.0) - 1.0).abs() < 1e-14, "{extent:?}");
+        assert!(
+            (extent.radius / square_root(160.0) - 1.0).abs() < 1e-14,
+            "{extent:?}"
+        );
     }
     let far = triangle([[0.0; 3], [20.0, 0.0, 0.0], [10.0, 0.0, 0.0]]);
     let small = triangle([[0.0; 3], [0.5, 0.0, 0.0], [0.0, 0.5, 0.0]]);

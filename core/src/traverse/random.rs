@@ -83,7 +83,11 @@ mod tests {
         for i in 0..100_000u32 {
             let corner = [0, 1, u32::MAX, 0x8000_0000, 0xffff, 0x1_0000];
             let a = if i < 36 { corner[(i / 6) as usize] } else { hash(i) };
-            let b = if i < 36 { corner[(i % 6) as usize] } else { hash(!i) };
+            let b = if i < 36 {
+                corner[(i % 6) as usize]
+            } else {
+                hash(!i)
+            };
             let product = u64::from(a) * u64::from(b);
             assert_eq!(wide_product(a, b), ((product >> 32) as u32, product as u32));
             let bits = (u64::from(a) << 32) | u64::from(hash(b));

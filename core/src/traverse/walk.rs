@@ -94,10 +94,8 @@ impl Walk {
         let levels = max_levels(W);
         // Running off the end of a tree's levels (hostile words only) must not look like the next tree's first level.
         let last_of_tree = self.position + 1 == levels || self.position + 1 == 2 * levels;
-        let enters = passes
-            & (to == kind::MESH)
-            & (self.position < levels)
-            & (link < tree.instances.len() as u32);
+        let enters =
+            passes & (to == kind::MESH) & (self.position < levels) & (link < tree.instances.len() as u32);
         let descends = passes & (to == kind::INNER) & !last_of_tree;
         let at_light = passes & (to == kind::LIGHT);
         self.triangle = if at_light { link } else { INVALID };
