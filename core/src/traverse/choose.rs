@@ -3,14 +3,18 @@
 use crate::exact;
 use crate::importance::pairwise_sum;
 
-/// Ranges of numbers are at most this long, 2^22: sums and products with them are exact in `f32`.
+/// Ranges of numbers are at most this long, 2^22: their sums are exact in `f32`.
 pub(super) const FULL: u32 = 1 << 22;
 /// Bits of [`FULL`].
 pub(super) const FULL_BITS: u32 = 22;
 
-/// Share of a range that is given out by weight, 1 − 2^-15. The sum of up to 16 weights, its reciprocal and the numbers that
-/// the least weights are raised to are together too large by less than the rest, which goes to the last child.
+/// Share of a range that is given out by weight, 1 − 2^-15. The sum of up to 16 weights, its reciprocal, the rounding of
+/// shares and the numbers that the least weights are raised to are together too large by less than the rest, which goes to
+/// the last child.
 const GIVEN: f32 = 1.0 - exact::pow2(-15);
+
+/// From 2^23 on `f32` numbers are integers: adding it rounds to the nearest one.
+const COUNTS: f32 = 8_388_608.0;
 
 /// The numbers of a range that choose a child.
 #[derive(Clone, Copy)]
@@ -23,7 +27,7 @@ pub(super) struct Share {
 }
 
 /// Shares the numbers `0..range` out among the children, to each at least one where its weight is positive. Returns the share
-/// that holds `number`, or with `follow` the share of `wanted`.
+/// that holds `number`, or with `follow` the share of `wanted`, which is below 16.
 #[inline(always)]
 pub(super) fn choose<const W: usize>(
     weights: &[f32; W],
@@ -34,47 +38,63 @@ pub(super) fn choose<const W: usize>(
 ) -> Share {
     let sum = pairwise_sum(weights);
     let alive = sum > 0.0;
-    let scale = (range as i32 as f32) * GIVEN * exact::recip(if alive { sum } else { 1.0 });
-    let mut counts = [0u32; W];
+    let length = range as i32 as f32;
+    let scale = length * GIVEN * exact::recip(if alive { sum } else { 1.0 });
+    // Integers, but in `f32`, where processors add and compare several at a time.
+    let mut ends = [0.0; W];
+    let mut open = 0;
     for slot in 0..W {
         let w = weights[slot];
-        let whole = exact::floor_small(w * scale);
-        let at_least_one = if whole == 0 { 1 } else { whole };
-        counts[slot] = if w > 0.0 { at_least_one } else { 0 };
+        let whole = exact::max((w * scale + COUNTS) - COUNTS, 1.0);
+        ends[slot] = if w > 0.0 { whole } else { 0.0 };
+        open |= u32::from(w > 0.0) << slot;
     }
+    let counts = ends;
     // Inclusive prefix sums, by doubling steps.
-    let mut ends = counts;
     let mut stride = 1;
     for _ in 0..4 {
-        for i in 0..W {
-            // From the last on, so that no step sees a sum of its own step.
-            let slot = W - 1 - i;
+        let before = ends;
+        for slot in 0..W {
             if slot >= stride {
-                ends[slot] = ends[slot].wrapping_add(ends[slot - stride]);
+                ends[slot] = before[slot] + before[slot - stride];
             }
         }
         stride *= 2;
     }
     // The slot is the number of shares that end at or before the number, but not beyond the last child with weight.
-    let (mut passed, mut last) = (0, 0);
+    let at = number as i32 as f32;
+    let mut passed = 0;
     for slot in 0..W {
-        passed += u32::from(ends[slot] <= number);
-        last = if counts[slot] > 0 { slot as u32 } else { last };
+        passed += u32::from(ends[slot] <= at);
     }
+    let last = 31 - (open | 1).leading_zeros();
     let found = if passed < last { passed } else { last };
     let slot = if follow { wanted } else { found };
-    let (mut end, mut count) = (0, 0);
-    for s in 0..W {
-        let own = !exact::mask(s as u32 ^ slot);
-        end = exact::masked_u32(own, ends[s], end);
-        count = exact::masked_u32(own, counts[s], count);
-    }
-    let first = end.wrapping_sub(count);
-    let to_the_end = range.wrapping_sub(first);
-    let all = if slot == last { to_the_end } else { count };
+    let within = if slot < W as u32 { slot } else { 0 };
+    let count = entry(&counts, within);
+    let first = entry(&ends, within) - count;
+    let all = if slot == last { length - first } else { count };
+    let some = alive & (count > 0.0) & (slot < W as u32);
     Share {
-        slot,
-        first,
-        count: if count > 0 && alive { all } else { 0 },
+        slot: within,
+        first: if some { first as i32 as u32 } else { 0 },
+        count: if some { all as i32 as u32 } else { 0 },
+    }
+}
+
+/// Entry `slot` of a local array. Devices keep arrays in registers only where no index varies, so there it is selected.
+#[inline(always)]
+fn entry<const W: usize>(array: &[f32; W], slot: u32) -> f32 {
+    #[cfg(target_arch = "spirv")]
+    {
+        let mut found = 0.0;
+        for s in 0..W {
+            found = if s as u32 == slot { array[s] } else { found };
+        }
+        found
+    }
+    #[cfg(not(target_arch = "spirv"))]
+    {
+        array[slot as usize]
     }
 }

@@ -84,10 +84,9 @@ impl Walk {
         let wanted = self.path.slot::<W>(self.position);
         let number = self.number.high >> (32 - FULL_BITS);
         let share = choose(&weights, self.range, number, self.follow, wanted);
-        let within = share.slot < W as u32;
-        let slot = if within { share.slot as usize } else { 0 };
+        let slot = share.slot as usize;
         let (to, link) = (node.kind(slot), node.link(slot));
-        let passes = valid & within & (share.count > 0) & (share.count <= self.range);
+        let passes = valid & (share.count > 0) & (share.count <= self.range);
         let count = if passes { share.count } else { 1 };
         self.narrow(share.first, count);
 
@@ -117,10 +116,9 @@ impl Walk {
     #[inline(always)]
     fn narrow(&mut self, first: u32, count: u32) {
         // As many doublings as make the greatest number, `count` − 1, one of 22 bits.
-        let greatest = (count.wrapping_sub(1) & (FULL - 1)) as i32 as f32;
-        let bits = exact::exponent(greatest) + 1;
-        let missing = FULL_BITS as i32 - if bits < 0 { 0 } else { bits };
-        let missing = if missing < 0 { 0 } else { missing as u32 };
+        let greatest = count.wrapping_sub(1) & (FULL - 1);
+        let unused = greatest.leading_zeros() - (32 - FULL_BITS);
+        let missing = if unused < FULL_BITS { unused } else { FULL_BITS };
         let rest = Random64 {
             high: self.number.high.wrapping_sub(first << (32 - FULL_BITS)),
             low: self.number.low,
