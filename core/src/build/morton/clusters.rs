@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::codes::{BITS, Curve};
 use super::radix::{entry, sort};
 use crate::bounds::MAX_SUM;
-use crate::build::ward::{DARK, Leaves, WardPrimitive, extent_of};
+use crate::build::ward::{DARK, Leaves, NOTHING, WardPrimitive, extent_of};
 use crate::exact::{exponent, min, pow2};
 
 /// The lights of each cluster.
@@ -40,7 +40,7 @@ pub(in crate::build) fn clusters<const W: usize>(
     let mut sorted = entries(primitives, &curve);
     sort(&mut sorted);
     let starts = starts::<W>(&sorted);
-    let centres = centres(primitives, &mut sorted, &starts);
+    let centres = centres::<W>(primitives, &mut sorted, &starts);
     (
         Clusters {
             starts,
@@ -53,7 +53,7 @@ pub(in crate::build) fn clusters<const W: usize>(
 fn entries(primitives: &[WardPrimitive], curve: &Curve) -> Vec<u64> {
     let of = |(i, p): (usize, &WardPrimitive)| entry(curve.code(p), i);
     #[cfg(feature = "rayon")]
-    if primitives.len() >= crate::build::ward::PARALLEL {
+    if crate::build::ward::is_parallel(primitives.len()) {
         return primitives
             .par_iter()
             .enumerate()
@@ -98,13 +98,12 @@ fn starts<const W: usize>(sorted: &[u64]) -> Vec<u32> {
 const PIECE: usize = 1024;
 
 /// One primitive for each cluster; the places of primitives in `sorted` become the indices of their lights.
-fn centres(primitives: &[WardPrimitive], sorted: &mut [u64], starts: &[u32]) -> Vec<WardPrimitive> {
-    let nothing = WardPrimitive {
-        c: [0.0; 3],
-        phi: 0.0,
-        index: 0,
-    };
-    let mut centres = alloc::vec![nothing; starts.len() - 1];
+fn centres<const W: usize>(
+    primitives: &[WardPrimitive],
+    sorted: &mut [u64],
+    starts: &[u32],
+) -> Vec<WardPrimitive> {
+    let mut centres = alloc::vec![NOTHING; starts.len() - 1];
     let mut rest = sorted;
     let mut pieces = Vec::with_capacity(centres.len() / PIECE + 1);
     for (i, out) in centres.chunks_mut(PIECE).enumerate() {
@@ -117,11 +116,11 @@ fn centres(primitives: &[WardPrimitive], sorted: &mut [u64], starts: &[u32]) -> 
     let fill = |(first, starts, own, out): (usize, &[u32], &mut [u64], &mut [WardPrimitive])| {
         for (k, centre) in out.iter_mut().enumerate() {
             let lights = &mut own[(starts[k] - starts[0]) as usize..(starts[k + 1] - starts[0]) as usize];
-            *centre = centre_of((first + k) as u32, lights, primitives);
+            *centre = centre_of::<W>((first + k) as u32, lights, primitives);
         }
     };
     #[cfg(feature = "rayon")]
-    if primitives.len() >= crate::build::ward::PARALLEL {
+    if crate::build::ward::is_parallel(primitives.len()) {
         pieces.into_par_iter().for_each(fill);
         return centres;
     }
@@ -130,24 +129,28 @@ fn centres(primitives: &[WardPrimitive], sorted: &mut [u64], starts: &[u32]) -> 
 }
 
 /// The primitive that stands for the lights of cluster `index`: their centre of flux, or their mean where there is none.
-fn centre_of(index: u32, lights: &mut [u64], primitives: &[WardPrimitive]) -> WardPrimitive {
-    let origin = primitives[lights[0] as u32 as usize].c;
+fn centre_of<const W: usize>(index: u32, lights: &mut [u64], primitives: &[WardPrimitive]) -> WardPrimitive {
+    // Fetched all at once: they lie anywhere.
+    let mut own = [NOTHING; W];
+    for (own, light) in own.iter_mut().zip(lights.iter_mut()) {
+        *own = primitives[*light as u32 as usize];
+        *light = u64::from(own.index);
+    }
+    let own = &own[..lights.len()];
+    let origin = own[0].c;
     let (mut brightest, mut phi) = (0.0, 0.0);
-    for &light in &*lights {
-        let own = primitives[light as u32 as usize].phi;
-        brightest = if own > brightest { own } else { brightest };
-        phi = min(phi + own, MAX_SUM);
+    for p in own {
+        brightest = if p.phi > brightest { p.phi } else { brightest };
+        phi = min(phi + p.phi, MAX_SUM);
     }
     let per_watt = pow2(-exponent(brightest));
     let (mut sum, mut weight) = ([0.0; 3], 0.0);
-    for light in lights {
-        let p = &primitives[*light as u32 as usize];
+    for p in own {
         let w = p.phi * per_watt + DARK;
         for axis in 0..3 {
             sum[axis] += (p.c[axis] - origin[axis]) * w;
         }
         weight += w;
-        *light = u64::from(p.index);
     }
     let centre = |axis: usize| origin[axis] + sum[axis] / weight;
     WardPrimitive {

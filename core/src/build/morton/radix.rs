@@ -19,7 +19,7 @@ pub(super) fn entry(code: u32, index: usize) -> u64 {
 pub(super) fn sort(entries: &mut Vec<u64>) {
     let mut room = alloc::vec![0; entries.len()];
     #[cfg(feature = "rayon")]
-    if entries.len() >= 2 * crate::build::ward::PARALLEL {
+    if crate::build::ward::is_parallel(entries.len() / 2) {
         let middle = entries.len() / 2;
         let (a, b) = entries.split_at_mut(middle);
         let (a_room, b_room) = room.split_at_mut(middle);

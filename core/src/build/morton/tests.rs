@@ -23,12 +23,12 @@ fn entries_are_sorted() {
     }
 }
 
-/// Bit by bit, on the grid that the box of 0..8 × 0..4 × 0..1 has: one bit of x, a turn of x and y twice less, the rest.
+/// Bit by bit, on the cells of the box 0..8 × 0..4 × 0..1.
 #[test]
 fn codes_interleave_cubes() {
     let extent = Extent::of(&[primitive(0, [0.0; 3]), primitive(1, [8.0, 4.0, 1.0])]);
     let curve = Curve::through(&extent);
-    // x alone once; x and y in turns twice; then 25 bits are left: 8 turns of three.
+    // x alone once; x and y in turns twice; then 25 bits are left: 8 turns of three, and one bit unused.
     for i in 0..1000 {
         let at = |k: u32, side: f32| unit_f32(hash(4 * i + k)) * side;
         let c = [at(0, 8.0), at(1, 4.0), at(2, 1.0)];
@@ -46,7 +46,7 @@ fn codes_interleave_cubes() {
         let border = |x: f32| {
             let cells = f64::from(x) * 256.0 * (1.0 - 1e-6);
             let to = cells - cells as u32 as f64;
-            to < 1e-3 || to > 1.0 - 1e-3
+            !(1e-3..=1.0 - 1e-3).contains(&to)
         };
         assert!(
             found == expected || c.into_iter().any(border),
@@ -80,7 +80,7 @@ fn clusters_are_the_greatest_prefixes_that_fit() {
             .map(|k| found.light(centre.index, k))
             .collect();
         assert!((1..=W).contains(&own.len()));
-        assert!((centre.phi - own.len() as f32).abs() < 1e-6);
+        assert!(crate::exact::abs(centre.phi - own.len() as f32) < 1e-6);
         let codes: Vec<u32> = own.iter().map(|&i| curve.code(&primitives[i as usize])).collect();
         let all: Vec<u32> = primitives.iter().map(|p| curve.code(p)).collect();
         // One bit less of prefix, and there are too many.

@@ -89,7 +89,7 @@ impl Bins {
     /// Sums over pieces of a fixed size, then over the pieces in order: the same bits for any number of threads.
     fn gather(&mut self, range: &[WardPrimitive], frame: &Frame) {
         #[cfg(feature = "rayon")]
-        if range.len() >= super::PARALLEL {
+        if super::is_parallel(range.len()) {
             let pieces: alloc::vec::Vec<Self> = range
                 .par_chunks(CHUNK)
                 .map(|piece| {

@@ -2,9 +2,6 @@
 
 use alloc::vec::Vec;
 
-#[cfg(feature = "rayon")]
-use rayon::prelude::*;
-
 use super::grow::{Children, Growth};
 use super::range::Range;
 use crate::build::topology::Topology;
@@ -59,20 +56,7 @@ impl<L: Leaves, const W: usize> Emitter<'_, L, W> {
             let mut slot = 0;
             return self.lights(group.index, node, &mut slot, level, trail, out);
         }
-        let below = max_levels(W) - L::LEVELS - level - 1;
-        let growth = Growth {
-            capacity: W.checked_pow(below).unwrap_or(usize::MAX),
-            ..self.growth
-        };
-        #[cfg(feature = "rayon")]
-        let large = range.len() >= 2 * super::SUBTREE;
-        let children: Children<'_, W> = growth.children(range, self.leaves);
-
-        // The subtrees of a large node in parallel; then they are put together in order.
-        #[cfg(feature = "rayon")]
-        if large {
-            return self.in_parallel(children, level, trail, out);
-        }
+        let children = self.children(range, level);
         let node = out.node(level);
         let mut slot = 0;
         for (range, opened) in children.into_iter() {
@@ -84,6 +68,16 @@ impl<L: Leaves, const W: usize> Emitter<'_, L, W> {
                 slot += 1;
             }
         }
+    }
+
+    /// The children of the node over `range` at `level`.
+    pub fn children<'r>(&self, range: Range<'r>, level: u32) -> Children<'r, W> {
+        let below = max_levels(W) - L::LEVELS - level - 1;
+        let growth = Growth {
+            capacity: W.checked_pow(below).unwrap_or(usize::MAX),
+            ..self.growth
+        };
+        growth.children(range, self.leaves)
     }
 
     /// No nodes yet, and room for the tree over `count` primitives: nodes are seldom filled by less than five eighths.
@@ -100,7 +94,7 @@ impl<L: Leaves, const W: usize> Emitter<'_, L, W> {
     }
 
     /// The primitive of `range`, if its lights are children of the same node.
-    fn leaf(&self, range: &Range<'_>, opened: bool) -> Option<u32> {
+    pub fn leaf(&self, range: &Range<'_>, opened: bool) -> Option<u32> {
         match &*range.here {
             [only] if opened || self.leaves.count(only.index) == 1 => Some(only.index),
             _ => None,
@@ -108,7 +102,7 @@ impl<L: Leaves, const W: usize> Emitter<'_, L, W> {
     }
 
     /// Puts the lights of primitive `index` into `node`, from `slot` on.
-    fn lights<N: LightNode<W>>(
+    pub fn lights<N: LightNode<W>>(
         &self,
         index: u32,
         node: usize,
@@ -124,53 +118,11 @@ impl<L: Leaves, const W: usize> Emitter<'_, L, W> {
             *slot += 1;
         }
     }
-
-    #[cfg(feature = "rayon")]
-    fn in_parallel<N: LightNode<W>>(
-        &self,
-        children: Children<'_, W>,
-        level: u32,
-        trail: BitTrail,
-        out: &mut Topology<N>,
-    ) {
-        let mut slot = 0;
-        let numbered: Vec<_> = children
-            .into_iter()
-            .map(|(range, opened)| {
-                let first = slot;
-                let leaf = self.leaf(&range, opened);
-                slot += leaf.map_or(1, |index| self.leaves.count(index));
-                (range, leaf, first)
-            })
-            .collect();
-        let parts: Vec<_> = numbered
-            .into_par_iter()
-            .with_max_len(1)
-            .map(|(range, leaf, slot)| {
-                let subtree = leaf.is_none().then(|| {
-                    let mut subtree = self.room_for(range.len());
-                    let own = trail.with::<W>(level, slot as u32);
-                    self.node(range, level + 1, own, &mut subtree);
-                    subtree
-                });
-                (leaf, slot, subtree)
-            })
-            .collect();
-        let node = out.node(level);
-        for (leaf, mut slot, subtree) in parts {
-            if let Some(index) = leaf {
-                self.lights(index, node, &mut slot, level, trail, out);
-            } else if let Some(subtree) = subtree {
-                out.link(node, slot);
-                out.append(&subtree);
-            }
-        }
-    }
 }
 
 impl<N> Topology<N> {
     /// A new node without children; returns its index.
-    fn node<const W: usize>(&mut self, level: u32) -> usize
+    pub(super) fn node<const W: usize>(&mut self, level: u32) -> usize
     where
         N: LightNode<W>,
     {
@@ -187,25 +139,5 @@ impl<N> Topology<N> {
     {
         let next = self.nodes.len() as u32;
         self.nodes[node].set_child(slot, kind::INNER, next);
-    }
-
-    /// Takes over the nodes of a subtree, whose links count from its root.
-    #[cfg(feature = "rayon")]
-    fn append<const W: usize>(&mut self, subtree: &Self)
-    where
-        N: LightNode<W>,
-    {
-        let base = self.nodes.len() as u32;
-        self.nodes.extend_from_slice(&subtree.nodes);
-        for node in &mut self.nodes[base as usize..] {
-            for slot in 0..W {
-                if node.kind(slot) == kind::INNER {
-                    node.relink(slot, base + node.link(slot));
-                }
-            }
-        }
-        self.levels.extend_from_slice(&subtree.levels);
-        self.trails.extend_from_slice(&subtree.trails);
-        self.depth = self.depth.max(subtree.depth);
     }
 }

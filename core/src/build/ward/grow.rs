@@ -9,7 +9,7 @@ use crate::build::{BuildParams, Effort};
 pub(in crate::build) struct Children<'a, const W: usize> {
     ranges: [Range<'a>; W],
     count: usize,
-    /// Places in `ranges` that are free: less than `W − count` where groups give up their places to their lights.
+    /// Free slots: less than `W − count` where groups give up their place to their lights.
     slots: usize,
     /// Bit `i` is set where range `i`, a group, gives up its place to its lights.
     opened: u32,

@@ -13,6 +13,8 @@ mod emit;
 mod frame;
 mod grow;
 mod partition;
+#[cfg(feature = "rayon")]
+mod parts;
 mod primitive;
 mod range;
 #[cfg(test)]
@@ -32,15 +34,25 @@ use grow::Growth;
 use range::Range;
 
 /// Primitives in a piece that is summed by itself.
-pub(super) const CHUNK: usize = 8192;
-/// Ranges of so many primitives or more are worth several threads.
-#[cfg(feature = "rayon")]
-pub(super) const PARALLEL: usize = 2 * CHUNK;
+pub(super) const CHUNK: usize = 4096;
 /// Subtrees of so many primitives or more are worth a thread of their own.
 #[cfg(feature = "rayon")]
 const SUBTREE: usize = 2048;
 /// Ranges of fewer primitives have half as many bins.
 const SMALL: usize = 256;
+
+/// Whether a range of `count` primitives is worth the threads that there are.
+#[cfg(feature = "rayon")]
+pub(super) fn is_parallel(count: usize) -> bool {
+    count >= 2 * CHUNK && rayon::current_num_threads() > 1
+}
+
+/// A primitive that is written over.
+pub(super) const NOTHING: WardPrimitive = WardPrimitive {
+    c: [0.0; 3],
+    phi: 0.0,
+    index: 0,
+};
 
 /// Builds a tree over `primitives`, at least one, whose leaves are of `leaf_kind`, with [`Heuristic::Morton`] or, for any
 /// other, [`Heuristic::Ward`]. The primitives are left in another order.
@@ -73,6 +85,10 @@ fn over<N: LightNode<W>, L: Leaves, const W: usize>(
         leaf_kind,
         growth,
     };
+    #[cfg(feature = "rayon")]
+    if is_parallel(2 * range.len()) {
+        return emitter.in_parallel(range);
+    }
     let mut topology = emitter.room_for(range.len());
     emitter.node(range, 0, Default::default(), &mut topology);
     topology
@@ -81,7 +97,7 @@ fn over<N: LightNode<W>, L: Leaves, const W: usize>(
 /// The box of `primitives`.
 pub(super) fn extent_of(primitives: &[WardPrimitive]) -> Extent {
     #[cfg(feature = "rayon")]
-    if primitives.len() >= PARALLEL {
+    if is_parallel(primitives.len()) {
         use rayon::prelude::*;
         return primitives.par_chunks(CHUNK).map(Extent::of).reduce(
             || Extent::EMPTY,

@@ -18,7 +18,7 @@ pub(super) fn partition(
     plane: &Plane,
 ) -> (usize, [Extent; 2]) {
     #[cfg(feature = "rayon")]
-    if from.len() >= super::PARALLEL {
+    if super::is_parallel(from.len()) {
         return in_parallel(from, to, plane);
     }
     let to = &mut to[..from.len()];
@@ -83,13 +83,6 @@ fn in_parallel(from: &[WardPrimitive], to: &mut [WardPrimitive], plane: &Plane) 
     (left, extents)
 }
 
-#[cfg(feature = "rayon")]
-const NOTHING: WardPrimitive = WardPrimitive {
-    c: [0.0; 3],
-    phi: 0.0,
-    index: 0,
-};
-
 /// Copies a piece to its places by way of a block, where a primitive may be written twice.
 #[cfg(feature = "rayon")]
 fn scatter(
@@ -99,7 +92,7 @@ fn scatter(
     plane: &Plane,
 ) -> [Extent; 2] {
     let mut extents = [Extent::EMPTY; 2];
-    let mut moved = [NOTHING; BLOCK];
+    let mut moved = [super::NOTHING; BLOCK];
     for block in piece.chunks(BLOCK) {
         let (mut left, mut right) = (0, block.len());
         for p in block {

@@ -59,7 +59,7 @@ pub fn ward_primitives(triangles: &[EmissiveTriangle], first: u32) -> Vec<WardPr
     let of =
         |(i, triangle): (usize, &EmissiveTriangle)| WardPrimitive::of_triangle(first + i as u32, triangle);
     #[cfg(feature = "rayon")]
-    if triangles.len() >= super::PARALLEL {
+    if super::is_parallel(triangles.len()) {
         return triangles
             .par_iter()
             .enumerate()

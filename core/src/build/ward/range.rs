@@ -9,23 +9,13 @@ use crate::build::BuildParams;
 /// Primitives that become one or more children of a node.
 ///
 /// Every split moves them from one buffer into the other, which takes no branch that hangs on the data.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(in crate::build) struct Range<'a> {
     /// Where they are.
     pub here: &'a mut [WardPrimitive],
     /// As much room.
     there: &'a mut [WardPrimitive],
     measure: Measure,
-}
-
-impl Default for Range<'_> {
-    fn default() -> Self {
-        Self {
-            here: &mut [],
-            there: &mut [],
-            measure: Measure::default(),
-        }
-    }
 }
 
 impl<'a> Range<'a> {
