@@ -50,18 +50,18 @@ impl<N, I: ImportanceModel<N, W>, const HALVINGS: u32, const W: usize> Importanc
     }
 }
 
-/// The sum of neighbours, of pairs of neighbours, and so on; for up to 16 children.
+/// The sum of up to 16 numbers: halves of the array are added slot by slot, as registers of several numbers do it.
 #[inline(always)]
-pub(crate) fn pairwise_sum<const W: usize>(weights: &[f32; W]) -> f32 {
-    let mut sums = *weights;
-    let mut stride = 1;
+pub(crate) fn halving_sum<const W: usize>(numbers: &[f32; W]) -> f32 {
+    let mut sums = *numbers;
+    let mut stride = 8;
     for _ in 0..4 {
         for slot in 0..W {
-            if slot & (2 * stride - 1) == 0 && slot + stride < W {
+            if slot < stride && slot + stride < W {
                 sums[slot] += sums[slot + stride];
             }
         }
-        stride *= 2;
+        stride /= 2;
     }
     sums[0]
 }

@@ -1,7 +1,7 @@
 //! The choice of a child.
 
 use crate::exact;
-use crate::importance::pairwise_sum;
+use crate::importance::halving_sum;
 
 /// Ranges of numbers are at most this long, 2^22: their sums are exact in `f32`.
 pub(super) const FULL: u32 = 1 << 22;
@@ -36,39 +36,31 @@ pub(super) fn choose<const W: usize>(
     follow: bool,
     wanted: u32,
 ) -> Share {
-    let sum = pairwise_sum(weights);
+    let sum = halving_sum(weights);
     let alive = sum > 0.0;
     let length = range as i32 as f32;
     let scale = length * GIVEN * exact::recip(if alive { sum } else { 1.0 });
     // Integers, but in `f32`, where processors add and compare several at a time.
-    let mut ends = [0.0; W];
-    let mut open = 0;
+    let mut counts = [0.0; W];
+    let mut open = [0.0; W];
     for slot in 0..W {
         let w = weights[slot];
         let whole = exact::max((w * scale + COUNTS) - COUNTS, 1.0);
-        ends[slot] = if w > 0.0 { whole } else { 0.0 };
-        open |= u32::from(w > 0.0) << slot;
+        // Masks, for a select of floats would become a branch.
+        let some = exact::mask(w.to_bits());
+        counts[slot] = f32::from_bits(whole.to_bits() & some);
+        open[slot] = f32::from_bits((slot as i32 as f32).to_bits() & some);
     }
-    let counts = ends;
-    // Inclusive prefix sums, by doubling steps.
-    let mut stride = 1;
-    for _ in 0..4 {
-        let before = ends;
-        for slot in 0..W {
-            if slot >= stride {
-                ends[slot] = before[slot] + before[slot - stride];
-            }
-        }
-        stride *= 2;
-    }
+    let ends = prefix_sums(&counts);
     // The slot is the number of shares that end at or before the number, but not beyond the last child with weight.
     let at = number as i32 as f32;
-    let mut passed = 0;
+    let mut passed = [0.0; W];
     for slot in 0..W {
-        passed += u32::from(ends[slot] <= at);
+        passed[slot] = if ends[slot] <= at { 1.0 } else { 0.0 };
     }
-    let last = 31 - (open | 1).leading_zeros();
-    let found = if passed < last { passed } else { last };
+    let last = greatest(&open);
+    let found = integer(exact::min(halving_sum(&passed), last));
+    let last = integer(last);
     let slot = if follow { wanted } else { found };
     let within = if slot < W as u32 { slot } else { 0 };
     let count = entry(&counts, within);
@@ -77,9 +69,55 @@ pub(super) fn choose<const W: usize>(
     let some = alive & (count > 0.0) & (slot < W as u32);
     Share {
         slot: within,
-        first: if some { first as i32 as u32 } else { 0 },
-        count: if some { all as i32 as u32 } else { 0 },
+        first: if some { integer(first) } else { 0 },
+        count: if some { integer(all) } else { 0 },
     }
+}
+
+/// The integer that `x` is, for `0 <= x < 2^23`; some integer below 2^23 for any other, without the tests of a conversion.
+#[inline(always)]
+fn integer(x: f32) -> u32 {
+    (x + COUNTS).to_bits() & 0x007f_ffff
+}
+
+/// Inclusive prefix sums of integers: within rows of four, the width of the least vector registers, then over the rows.
+#[inline(always)]
+fn prefix_sums<const W: usize>(counts: &[f32; W]) -> [f32; W] {
+    let mut ones = *counts;
+    for slot in 0..W {
+        ones[slot] += if slot & 3 >= 1 { counts[slot - 1] } else { 0.0 };
+    }
+    let mut ends = ones;
+    for slot in 0..W {
+        ends[slot] += if slot & 3 >= 2 { ones[slot - 2] } else { 0.0 };
+    }
+    for row in 1..4 {
+        if 4 * row < W {
+            let before = ends[4 * row - 1];
+            for k in 0..4 {
+                if 4 * row + k < W {
+                    ends[4 * row + k] += before;
+                }
+            }
+        }
+    }
+    ends
+}
+
+/// The greatest of numbers, none of them negative; in the order of [`halving_sum`].
+#[inline(always)]
+fn greatest<const W: usize>(numbers: &[f32; W]) -> f32 {
+    let mut most = *numbers;
+    let mut stride = 8;
+    for _ in 0..4 {
+        for slot in 0..W {
+            if slot < stride && slot + stride < W {
+                most[slot] = exact::max(most[slot], most[slot + stride]);
+            }
+        }
+        stride /= 2;
+    }
+    most[0]
 }
 
 /// Entry `slot` of a local array. Devices keep arrays in registers only where no index varies, so there it is selected.
