@@ -89,7 +89,7 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
         random: impl Into<Random64>,
     ) -> SampledLight {
         debug_assert!(point.is_within_reach(), "not a shading point: {point:?}");
-        traverse::sample::<N, I, W>(&self.tree(), point, random.into())
+        traverse::widest::sample::<N, I, W>(&self.tree(), point, random.into())
     }
 
     /// Chooses a light for each of `points`, points as for [`sample`](Self::sample); see [`traverse::sample_batch`].
@@ -99,7 +99,7 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
         randoms: &[Random64],
         sampled: &mut [SampledLight],
     ) {
-        traverse::sample_batch::<N, I, W>(&self.tree(), points, randoms, sampled);
+        traverse::widest::sample_batch::<N, I, W>(&self.tree(), points, randoms, sampled);
     }
 
     /// Probability of triangle `light` of `lights` at `point`, a point as for [`sample`](Self::sample); see
@@ -112,7 +112,7 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
             Some(_) => INVALID,
             None => return 0.0,
         };
-        traverse::pmf::<N, I, W>(&self.tree(), point, light, instance)
+        traverse::widest::pmf::<N, I, W>(&self.tree(), point, light, instance)
     }
 
     /// The arrays as traversal takes them.

@@ -113,7 +113,7 @@ pub mod validate;
 pub mod rebuilder;
 
 #[cfg(feature = "alloc")]
-pub use build::{BuildParams, Heuristic};
+pub use build::{BuildParams, Effort, Heuristic};
 #[cfg(feature = "alloc")]
 pub use bvh::LightBvh;
 #[cfg(feature = "alloc")]

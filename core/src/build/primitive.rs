@@ -1,9 +1,8 @@
 //! What the builder sorts: a triangle or a mesh light, as two boxes.
 
-use crate::bounds::MAX_SUM;
+use crate::bounds::{LightBounds, MAX_SUM};
 use crate::cone::sine_of;
 use crate::exact;
-use crate::summary::Summary;
 
 /// Lanes of a box pair: x, y, z of position, one unused, x, y, z of the normals, one unused. Eight lanes become whole
 /// vector registers.
@@ -20,9 +19,8 @@ pub(crate) struct Primitive {
 }
 
 impl Primitive {
-    /// The light `index` of which `summary` is known.
-    pub fn new(index: u32, summary: &impl Summary) -> Self {
-        let bounds = summary.bounds();
+    /// The light `index` with the given bounds.
+    pub fn new(index: u32, bounds: &LightBounds) -> Self {
         let (cos, sin) = (bounds.cos_theta_o, sine_of(bounds.cos_theta_o));
         // The farthest that a direction within θ_o of the axis reaches along a coordinate axis: cos max(0, θ_k − θ_o).
         let reach = |a: f32| if a >= cos { 1.0 } else { a * cos + sine_of(a) * sin };

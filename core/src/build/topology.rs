@@ -1,13 +1,17 @@
 //! From primitives to a tree: which node, which slot, which trail.
 
 use alloc::vec::Vec;
+use core::ops::Range;
 
+use super::BuildParams;
 use super::binary::{Binary, LEAF, binary_tree};
 use super::collapse::{Collapse, binary_levels};
 use super::primitive::Primitive;
-use super::ward::{WardPrimitive, build_ward};
-use super::{BuildParams, Heuristic};
+use super::ward::{WardPrimitive, build_ward, ward_primitives};
+use crate::bounds::LightBounds;
+use crate::light::EmissiveTriangle;
 use crate::node::{LightNode, kind};
+use crate::summary::Summary;
 use crate::trail::BitTrail;
 
 /// A tree without bounds.
@@ -30,16 +34,51 @@ impl<N> Topology<N> {
     }
 }
 
-/// Builds a tree over `primitives`, at least one, whose leaves are of `leaf_kind`.
-pub(crate) fn build<N: LightNode<W>, const W: usize>(
+/// Builds a tree over the triangles of `range`, at least one.
+pub(crate) fn build_over<N: LightNode<W>, const W: usize>(
+    triangles: &[EmissiveTriangle],
+    range: Range<u32>,
+    params: &BuildParams,
+) -> Topology<N> {
+    let own = &triangles[range.start as usize..range.end as usize];
+    if params.heuristic.is_binary() {
+        let bounds = |(i, triangle)| Primitive::new(i, &LightBounds::of_triangle(triangle));
+        let mut primitives: Vec<Primitive> = (range.start..).zip(own).map(bounds).collect();
+        return build_binary::<N, W>(&mut primitives, kind::LIGHT, params);
+    }
+    build_ward::<N, W>(&mut ward_primitives(own, range.start), kind::LIGHT, params)
+}
+
+/// Builds a tree over what is known of instances, at least one: pairs of an instance's index and its summary.
+pub(crate) fn build_top<N: LightNode<W>, const W: usize>(
+    instances: impl Iterator<Item = (u32, N::Summary)>,
+    params: &BuildParams,
+) -> Topology<N> {
+    if params.heuristic.is_binary() {
+        let mut primitives: Vec<Primitive> = instances
+            .map(|(index, summary)| Primitive::new(index, &summary.bounds()))
+            .collect();
+        return build_binary::<N, W>(&mut primitives, kind::MESH, params);
+    }
+    let mut primitives: Vec<WardPrimitive> = instances
+        .map(|(index, summary)| {
+            let c = summary.center();
+            WardPrimitive {
+                c: [c.x, c.y, c.z],
+                phi: summary.phi(),
+                index,
+            }
+        })
+        .collect();
+    build_ward::<N, W>(&mut primitives, kind::MESH, params)
+}
+
+/// Builds a binary tree by the paper's heuristics, and collapses it.
+fn build_binary<N: LightNode<W>, const W: usize>(
     primitives: &mut [Primitive],
     leaf_kind: u32,
     params: &BuildParams,
 ) -> Topology<N> {
-    if matches!(params.heuristic, Heuristic::Ward | Heuristic::Morton) {
-        let mut centres: Vec<WardPrimitive> = primitives.iter().map(WardPrimitive::of_bounds).collect();
-        return build_ward::<N, W>(&mut centres, leaf_kind, params);
-    }
     let mut out = Topology {
         nodes: Vec::with_capacity(primitives.len()),
         levels: Vec::with_capacity(primitives.len()),

@@ -1,13 +1,12 @@
 //! Building an owned light BVH: trees from the builder, bounds from refit.
 
 use alloc::vec::Vec;
-use core::ops::Range;
 
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
 
 use super::LightBvh;
-use crate::build::{BuildParams, Primitive, Topology, build};
+use crate::build::{BuildParams, Topology, build_over, build_top};
 use crate::instance::Instance;
 use crate::levels::Levels;
 use crate::lights::Lights;
@@ -20,9 +19,8 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
     /// One tree over all triangles: the paper's baseline.
     #[must_use]
     pub fn single_level(lights: &Lights, params: &BuildParams) -> Self {
-        let mut primitives = primitives::<N, W>(lights, 0..lights.triangles().len());
-        let topology = build::<N, W>(&mut primitives, kind::LIGHT, params);
-        drop(primitives);
+        let all = 0..lights.triangles().len() as u32;
+        let topology = build_over::<N, W>(lights.triangles(), all, params);
         let mut bvh = Self::empty(lights, topology.depth);
         bvh.bottom = Levels::gather(topology.leveled(0));
         bvh.append(&topology);
@@ -35,8 +33,8 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
     #[must_use]
     pub fn two_level(lights: &Lights, params: &BuildParams) -> Self {
         let bottom = |mesh| {
-            let mut primitives = primitives::<N, W>(lights, lights.mesh(mesh));
-            build::<N, W>(&mut primitives, kind::LIGHT, params)
+            let range = lights.mesh(mesh);
+            build_over::<N, W>(lights.triangles(), range.start as u32..range.end as u32, params)
         };
         // Bottom levels do not depend on each other, so neither does the result on the number of threads.
         #[cfg(feature = "rayon")]
@@ -72,11 +70,10 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
     /// Builds the top level over the bottom levels.
     fn build_top(&mut self, lights: &Lights, params: &BuildParams) {
         self.refit(lights);
-        let mut primitives: Vec<Primitive> = (0..)
+        let summaries = (0..)
             .zip(&self.roots)
-            .map(|(i, root)| Primitive::new(i, &root.summary::<N::Summary>()))
-            .collect();
-        let topology = build::<N, W>(&mut primitives, kind::MESH, params);
+            .map(|(i, root)| (i, root.summary::<N::Summary>()));
+        let topology = build_top::<N, W>(summaries, params);
         self.top = Levels::gather(topology.leveled(self.root));
         self.depth += topology.depth;
         for &(mesh, trail) in &topology.trails {
@@ -126,12 +123,4 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
             }
         }
     }
-}
-
-fn primitives<N: LightNode<W>, const W: usize>(lights: &Lights, range: Range<usize>) -> Vec<Primitive> {
-    let triangles = &lights.triangles()[range.clone()];
-    (range.start as u32..)
-        .zip(triangles)
-        .map(|(i, triangle)| Primitive::new(i, &N::Summary::of_triangle(triangle)))
-        .collect()
 }

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::Scene;
-use crate::build::{Primitive, Topology, build, drift};
+use crate::build::{Topology, build_over, drift};
 use crate::levels::Levels;
 use crate::light::EmissiveTriangle;
 use crate::node::{LightNode, kind};
@@ -169,18 +169,6 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         }
         self.trails.resize(end * self.trail_words as usize, 0);
     }
-}
-
-/// A topology over the triangles of `range`.
-pub(super) fn build_over<N: LightNode<W>, const W: usize>(
-    triangles: &[EmissiveTriangle],
-    range: Range<u32>,
-    params: &crate::build::BuildParams,
-) -> Topology<N> {
-    let mut primitives: Vec<Primitive> = range
-        .map(|i| Primitive::new(i, &N::Summary::of_triangle(&triangles[i as usize])))
-        .collect();
-    build::<N, W>(&mut primitives, kind::LIGHT, params)
 }
 
 /// Sets `list[index]`, with `filler` up to there.

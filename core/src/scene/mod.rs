@@ -176,7 +176,17 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         random: impl Into<Random64>,
     ) -> SampledLight {
         debug_assert!(point.is_within_reach(), "not a shading point: {point:?}");
-        traverse::sample::<N, I, W>(&self.tree(), point, random.into())
+        traverse::widest::sample::<N, I, W>(&self.tree(), point, random.into())
+    }
+
+    /// Chooses a light for each of `points`, points as for [`sample`](Self::sample); see [`traverse::sample_batch`].
+    pub fn sample_batch<I: ImportanceModel<N, W>>(
+        &self,
+        points: &[ShadingPoint],
+        randoms: &[Random64],
+        sampled: &mut [SampledLight],
+    ) {
+        traverse::widest::sample_batch::<N, I, W>(&self.tree(), points, randoms, sampled);
     }
 
     /// Probability of `light` of `instance` at `point`, a point as for [`sample`](Self::sample); see [`traverse::pmf`]. 0 for an
@@ -191,7 +201,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         debug_assert!(point.is_within_reach(), "not a shading point: {point:?}");
         match live(&self.placed, instance) {
             Some(placed) if placed.lights.contains(&light) => {
-                traverse::pmf::<N, I, W>(&self.tree(), point, light, instance.index)
+                traverse::widest::pmf::<N, I, W>(&self.tree(), point, light, instance.index)
             }
             _ => 0.0,
         }

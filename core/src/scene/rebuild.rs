@@ -5,9 +5,9 @@ use core::marker::PhantomData;
 use core::ops::Range;
 
 use super::Scene;
-use super::blas::{Blas, build_over};
+use super::blas::Blas;
 use super::top::TopTree;
-use crate::build::{BuildParams, Primitive, Topology, build, drift};
+use crate::build::{self, BuildParams, Topology, build_over, drift};
 use crate::instance::Instance;
 use crate::levels::Levels;
 use crate::light::EmissiveTriangle;
@@ -125,19 +125,15 @@ impl<N: LightNode<W>, const W: usize> Rebuild<N, W> {
 
 /// A tree over the leaves, refitted.
 fn build_top<N: LightNode<W>, const W: usize>(leaves: &TopLeaves, params: &BuildParams) -> TopTree<N> {
-    let mut primitives: Vec<Primitive> = leaves
-        .live
-        .iter()
-        .map(|&i| {
-            let instance = &leaves.instances[i as usize];
-            let local = leaves.roots[instance.blas as usize].summary::<N::Summary>();
-            Primitive::new(i, &local.to_world(instance))
-        })
-        .collect();
-    if primitives.is_empty() {
+    if leaves.live.is_empty() {
         return TopTree::empty::<W>();
     }
-    let mut topology: Topology<N> = build::<N, W>(&mut primitives, kind::MESH, params);
+    let summaries = leaves.live.iter().map(|&i| {
+        let instance = &leaves.instances[i as usize];
+        let local = leaves.roots[instance.blas as usize].summary::<N::Summary>();
+        (i, local.to_world(instance))
+    });
+    let mut topology: Topology<N> = build::build_top::<N, W>(summaries, params);
     let levels = Levels::gather(topology.leveled(0));
     for &node in levels.nodes() {
         topology.nodes[node as usize] = refit::top(&topology.nodes, &leaves.instances, &leaves.roots, node);

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::Scene;
-use crate::build::{Primitive, Topology, build};
+use crate::build::{Topology, build_top};
 use crate::levels::Levels;
 use crate::node::{LightNode, kind};
 use crate::summary::Summary;
@@ -187,14 +187,13 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
 
     /// Builds the top level over all instances, here and now.
     pub(super) fn build_top(&mut self) {
-        let mut primitives: Vec<Primitive> = (0..self.placed.len() as u32)
-            .filter(|&i| self.placed[i as usize].live)
-            .map(|i| self.primitive(i))
-            .collect();
-        if primitives.is_empty() {
+        if self.live.is_empty() {
             self.empty_top();
         } else {
-            let topology: Topology<N> = build::<N, W>(&mut primitives, kind::MESH, &self.params);
+            let mut live = self.live.clone();
+            live.sort_unstable();
+            let topology: Topology<N> =
+                build_top::<N, W>(live.into_iter().map(|i| (i, self.in_world(i))), &self.params);
             self.replace_top(&topology.nodes);
         }
         self.pending.whole_top = true;
@@ -206,8 +205,8 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         if added.is_empty() {
             return;
         }
-        let mut primitives: Vec<Primitive> = added.iter().map(|&i| self.primitive(i)).collect();
-        let topology: Topology<N> = build::<N, W>(&mut primitives, kind::MESH, &self.params);
+        let topology: Topology<N> =
+            build_top::<N, W>(added.iter().map(|&i| (i, self.in_world(i))), &self.params);
         if self.top.leaves.is_empty() || self.top.depth.max(topology.depth) + 1 > max_levels(W) {
             self.build_top();
             return;
@@ -241,10 +240,11 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         }
     }
 
-    fn primitive(&self, index: u32) -> Primitive {
+    /// What is known of an instance in the world.
+    fn in_world(&self, index: u32) -> N::Summary {
         let instance = &self.instances[index as usize];
         let local = self.roots[instance.blas as usize].summary::<N::Summary>();
-        Primitive::new(index, &local.to_world(instance))
+        local.to_world(instance)
     }
 
     /// Walks the top level and notes where everything is: parents, levels, lists, and the place and trail of each instance.

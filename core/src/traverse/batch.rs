@@ -1,5 +1,7 @@
 //! Several walks at once.
 
+use bytemuck::Pod;
+
 use super::random::Random64;
 use super::sample::{SampledLight, Started, begin};
 use crate::importance::ImportanceModel;
@@ -16,6 +18,7 @@ const TURNS: usize = 8;
 ///
 /// Walks take turns, a node each, so that one computes while the next node of the others is on its way from memory: in
 /// trees larger than the caches that is where the time goes.
+#[inline(always)]
 pub fn sample_batch<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     tree: &LightTree<'_, N>,
     points: &[ShadingPoint],
@@ -57,8 +60,24 @@ fn turns<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     }
 }
 
-/// Asks for a node that will be read soon.
+/// Bytes in a line of the caches.
+#[cfg(feature = "prefetch")]
+const LINE: usize = 64;
+
+/// Asks for a node that will be read soon, line by line.
 #[inline(always)]
-fn fetch<N>(nodes: &[N], index: u32) {
-    let _ = (nodes, index);
+fn fetch<N: Pod>(nodes: &[N], index: u32) {
+    #[cfg(feature = "prefetch")]
+    {
+        let bytes: &[u8] = bytemuck::cast_slice(nodes);
+        // An index out of range, from hostile words, asks for a line that is not read.
+        let first = (index as usize).wrapping_mul(size_of::<N>());
+        for line in 0..size_of::<N>().div_ceil(LINE) {
+            prefetch_index::prefetch_index(bytes, first.wrapping_add(line * LINE));
+        }
+    }
+    #[cfg(not(feature = "prefetch"))]
+    {
+        let _ = (nodes, index);
+    }
 }

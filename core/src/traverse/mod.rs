@@ -13,6 +13,8 @@ mod choose;
 mod random;
 mod sample;
 mod walk;
+#[cfg(feature = "alloc")]
+pub(crate) mod widest;
 
 pub use batch::sample_batch;
 pub use random::Random64;

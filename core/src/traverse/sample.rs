@@ -31,7 +31,7 @@ impl SampledLight {
 ///
 /// A light is returned whenever one has flux. The pmf is to the bit the one that [`pmf`] gives for the light, and the share
 /// of random numbers that choose it.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub fn sample<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     tree: &LightTree<'_, N>,
@@ -108,7 +108,7 @@ impl Started {
 
 /// The probability with which [`sample`] returns light `light` of instance `instance` ([`INVALID`] in a single-level
 /// tree) at `point`: 0 if there is no such light.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub fn pmf<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     tree: &LightTree<'_, N>,

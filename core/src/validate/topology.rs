@@ -3,8 +3,9 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::{Violation, What, equal};
+use super::{Violation, What, equal, same_words};
 use crate::bvh::LightBvh;
+use crate::instance::Instance;
 use crate::levels::Levels;
 use crate::lights::Lights;
 use crate::node::{LightNode, kind};
@@ -118,6 +119,17 @@ pub(super) fn validate<N: LightNode<W>, const W: usize>(
                 light.root,
                 bvh.roots()[mesh].node,
             )?;
+            let expected = Instance {
+                root: light.root,
+                trail: light.trail,
+                blas: mesh as u32,
+                first: range.start as u32,
+                first_triangle: range.start as u32,
+                count: range.len() as u32,
+                listed: mesh as u32,
+                ..Instance::IDENTITY
+            };
+            same_words(INVALID, mesh as u32, &expected, light)?;
             let depth = walk.tree(light.root, 0..tree.root, &triangle_leaves(range), trail_of)?;
             bottom_depth = bottom_depth.max(depth);
         }

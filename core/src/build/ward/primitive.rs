@@ -6,7 +6,6 @@ use alloc::vec::Vec;
 use rayon::prelude::*;
 
 use crate::bounds::LightBounds;
-use crate::build::primitive::Primitive;
 use crate::light::EmissiveTriangle;
 
 /// A light, or a group of lights, as Ward's criterion sees it: 20 bytes.
@@ -32,17 +31,6 @@ impl WardPrimitive {
             c: [third(0), third(1), third(2)],
             phi: LightBounds::of_triangle(triangle).phi,
             index,
-        }
-    }
-
-    /// The centre of its box stands for its centre of flux.
-    #[inline]
-    pub(in crate::build) fn of_bounds(primitive: &Primitive) -> Self {
-        let half = |k: usize| 0.5 * primitive.centroid(k);
-        Self {
-            c: [half(0), half(1), half(2)],
-            phi: primitive.phi,
-            index: primitive.index,
         }
     }
 
