@@ -37,13 +37,19 @@ impl Field {
         }
     }
 
-    /// An index that is `u32::MAX` where there is nothing to refer to: one word, which cannot tell "none" from "never
-    /// written". A record needs another field that can.
+    /// An index that is `u32::MAX` where there is nothing to refer to: one word, as of [`any`](Self::any).
     #[must_use]
     pub const fn index(name: &'static str) -> Self {
+        Self::any(name, 1)
+    }
+
+    /// A field of `words` words that may hold anything, and so cannot tell a word from one that was never written. A record
+    /// needs another field that can.
+    #[must_use]
+    pub const fn any(name: &'static str, words: u32) -> Self {
         Self {
             name,
-            words: 1,
+            words,
             all_ones: true,
         }
     }
@@ -60,6 +66,16 @@ impl Record {
     #[must_use]
     pub fn words(&self) -> usize {
         self.fields.iter().map(|field| field.words as usize).sum()
+    }
+
+    /// The name of word `word` of a record: that of its field, with the place in it if it has several words.
+    #[must_use]
+    pub fn name_of(&self, word: usize) -> String {
+        match self.field(word) {
+            Some((field, place)) if field.words > 1 => format!("{}[{place}]", field.name),
+            Some((field, _)) => field.name.into(),
+            None => format!("word {word}"),
+        }
     }
 
     /// The field that word `word` of a record belongs to, and its place in that field.
@@ -131,7 +147,7 @@ pub struct Difference {
 /// Compares `actual` with `expected`, both arrays of `record`, using all cores.
 ///
 /// A word of `actual` that is still [`UNWRITTEN`] counts as different even where the reference holds the same word,
-/// unless its field may hold it ([`Field::index`]).
+/// unless its field may hold it ([`Field::any`]).
 ///
 /// # Errors
 /// [`CompareError`] if the two cannot be laid beside each other.
@@ -176,7 +192,7 @@ pub fn compare_words(record: &Record, expected: &[u32], actual: &[u32]) -> Resul
     let first = first.map(|at| Difference {
         record: record.name,
         index: at / size,
-        field: name(record, at % size),
+        field: record.name_of(at % size),
         expected: expected[at],
         actual: actual[at],
     });
@@ -185,14 +201,6 @@ pub fn compare_words(record: &Record, expected: &[u32], actual: &[u32]) -> Resul
         different,
         first,
     })
-}
-
-fn name(record: &Record, word: usize) -> String {
-    match record.field(word) {
-        Some((field, place)) if field.words > 1 => format!("{}[{place}]", field.name),
-        Some((field, _)) => field.name.into(),
-        None => format!("word {word}"),
-    }
 }
 
 /// Number of floats from one bit pattern to the other, `None` if either is not a number. Both zeros are one float.

@@ -1,11 +1,11 @@
 //! From a scene to what the backends run: arrays of a frame, light BVHs, queries.
 
 use lightbvh::exact::{hash, unit_f32};
-use lightbvh::{BuildParams, LightBvh, Lights, ShadingPoint};
+use lightbvh::{BuildParams, LightBvh, LightNode, Lights, ShadingPoint};
 use lightbvh_kernels::query::Query;
 use lightbvh_kernels::render::RenderParams;
 
-use crate::backend::{Bvh, Sampler, SceneArrays};
+use crate::backend::{Sampler, SceneArrays};
 use crate::error::HostError;
 use crate::render::{RayBvh, camera};
 use crate::scene::Scene;
@@ -75,10 +75,14 @@ pub fn arrays_at(scene: &Scene, frame: u32, width: u32, height: u32) -> Result<S
 
 /// The light BVH that `sampler` walks; the other samplers walk none and get the two-level one.
 #[must_use]
-pub fn build(lights: &Lights, sampler: Sampler, params: &BuildParams) -> Bvh {
+pub fn build<N: LightNode<W>, const W: usize>(
+    lights: &Lights,
+    sampler: Sampler,
+    params: &BuildParams,
+) -> LightBvh<N, W> {
     match sampler {
-        Sampler::SingleLevel => LightBvh::single_level(lights, params).with_leaves(),
-        _ => LightBvh::two_level(lights, params).with_leaves(),
+        Sampler::SingleLevel => LightBvh::single_level(lights, params),
+        _ => LightBvh::two_level(lights, params),
     }
 }
 

@@ -1,30 +1,32 @@
 //! The passes on the CPU, over all cores of the current rayon pool.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use lightbvh::{INVALID, Lights, traverse};
-use lightbvh_kernels::bvh::{Importance, Node, WIDTH};
-use lightbvh_kernels::query::{Query, Sampled};
+use bytemuck::cast_slice;
+use lightbvh::Lights;
+use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
+use lightbvh_kernels::query::{Query, Sampled, pmf_query, sample_query};
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use rayon::prelude::*;
 
 use super::parts::{MAX_SAMPLES_PER_INVOCATION, in_parts, paths_per_invocation};
-use super::{Backend, LightScene, Sampler, SceneArrays, Structure, Timed, climb};
+use super::{Backend, Follow, LightScene, Sampler, SceneArrays, Structure, Timed, node_record};
+use crate::compare::Record;
 use crate::render::{render, render_path};
 use crate::vulkan::VulkanError;
 
 /// The CPU as a backend: the reference that devices are compared with.
-pub struct CpuBackend {
-    structure: Structure,
+pub struct CpuBackend<C: Choice<W> = Standard, const W: usize = WIDTH> {
+    structure: Structure<C, W>,
     lights: Lights,
 }
 
-impl CpuBackend {
+impl<C: Choice<W>, const W: usize> CpuBackend<C, W> {
     /// Takes a BVH, or moving lights, over `lights` in the world.
     #[must_use]
-    pub fn new(structure: impl Into<Structure>, lights: Lights) -> Self {
+    pub fn new(structure: impl Into<Structure<C, W>>, lights: Lights) -> Self {
         Self {
             structure: structure.into(),
             lights,
@@ -33,7 +35,7 @@ impl CpuBackend {
 
     /// What lights are chosen by, as last refitted.
     #[must_use]
-    pub fn structure(&self) -> &Structure {
+    pub fn structure(&self) -> &Structure<C, W> {
         &self.structure
     }
 
@@ -44,12 +46,16 @@ impl CpuBackend {
     }
 }
 
-impl Backend for CpuBackend {
+impl<C: Choice<W>, const W: usize> Backend for CpuBackend<C, W> {
     fn name(&self) -> &str {
         "cpu"
     }
 
-    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<Node>>, VulkanError> {
+    fn node_record(&self) -> Record {
+        node_record::<C::Node, W>()
+    }
+
+    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, VulkanError> {
         self.lights = lights.clone();
         let start = Instant::now();
         if let Structure::Bvh(bvh) = &mut self.structure {
@@ -57,34 +63,12 @@ impl Backend for CpuBackend {
         }
         Ok(Timed {
             time: start.elapsed(),
-            value: self.structure.tree().nodes.to_vec(),
+            value: self.words(),
         })
     }
 
-    fn refit_once(&mut self, lights: &Lights) -> Result<Timed<Vec<Node>>, VulkanError> {
-        self.lights = lights.clone();
-        let time = match &mut self.structure {
-            Structure::Bvh(bvh) => climb::refit_once(bvh, lights),
-            Structure::Scene(_) => Duration::ZERO,
-        };
-        Ok(Timed {
-            time,
-            value: self.structure.tree().nodes.to_vec(),
-        })
-    }
-
-    fn follow(&mut self, scene: &LightScene, lights: &Lights) -> Result<Timed<()>, VulkanError> {
-        self.lights = lights.clone();
-        let mut own = scene.clone();
-        let start = Instant::now();
-        own.refit();
-        let time = start.elapsed();
-        self.structure = own.into();
-        Ok(Timed { time, value: () })
-    }
-
-    fn nodes(&mut self) -> Result<Vec<Node>, VulkanError> {
-        Ok(self.structure.tree().nodes.to_vec())
+    fn nodes(&mut self) -> Result<Vec<u32>, VulkanError> {
+        Ok(self.words())
     }
 
     fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<Sampled>>, VulkanError> {
@@ -93,17 +77,7 @@ impl Backend for CpuBackend {
         let value = queries
             .par_iter()
             .with_min_len(256)
-            .map(|query| {
-                let sampled = traverse::sample::<Node, Importance, _, WIDTH>(
-                    &tree,
-                    &query.point,
-                    query.random_or_light,
-                );
-                Sampled {
-                    light: sampled.light,
-                    pmf: sampled.pmf,
-                }
-            })
+            .map(|query| sample_query::<C, W>(&tree, query))
             .collect();
         Ok(Timed {
             value,
@@ -113,19 +87,11 @@ impl Backend for CpuBackend {
 
     fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, VulkanError> {
         let start = Instant::now();
-        let (tree, two_level) = (self.structure.tree(), self.structure.is_two_level());
-        let lights = self.lights.triangles();
+        let (tree, lights) = (self.structure.tree(), self.lights.triangles());
         let value = queries
             .par_iter()
             .with_min_len(256)
-            .map(|query| {
-                let light = query.random_or_light;
-                let mesh = lights.get(light as usize).map(|triangle| triangle.mesh);
-                let mesh = mesh.map(|mesh| if two_level { mesh } else { INVALID });
-                mesh.map_or(0.0, |mesh| {
-                    traverse::pmf::<Node, Importance, _, WIDTH>(&tree, &query.point, light, mesh)
-                })
-            })
+            .map(|query| pmf_query::<C, W>(&tree, lights, query))
             .collect();
         Ok(Timed {
             value,
@@ -178,7 +144,24 @@ impl Integrate for Paths<'_> {
     }
 }
 
-impl CpuBackend {
+impl<C: Choice<W>, const W: usize> Follow<C, W> for CpuBackend<C, W> {
+    fn follow(&mut self, scene: &LightScene<C, W>, lights: &Lights) -> Result<Timed<()>, VulkanError> {
+        self.lights = lights.clone();
+        let mut own = scene.clone();
+        let start = Instant::now();
+        own.refit();
+        let time = start.elapsed();
+        self.structure = own.into();
+        Ok(Timed { time, value: () })
+    }
+}
+
+impl<C: Choice<W>, const W: usize> CpuBackend<C, W> {
+    /// The words of all nodes.
+    fn words(&self) -> Vec<u32> {
+        cast_slice(self.structure.tree().nodes).to_vec()
+    }
+
     /// The image by `integrator` with the picker of `sampler`.
     fn shade(
         &self,

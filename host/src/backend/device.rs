@@ -1,22 +1,25 @@
 //! The passes on a Vulkan device.
 
+use std::ops::Range;
+use std::sync::Arc;
 use std::time::Duration;
 
 use bytemuck::bytes_of;
+use lightbvh::levels::Levels;
 use lightbvh::refit::BlasRoot;
 use lightbvh::{EmissiveTriangle, Instance, Lights};
 use lightbvh_kernels::WORKGROUP;
-use lightbvh_kernels::bvh::{Node, TreePush};
+use lightbvh_kernels::bvh::{Choice, Standard, TreePush, WIDTH};
 use lightbvh_kernels::path::PathPush;
 use lightbvh_kernels::query::{Query, QueryPush, Sampled};
 use lightbvh_kernels::refit::RefitPush;
 use lightbvh_kernels::render::{RenderParams, RenderPush};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
-use super::climb::Climb;
 use super::parts::{MAX_SAMPLES_PER_INVOCATION, in_parts, paths_per_invocation};
-use super::{Backend, Bvh, LightScene, Sampler, SceneArrays, Timed};
-use crate::vulkan::{Binding, Buffer, Device, Pass, Timings, VulkanError};
+use super::{Backend, Bvh, LightScene, Sampler, SceneArrays, Timed, node_record};
+use crate::compare::Record;
+use crate::vulkan::{Binding, Buffer, Device, Kernel, Pass, Timings, VulkanError};
 
 /// Queries per dispatch: 28 MiB of them, within the smallest storage buffer range seen (128 MiB).
 const QUERIES_PER_PASS: usize = 1 << 20;
@@ -26,79 +29,77 @@ const SAMPLES_PER_PASS: usize = 1 << 20;
 const SURFACES_PER_PASS: usize = 1 << 18;
 
 /// A light BVH on a device.
-pub struct DeviceBackend<'d> {
+pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     pub(super) device: &'d Device,
-    pub(super) nodes: Buffer<Node>,
-    pub(super) meshes: Buffer<Instance>,
+    pub(super) nodes: Buffer<C::Node>,
+    pub(super) instances: Buffer<Instance>,
     pub(super) roots: Buffer<BlasRoot>,
     pub(super) trails: Buffer<u32>,
     /// The lights in the world.
     pub(super) triangles: Buffer<EmissiveTriangle>,
     /// The triangles of bottom levels, where those are not the lights in the world.
     pub(super) local: Option<Buffer<EmissiveTriangle>>,
-    /// The lists that refit runs over, one after the other; the dispatches below are parts of it.
+    /// What a refit of a tree over triangles in the world runs over.
     lists: Buffer<u32>,
-    /// Nodes of the bottom levels, then those with inner children level by level.
-    bottom_nodes: RefitPush,
-    bottom: Vec<RefitPush>,
-    bottom_roots: RefitPush,
-    /// Nodes of the top level, then those with inner children level by level.
-    top_nodes: RefitPush,
-    top: Vec<RefitPush>,
-    /// The plan of refits with one dispatch, made by the first of them.
-    pub(super) climb: Option<Climb>,
+    dispatches: Dispatches,
     pub(super) tree: TreePush,
 }
 
-impl<'d> DeviceBackend<'d> {
+/// What a refit runs over: a list, and the dispatches as parts of it, level by level.
+#[derive(Debug, Default)]
+pub(super) struct Dispatches {
+    pub list: Vec<u32>,
+    bottom: Vec<RefitPush>,
+    roots: Option<RefitPush>,
+    top: Vec<RefitPush>,
+}
+
+impl Dispatches {
+    pub fn new(bottom: &Levels, roots: impl Iterator<Item = u32>, top: &Levels) -> Self {
+        let mut list = Vec::new();
+        Self {
+            bottom: parts(&mut list, bottom),
+            roots: part(&mut list, roots),
+            top: parts(&mut list, top),
+            list,
+        }
+    }
+}
+
+/// Appends to the list, each level a part.
+fn parts(list: &mut Vec<u32>, levels: &Levels) -> Vec<RefitPush> {
+    let mut level = |range: Range<usize>| part(list, levels.nodes()[range].iter().copied());
+    levels.ranges().filter_map(&mut level).collect()
+}
+
+/// Appends to the list; nothing is no part.
+fn part(list: &mut Vec<u32>, entries: impl Iterator<Item = u32>) -> Option<RefitPush> {
+    let first = list.len() as u32;
+    list.extend(entries);
+    let count = list.len() as u32 - first;
+    (count > 0).then_some(RefitPush { first, count })
+}
+
+impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     /// Uploads a BVH and its lights.
     ///
     /// # Errors
     /// [`VulkanError`] when they do not fit, or the device fails.
-    pub fn new(device: &'d Device, bvh: &Bvh, lights: &Lights) -> Result<Self, VulkanError> {
+    pub fn new(device: &'d Device, bvh: &Bvh<C, W>, lights: &Lights) -> Result<Self, VulkanError> {
         let tree = bvh.tree();
-        let two_level = bvh.is_two_level();
-        let node_count = tree.nodes.len() as u32;
-        let bottom_count = if two_level { tree.root } else { node_count };
-        let mut lists = Vec::new();
-        let mut list = |entries: &mut dyn Iterator<Item = u32>| {
-            let first = lists.len() as u32;
-            lists.extend(entries);
-            let count = lists.len() as u32 - first;
-            RefitPush { first, count }
-        };
-        let bottom_nodes = list(&mut (0..bottom_count));
-        let (bottom_levels, top_levels) = (bvh.bottom_levels(), bvh.top_levels());
-        let bottom = bottom_levels
-            .ranges()
-            .map(|range| list(&mut bottom_levels.nodes()[range].iter().copied()))
-            .collect();
-        let bottom_roots = list(&mut (0..bvh.roots().len() as u32));
-        let top_nodes = list(&mut (bottom_count..node_count));
-        let top = top_levels
-            .ranges()
-            .map(|range| list(&mut top_levels.nodes()[range].iter().copied()))
-            .collect();
+        let roots = 0..bvh.roots().len() as u32;
+        let mut dispatches = Dispatches::new(bvh.bottom_levels(), roots, bvh.top_levels());
         Ok(Self {
             device,
             nodes: device.upload(tree.nodes)?,
-            meshes: device.upload(tree.meshes)?,
+            instances: device.upload(tree.instances)?,
             trails: device.upload(tree.trails)?,
             triangles: device.upload(lights.triangles())?,
             local: None,
             roots: device.upload(bvh.roots())?,
-            lists: device.upload(&lists)?,
-            bottom_nodes,
-            bottom,
-            bottom_roots,
-            top_nodes,
-            top,
-            climb: None,
-            tree: TreePush {
-                root: tree.root,
-                trail_words: tree.trail_words,
-                two_level: u32::from(two_level),
-            },
+            lists: device.upload(&std::mem::take(&mut dispatches.list))?,
+            dispatches,
+            tree: TreePush::of(&tree),
         })
     }
 
@@ -106,29 +107,23 @@ impl<'d> DeviceBackend<'d> {
     ///
     /// # Errors
     /// [`VulkanError`] when they do not fit, or the device fails.
-    pub fn of_scene(device: &'d Device, scene: &LightScene, lights: &Lights) -> Result<Self, VulkanError> {
+    pub fn of_scene(
+        device: &'d Device,
+        scene: &LightScene<C, W>,
+        lights: &Lights,
+    ) -> Result<Self, VulkanError> {
         let tree = scene.tree();
-        let none = RefitPush { first: 0, count: 0 };
         Ok(Self {
             device,
             nodes: device.upload(tree.nodes)?,
-            meshes: device.upload(tree.meshes)?,
+            instances: device.upload(tree.instances)?,
             trails: device.upload(tree.trails)?,
             triangles: device.upload(lights.triangles())?,
             local: Some(device.upload(scene.triangles())?),
             roots: device.upload(scene.roots())?,
             lists: device.upload(&[])?,
-            bottom_nodes: none,
-            bottom: Vec::new(),
-            bottom_roots: none,
-            top_nodes: none,
-            top: Vec::new(),
-            climb: None,
-            tree: TreePush {
-                root: tree.root,
-                trail_words: tree.trail_words,
-                two_level: 1,
-            },
+            dispatches: Dispatches::default(),
+            tree: TreePush::of(&tree),
         })
     }
 
@@ -136,9 +131,42 @@ impl<'d> DeviceBackend<'d> {
     ///
     /// # Errors
     /// [`VulkanError`] from the device.
-    pub fn write_nodes(&mut self, nodes: &[Node]) -> Result<(), VulkanError> {
-        self.climb = None;
+    pub fn write_nodes(&mut self, nodes: &[C::Node]) -> Result<(), VulkanError> {
         self.nodes.write(nodes)
+    }
+
+    /// The kernel of this choice.
+    fn kernel(&self, name: &str) -> Result<Arc<Kernel>, VulkanError> {
+        self.device.kernel(&format!("{name}{}", C::SUFFIX))
+    }
+
+    /// Runs the passes of a refit over parts of `lists`.
+    pub(super) fn refit_by(
+        &self,
+        lists: &Buffer<u32>,
+        dispatches: &Dispatches,
+    ) -> Result<Duration, VulkanError> {
+        let (bottom, roots, top) = (
+            self.kernel("refit_bottom")?,
+            self.kernel("refit_roots")?,
+            self.kernel("refit_top")?,
+        );
+        let (lists, nodes) = (lists.bind(), self.nodes.bind());
+        let triangles = self.local.as_ref().unwrap_or(&self.triangles).bind();
+        let by_triangle = [lists, triangles, nodes];
+        let by_root = [lists, nodes, self.roots.bind()];
+        let by_instance = [lists, self.instances.bind(), self.roots.bind(), nodes];
+        let mut pass = Pass::new();
+        let all = (dispatches
+            .bottom
+            .iter()
+            .map(|push| (&bottom, &by_triangle[..], push)))
+        .chain(dispatches.roots.iter().map(|push| (&roots, &by_root[..], push)))
+        .chain(dispatches.top.iter().map(|push| (&top, &by_instance[..], push)));
+        for (kernel, bindings, push) in all {
+            pass.dispatch(kernel, bindings, bytes_of(push), push.count);
+        }
+        Ok(device_time(&self.device.run(&pass)?))
     }
 
     /// Answers queries pass by pass.
@@ -148,7 +176,7 @@ impl<'d> DeviceBackend<'d> {
         queries: &[Query],
         bindings: &[Binding<'_>],
     ) -> Result<Timed<Vec<T>>, VulkanError> {
-        let kernel = self.device.kernel(kernel)?;
+        let kernel = self.kernel(kernel)?;
         let mut all = Timed {
             value: Vec::with_capacity(queries.len()),
             time: Duration::ZERO,
@@ -171,67 +199,43 @@ impl<'d> DeviceBackend<'d> {
     }
 }
 
-impl Backend for DeviceBackend<'_> {
+impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
     fn name(&self) -> &str {
         self.device.name()
     }
 
-    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<Node>>, VulkanError> {
-        self.triangles.write(lights.triangles())?;
-        let leaves = self.device.kernel("refit_leaves")?;
-        let level = self.device.kernel("refit_level")?;
-        let roots = self.device.kernel("refit_roots")?;
-        let instances = self.device.kernel("refit_instances")?;
-        let (lists, nodes) = (self.lists.bind(), self.nodes.bind());
-        let by_triangle = [lists, self.triangles.bind(), nodes];
-        let by_level = [lists, nodes];
-        let by_root = [lists, nodes, self.roots.bind()];
-        let by_instance = [lists, self.meshes.bind(), self.roots.bind(), nodes];
+    fn node_record(&self) -> Record {
+        node_record::<C::Node, W>()
+    }
 
-        let mut pass = Pass::new();
-        let dispatches = std::iter::once((&leaves, &by_triangle[..], &self.bottom_nodes))
-            .chain(self.bottom.iter().map(|push| (&level, &by_level[..], push)))
-            .chain([
-                (&roots, &by_root[..], &self.bottom_roots),
-                (&instances, &by_instance[..], &self.top_nodes),
-            ])
-            .chain(self.top.iter().map(|push| (&level, &by_level[..], push)));
-        for (kernel, bindings, push) in dispatches {
-            if push.count > 0 {
-                pass.dispatch(kernel, bindings, bytes_of(push), push.count);
-            }
-        }
-        let time = device_time(&self.device.run(&pass)?);
+    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, VulkanError> {
+        self.triangles.write(lights.triangles())?;
+        let time = match self.local {
+            None => self.refit_by(&self.lists, &self.dispatches)?,
+            Some(_) => Duration::ZERO,
+        };
         Ok(Timed {
-            value: self.nodes.read()?,
+            value: self.nodes.read_words()?,
             time,
         })
     }
 
-    fn refit_once(&mut self, lights: &Lights) -> Result<Timed<Vec<Node>>, VulkanError> {
-        self.refit_bvh_once(lights)
-    }
-
-    fn follow(&mut self, scene: &LightScene, lights: &Lights) -> Result<Timed<()>, VulkanError> {
-        self.follow_scene(scene, lights)
-    }
-
-    fn nodes(&mut self) -> Result<Vec<Node>, VulkanError> {
-        self.nodes.read()
+    fn nodes(&mut self) -> Result<Vec<u32>, VulkanError> {
+        self.nodes.read_words()
     }
 
     fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<Sampled>>, VulkanError> {
         self.query(
             "sample",
             queries,
-            &[self.nodes.bind(), self.meshes.bind(), self.trails.bind()],
+            &[self.nodes.bind(), self.instances.bind(), self.trails.bind()],
         )
     }
 
     fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, VulkanError> {
         let bindings = [
             self.nodes.bind(),
-            self.meshes.bind(),
+            self.instances.bind(),
             self.trails.bind(),
             self.triangles.bind(),
         ];
@@ -245,14 +249,14 @@ impl Backend for DeviceBackend<'_> {
         sampler: Sampler,
     ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
         let kernel = match sampler {
-            Sampler::Uniform => "render_uniform",
-            Sampler::Power => "render_power",
-            Sampler::SingleLevel | Sampler::TwoLevel => "render_bvh",
+            Sampler::Uniform => self.device.kernel("render_uniform")?,
+            Sampler::Power => self.device.kernel("render_power")?,
+            Sampler::SingleLevel | Sampler::TwoLevel => self.kernel("render_bvh")?,
         };
         let tree = self.tree;
         let per_pass = SAMPLES_PER_PASS / params.samples.clamp(1, MAX_SAMPLES_PER_INVOCATION) as usize;
         in_parts(params, MAX_SAMPLES_PER_INVOCATION, |params| {
-            self.shade(scene, params, sampler, kernel, per_pass, |first, count| {
+            self.shade(scene, params, sampler, &kernel, per_pass, |first, count| {
                 RenderPush {
                     params: *params,
                     first,
@@ -271,16 +275,16 @@ impl Backend for DeviceBackend<'_> {
         sampler: Sampler,
     ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
         let kernel = match sampler {
-            Sampler::Uniform => "path_uniform",
-            Sampler::Power => "path_power",
-            Sampler::SingleLevel | Sampler::TwoLevel => "path_bvh",
+            Sampler::Uniform => self.device.kernel("path_uniform")?,
+            Sampler::Power => self.device.kernel("path_power")?,
+            Sampler::SingleLevel | Sampler::TwoLevel => self.kernel("path_bvh")?,
         };
         let tree = self.tree;
         let bounces = bounces.min(MAX_BOUNCES);
         let most = paths_per_invocation(bounces);
         let per_pass = SURFACES_PER_PASS / (params.samples.clamp(1, most) * (bounces + 1)) as usize;
         in_parts(params, most, |params| {
-            self.shade(scene, params, sampler, kernel, per_pass, |first, count| {
+            self.shade(scene, params, sampler, &kernel, per_pass, |first, count| {
                 PathPush {
                     params: *params,
                     bounces,
@@ -293,14 +297,14 @@ impl Backend for DeviceBackend<'_> {
     }
 }
 
-impl DeviceBackend<'_> {
+impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
     /// Runs a kernel over all pixels of an image, `per_pass` pixels to a dispatch, but at least a workgroup's.
     fn shade<T: bytemuck::Pod>(
         &self,
         scene: &SceneArrays,
         params: &RenderParams,
         sampler: Sampler,
-        kernel: &str,
+        kernel: &Kernel,
         per_pass: usize,
         push: impl Fn(u32, u32) -> T,
     ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
@@ -322,10 +326,9 @@ impl DeviceBackend<'_> {
             Sampler::Uniform => vec![],
             Sampler::Power => vec![thresholds.bind()],
             Sampler::SingleLevel | Sampler::TwoLevel => {
-                vec![self.nodes.bind(), self.meshes.bind(), self.trails.bind()]
+                vec![self.nodes.bind(), self.instances.bind(), self.trails.bind()]
             }
         };
-        let kernel = device.kernel(kernel)?;
 
         let pixels = params.width as usize * params.height as usize;
         let per_pass = per_pass.max(WORKGROUP as usize);
@@ -344,7 +347,7 @@ impl DeviceBackend<'_> {
                 .chain([output.bind()])
                 .collect();
             let mut pass = Pass::new();
-            pass.dispatch(&kernel, &bindings, bytes_of(&push), count as u32);
+            pass.dispatch(kernel, &bindings, bytes_of(&push), count as u32);
             all.time += device_time(&device.run(&pass)?);
             all.value.extend(output.read()?);
         }

@@ -1,11 +1,12 @@
 //! What runs the passes: the CPU over all its cores, or a Vulkan device. Both run the same functions on the same arrays,
-//! so [`compare`](crate::compare) may ask for equal words.
+//! so [`compare`](crate::compare) may ask for equal words. A [`Choice`] says over which node layout, by which importance;
+//! [`Standard`] where it is left out.
 
-mod climb;
 mod cpu;
 mod device;
 mod follow;
 mod parts;
+mod record;
 mod restir;
 mod scene;
 mod structure;
@@ -13,28 +14,29 @@ mod structure;
 pub use cpu::CpuBackend;
 pub use device::DeviceBackend;
 pub use parts::MAX_SAMPLES_PER_INVOCATION;
+pub use record::{PIXEL_RECORD, PMF_RECORD, SAMPLED_RECORD, node_record};
 pub use restir::{
     CandidateSource, Combination, CpuRestir, DeviceRestir, LightRemap, RESERVOIR_RECORD, Restir, RestirFrame,
     RestirOptions, SURFACE_RECORD,
 };
 pub use scene::{Sampler, SceneArrays};
-pub use structure::{Structure, picker};
+pub use structure::Structure;
 
 use std::time::Duration;
 
-use lightbvh::{Instance, LightBvh, Lights};
-use lightbvh_kernels::bvh::{Node, WIDTH};
+use lightbvh::{LightBvh, Lights};
+use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
 use lightbvh_kernels::query::{Query, Sampled};
 use lightbvh_kernels::render::RenderParams;
 
-use crate::compare::{Field, Record};
+use crate::compare::Record;
 use crate::vulkan::VulkanError;
 
-/// The light BVH that the kernels are compiled for.
-pub type Bvh = LightBvh<Node, WIDTH, Instance>;
+/// The light BVH of a choice.
+pub type Bvh<C = Standard, const W: usize = WIDTH> = LightBvh<<C as Choice<W>>::Node, W>;
 
-/// The moving lights that the kernels are compiled for.
-pub type LightScene = lightbvh::Scene<Node, WIDTH>;
+/// The moving lights of a choice.
+pub type LightScene<C = Standard, const W: usize = WIDTH> = lightbvh::Scene<<C as Choice<W>>::Node, W>;
 
 /// A result and how long it took: on a device the kernels' own time, where it can tell.
 #[derive(Clone, Debug)]
@@ -50,33 +52,21 @@ pub trait Backend {
     /// Name for tables.
     fn name(&self) -> &str;
 
-    /// Refits a BVH to `lights`, which are those of the BVH moved or changed, and returns all nodes. Moving lights are left
-    /// as they are.
-    ///
-    /// # Errors
-    /// [`VulkanError`] from a device.
-    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<Node>>, VulkanError>;
+    /// Words of a node.
+    fn node_record(&self) -> Record;
 
-    /// As [`refit`](Self::refit), to the same words, but with one dispatch for all bottom levels and one for the top level:
-    /// each invocation goes up from a lowest node, and on from each node only if all below it is done. The CPU does this
-    /// with one thread.
+    /// Refits a BVH to `lights`, which are those of the BVH moved or changed, and returns the words of all nodes. Moving
+    /// lights are left as they are.
     ///
     /// # Errors
     /// [`VulkanError`] from a device.
-    fn refit_once(&mut self, lights: &Lights) -> Result<Timed<Vec<Node>>, VulkanError>;
+    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, VulkanError>;
 
-    /// Takes over what [`plan`](lightbvh::Scene::plan) says has changed in `scene`, and refits it here. Planned frames must
-    /// be followed without gaps, each before it is refitted in `scene` itself; `lights` are its lights in the world.
+    /// The words of all nodes as they are.
     ///
     /// # Errors
     /// [`VulkanError`] from a device.
-    fn follow(&mut self, scene: &LightScene, lights: &Lights) -> Result<Timed<()>, VulkanError>;
-
-    /// All nodes as they are.
-    ///
-    /// # Errors
-    /// [`VulkanError`] from a device.
-    fn nodes(&mut self) -> Result<Vec<Node>, VulkanError>;
+    fn nodes(&mut self) -> Result<Vec<u32>, VulkanError>;
 
     /// Chooses a light for each query.
     ///
@@ -117,34 +107,12 @@ pub trait Backend {
     ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError>;
 }
 
-/// Words of a node, for comparison by name.
-pub const NODE_RECORD: Record = Record {
-    name: "node",
-    fields: &[
-        Field::new("center_x", WIDTH as u32),
-        Field::new("center_y", WIDTH as u32),
-        Field::new("center_z", WIDTH as u32),
-        Field::new("extent", WIDTH as u32),
-        Field::new("axis_kind", WIDTH as u32),
-        Field::new("phi_cone", WIDTH as u32),
-        Field::new("link", WIDTH as u32),
-    ],
-};
-
-/// Words of a sampled light.
-pub const SAMPLED_RECORD: Record = Record {
-    name: "sampled light",
-    fields: &[Field::index("light"), Field::new("pmf", 1)],
-};
-
-/// Word of a pmf.
-pub const PMF_RECORD: Record = Record {
-    name: "pmf",
-    fields: &[Field::new("pmf", 1)],
-};
-
-/// Words of a pixel.
-pub const PIXEL_RECORD: Record = Record {
-    name: "pixel",
-    fields: &[Field::new("radiance", 3)],
-};
+/// A backend that follows moving lights.
+pub trait Follow<C: Choice<W> = Standard, const W: usize = WIDTH>: Backend {
+    /// Takes over what [`plan`](lightbvh::Scene::plan) says has changed in `scene`, and refits it here. Planned frames must
+    /// be followed without gaps, each before it is refitted in `scene` itself; `lights` are its lights in the world.
+    ///
+    /// # Errors
+    /// [`VulkanError`] from a device.
+    fn follow(&mut self, scene: &LightScene<C, W>, lights: &Lights) -> Result<Timed<()>, VulkanError>;
+}

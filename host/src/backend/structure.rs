@@ -1,66 +1,44 @@
 //! What lights are chosen by.
 
-use lightbvh_kernels::bvh::{BvhPicker, Tree};
+use lightbvh::{LightBvh, LightTree, Scene};
+use lightbvh_kernels::bvh::{BvhPicker, Choice, Standard, WIDTH};
 
 use super::{Bvh, LightScene};
 
 /// A light BVH over triangles in the world, or moving lights.
 #[derive(Clone, Debug)]
-pub enum Structure {
+pub enum Structure<C: Choice<W> = Standard, const W: usize = WIDTH> {
     /// One or two levels over triangles in the world.
-    Bvh(Box<Bvh>),
+    Bvh(Box<Bvh<C, W>>),
     /// Two levels over instances.
-    Scene(Box<LightScene>),
+    Scene(Box<LightScene<C, W>>),
 }
 
-impl Structure {
+impl<C: Choice<W>, const W: usize> Structure<C, W> {
     /// The arrays as traversal takes them.
     #[must_use]
-    pub fn tree(&self) -> Tree<'_> {
+    pub fn tree(&self) -> LightTree<'_, C::Node> {
         match self {
             Self::Bvh(bvh) => bvh.tree(),
             Self::Scene(scene) => scene.tree(),
         }
     }
 
-    /// Whether there is a top level.
-    #[must_use]
-    pub fn is_two_level(&self) -> bool {
-        match self {
-            Self::Bvh(bvh) => bvh.is_two_level(),
-            Self::Scene(_) => true,
-        }
-    }
-}
-
-impl Structure {
     /// Picks lights by it.
     #[must_use]
-    pub fn picker(&self) -> BvhPicker<'_> {
-        BvhPicker {
-            tree: self.tree(),
-            two_level: self.is_two_level(),
-        }
+    pub fn picker(&self) -> BvhPicker<'_, C, W> {
+        BvhPicker::new(self.tree())
     }
 }
 
-/// Picks lights by a BVH.
-#[must_use]
-pub fn picker(bvh: &Bvh) -> BvhPicker<'_> {
-    BvhPicker {
-        tree: bvh.tree(),
-        two_level: bvh.is_two_level(),
-    }
-}
-
-impl From<Bvh> for Structure {
-    fn from(bvh: Bvh) -> Self {
+impl<C: Choice<W>, const W: usize> From<LightBvh<C::Node, W>> for Structure<C, W> {
+    fn from(bvh: LightBvh<C::Node, W>) -> Self {
         Self::Bvh(Box::new(bvh))
     }
 }
 
-impl From<LightScene> for Structure {
-    fn from(scene: LightScene) -> Self {
+impl<C: Choice<W>, const W: usize> From<Scene<C::Node, W>> for Structure<C, W> {
+    fn from(scene: Scene<C::Node, W>) -> Self {
         Self::Scene(Box::new(scene))
     }
 }

@@ -3,13 +3,15 @@
 
 mod dynamic;
 mod passes;
-mod scene;
+pub(super) mod scene;
 mod trade;
+mod worst;
 
 use std::hint::black_box;
 use std::time::Duration;
 
-use lightbvh::BuildParams;
+use lightbvh::{BuildParams, LightBvh, Lights};
+use lightbvh_kernels::bvh::{Node, WIDTH};
 use serde::Serialize;
 use serde_json::json;
 
@@ -18,7 +20,7 @@ use super::{Context, Outcome, devices, table};
 use crate::backend::{Bvh, CpuBackend, DeviceBackend, Sampler};
 use crate::error::HostError;
 use crate::workload::build;
-use passes::{library_passes, measure, median, passes};
+use passes::{batches, library_passes, measure, median, passes};
 use scene::{random_lights, random_queries};
 
 #[derive(Debug, clap::Args)]
@@ -35,6 +37,9 @@ pub(super) struct Args {
     /// Measure updates of moving lights instead: rigid motion, brightness, a deforming mesh.
     #[arg(long)]
     dynamic: bool,
+    /// Count the nodes and the time of single samples and pmfs in adversarial scenes instead.
+    #[arg(long, conflicts_with = "dynamic")]
+    worst: bool,
     /// Instances of the moving scene, 1 to 10^6.
     #[arg(long, default_value_t = 10_000)]
     instances: u32,
@@ -47,8 +52,12 @@ pub(super) struct Args {
 #[derive(Clone, Debug, Serialize)]
 struct Case {
     what: &'static str,
-    /// Of a refit: `levels`, with one dispatch after the other, or `single`, with one for each level of a two-level BVH.
+    /// Of a refit: `levels`, one after the other.
     passes: Option<&'static str>,
+    /// Of samples: `one` by one, or in a `batch`.
+    variant: Option<&'static str>,
+    /// Of a build: `fast`, `balanced` (the default) or `best`.
+    preset: Option<&'static str>,
     structure: &'static str,
     lights: u32,
     backend: String,
@@ -63,6 +72,9 @@ struct Case {
 }
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
+    if args.worst {
+        return worst::run(context);
+    }
     if args.dynamic {
         return run_dynamic(context, args);
     }
@@ -82,22 +94,19 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let mut cases = Vec::new();
     for structure in [Sampler::SingleLevel, Sampler::TwoLevel] {
         eprintln!("{}", structure.name());
-        let build_once = || {
-            black_box(build(&lights, structure, &BuildParams::default()));
-        };
-        let build_times = one.install(|| measure(build_once));
-        let build_times_all = measure(build_once);
         let bvh: Bvh = build(&lights, structure, &BuildParams::default());
         let words: &[u32] = bytemuck::cast_slice(bvh.nodes());
         let mut target = words.to_vec();
         let copy = median(&measure(|| target.copy_from_slice(black_box(words))));
         let copy = copy.as_secs_f64() * bvh.bytes() as f64 / size_of_val(words) as f64;
 
-        let mut push = |(what, passes), backend: &str, threads, times: &[Duration], items: u32| {
+        let mut push = |what: What, backend: &str, threads, times: &[Duration], items: u32| {
             let ns = |time: Duration| time.as_nanos() as f64 / f64::from(items);
             cases.push(Case {
-                what,
-                passes,
+                what: what.pass,
+                passes: what.passes,
+                variant: what.variant,
+                preset: what.preset,
                 structure: structure.name(),
                 lights: args.lights,
                 backend: backend.to_owned(),
@@ -109,31 +118,37 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                 copies: median(times).as_secs_f64() / copy,
             });
         };
-        push(("build", None), "cpu", 1, &build_times, args.lights);
+        for (preset, params) in PRESETS {
+            eprintln!("{} {preset} build", structure.name());
+            let mut times = |threads, times: &[Duration]| {
+                push(What::build(preset), "cpu", threads, times, args.lights);
+            };
+            times(1, &one.install(|| builds(&lights, structure, &params)));
+            if all > 1 {
+                times(all, &builds(&lights, structure, &params));
+            }
+        }
+        // One thread by the library alone, all threads through the backend.
+        let single = one.install(|| library_passes(bvh.clone(), &lights, &queries));
+        let batch = one.install(|| batches(&bvh, &queries));
+        let mut results = vec![(1, single, batch)];
         if all > 1 {
-            push(("build", None), "cpu", all, &build_times_all, args.lights);
+            let mut cpu: CpuBackend = CpuBackend::new(bvh.clone(), lights.clone());
+            let times = passes(&mut cpu, &lights, &queries)?;
+            results.push((all, times, batches(&bvh, &queries)));
         }
-        // One thread as an engine embeds the library, whose mesh lights lie in world space; all threads through the backend.
-        let single = one.install(|| library_passes(structure, &lights, &queries));
-        let mut cpu = CpuBackend::new(bvh.clone(), lights.clone());
-        let mut results = vec![(1, single)];
-        if all > 1 {
-            results.push((all, passes(&mut cpu, &lights, &queries)?));
+        for (threads, times, batch) in &results {
+            push(What::REFIT, "cpu", *threads, &times.refit, args.lights);
+            push(What::SAMPLE, "cpu", *threads, &times.sample, args.queries);
+            push(What::BATCH, "cpu", *threads, batch, args.queries);
+            push(What::PMF, "cpu", *threads, &times.pmf, args.queries);
         }
-        for (threads, times) in &results {
-            push(LEVELS, "cpu", *threads, &times.refit, args.lights);
-            push(("sample", None), "cpu", *threads, &times.sample, args.queries);
-            push(("pmf", None), "cpu", *threads, &times.pmf, args.queries);
-        }
-        let once = one.install(|| passes(&mut cpu, &lights, &queries))?.refit_once;
-        push(SINGLE, "cpu", 1, &once, args.lights);
         for o in &opened {
-            let mut device = DeviceBackend::new(&o.device, &bvh, &lights)?;
+            let mut device: DeviceBackend<'_> = DeviceBackend::new(&o.device, &bvh, &lights)?;
             let times = passes(&mut device, &lights, &queries)?;
-            push(LEVELS, o.device.name(), 0, &times.refit, args.lights);
-            push(SINGLE, o.device.name(), 0, &times.refit_once, args.lights);
-            push(("sample", None), o.device.name(), 0, &times.sample, args.queries);
-            push(("pmf", None), o.device.name(), 0, &times.pmf, args.queries);
+            push(What::REFIT, o.device.name(), 0, &times.refit, args.lights);
+            push(What::SAMPLE, o.device.name(), 0, &times.sample, args.queries);
+            push(What::PMF, o.device.name(), 0, &times.pmf, args.queries);
         }
     }
     devices::close(opened)?;
@@ -142,9 +157,65 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     Ok(Outcome::Good)
 }
 
-/// The two ways to refit. On the CPU the second takes one thread.
-const LEVELS: (&str, Option<&str>) = ("refit", Some("levels"));
-const SINGLE: (&str, Option<&str>) = ("refit", Some("single"));
+/// What builders may spend, by name.
+const PRESETS: [(&str, BuildParams); 3] = [
+    ("fast", BuildParams::FAST),
+    ("balanced", BuildParams::BALANCED),
+    ("best", BuildParams::BEST),
+];
+
+/// What is measured.
+#[derive(Clone, Copy)]
+struct What {
+    pass: &'static str,
+    passes: Option<&'static str>,
+    variant: Option<&'static str>,
+    preset: Option<&'static str>,
+}
+
+impl What {
+    const PMF: Self = Self {
+        pass: "pmf",
+        passes: None,
+        variant: None,
+        preset: None,
+    };
+    const REFIT: Self = Self {
+        pass: "refit",
+        passes: Some("levels"),
+        ..Self::PMF
+    };
+    const SAMPLE: Self = Self {
+        pass: "sample",
+        variant: Some("one"),
+        ..Self::PMF
+    };
+    const BATCH: Self = Self {
+        variant: Some("batch"),
+        ..Self::SAMPLE
+    };
+
+    fn build(preset: &'static str) -> Self {
+        Self {
+            pass: "build",
+            preset: Some(preset),
+            ..Self::PMF
+        }
+    }
+
+    /// As in the table, which has one column for what kinds of a pass there are.
+    fn kind(case: &Case) -> &'static str {
+        case.passes.or(case.variant).or(case.preset).unwrap_or("-")
+    }
+}
+
+/// Times of builds by the threads of the current pool.
+fn builds(lights: &Lights, structure: Sampler, params: &BuildParams) -> Vec<Duration> {
+    measure(|| {
+        let bvh: LightBvh<Node, WIDTH> = build(lights, structure, params);
+        black_box(&bvh);
+    })
+}
 
 fn run_dynamic(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     let all = u64::from(args.instances) * u64::from(args.mesh_triangles);
@@ -174,7 +245,7 @@ fn print(context: &Context, cases: &[Case], trade: &[trade::Row]) -> Result<(), 
     }
     let header = [
         "what",
-        "passes",
+        "kind",
         "structure",
         "lights",
         "backend",
@@ -190,7 +261,7 @@ fn print(context: &Context, cases: &[Case], trade: &[trade::Row]) -> Result<(), 
         .map(|c| {
             vec![
                 c.what.to_owned(),
-                c.passes.unwrap_or("-").to_owned(),
+                What::kind(c).to_owned(),
                 c.structure.to_owned(),
                 c.lights.to_string(),
                 c.backend.clone(),

@@ -11,7 +11,7 @@ use serde_json::json;
 use super::range::{self, MAX_SIDE, given};
 use super::{Context, Outcome, devices, table};
 use crate::backend::{
-    Backend, Bvh, CpuBackend, DeviceBackend, NODE_RECORD, PIXEL_RECORD, SAMPLED_RECORD, Sampler, SceneArrays,
+    Backend, Bvh, CpuBackend, DeviceBackend, PIXEL_RECORD, SAMPLED_RECORD, Sampler, SceneArrays,
 };
 use crate::compare::{Record, compare_words};
 use crate::error::HostError;
@@ -90,7 +90,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let bvh: Bvh = build(&lights, Sampler::TwoLevel, &BuildParams::default());
     let build_time = start.elapsed();
 
-    let mut cpu = CpuBackend::new(bvh.clone(), lights.clone());
+    let mut cpu: CpuBackend = CpuBackend::new(bvh.clone(), lights.clone());
     let mut on_devices = opened
         .iter()
         .map(|o| DeviceBackend::new(&o.device, &bvh, &lights))
@@ -196,12 +196,7 @@ fn frame_on_all(
         match &expected {
             None => expected = Some((nodes.value, sampled.value, image.value)),
             Some((cpu_nodes, cpu_sampled, cpu_image)) => {
-                record.take(
-                    "refit",
-                    &NODE_RECORD,
-                    cast_slice(cpu_nodes),
-                    cast_slice(&nodes.value),
-                )?;
+                record.take("refit", &backend.node_record(), cpu_nodes, &nodes.value)?;
                 record.take(
                     "sample",
                     &SAMPLED_RECORD,

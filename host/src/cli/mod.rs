@@ -13,6 +13,7 @@ mod render;
 mod stability;
 mod table;
 mod validate;
+mod variance;
 mod verify;
 
 use std::process::ExitCode;
@@ -48,6 +49,8 @@ enum Command {
     Verify(verify::Args),
     /// Time build, refit, sample and pmf, and measure what accuracy costs.
     Bench(bench::Args),
+    /// Compute the variance of one light sample exactly, scene by scene.
+    Variance(variance::Args),
     /// Compare the methods over an animation as the paper does: errors, times, graphs and close-ups.
     Compare(compare::Args),
     /// Check every extreme that the light BVH must survive, on the CPU and every device, against stated bounds.
@@ -98,6 +101,7 @@ pub fn main() -> ExitCode {
         Command::Render(args) => render::run(&context, args),
         Command::Verify(args) => verify::run(&context, args),
         Command::Bench(args) => bench::run(&context, args),
+        Command::Variance(args) => variance::run(&context, args),
         Command::Compare(args) => compare::run(&context, args),
         Command::Stability(args) => stability::run(&context, args),
         Command::Info => info::run(&context),

@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use lightbvh::{BuildParams, Heuristic};
+use lightbvh_kernels::bvh::{Choice, Paper, Standard, WIDTH};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 use serde_json::{Value, json};
 
@@ -62,9 +63,12 @@ pub(super) struct Args {
     /// Most reflections of a path, 1 to 64, with --integrator path; 1 is direct lighting.
     #[arg(long, default_value_t = 8)]
     bounces: u32,
-    /// Cost of splits when the light BVH is built.
-    #[arg(long, value_enum, default_value_t = HeuristicName::Saoh)]
-    heuristic: HeuristicName,
+    /// What lights of a BVH are chosen by: moments, or the paper's Eq. 4.
+    #[arg(long, value_enum, default_value_t = ImportanceName::Moments)]
+    importance: ImportanceName,
+    /// How the light BVH is built [default: ward; with --importance eq4, saoh as in the paper].
+    #[arg(long, value_enum)]
+    heuristic: Option<HeuristicName>,
     /// What renders.
     #[arg(long, value_enum, default_value_t = BackendName::Cpu)]
     backend: BackendName,
@@ -79,21 +83,53 @@ pub(super) struct Args {
     output: PathBuf,
 }
 
+/// A [`Choice`] on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum ImportanceName {
+    /// The default: moments of the lights, 8 children to a node.
+    Moments,
+    /// The paper's Eq. 4 on bounds, 4 children to a node.
+    Eq4,
+}
+
+impl ImportanceName {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Moments, Self::Eq4];
+
+    /// [`Choice::NAME`].
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Moments => Standard::NAME,
+            Self::Eq4 => Paper::NAME,
+        }
+    }
+}
+
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 pub(super) enum HeuristicName {
+    /// The surface area heuristic.
     Sah,
+    /// The surface area orientation heuristic.
     Saoh,
+    /// Ward's criterion.
+    Ward,
+    /// Clusters by Morton code, Ward's criterion above them: the fastest.
+    Morton,
 }
 
 impl HeuristicName {
-    pub fn params(self) -> BuildParams {
-        let heuristic = match self {
-            Self::Sah => Heuristic::Sah,
-            Self::Saoh => Heuristic::Saoh,
+    /// The parameters of builds by `heuristic`, or by the usual one of `importance`.
+    pub fn params(heuristic: Option<Self>, importance: ImportanceName) -> BuildParams {
+        let usual = match importance {
+            ImportanceName::Moments => Self::Ward,
+            ImportanceName::Eq4 => Self::Saoh,
         };
-        BuildParams {
-            heuristic,
-            ..BuildParams::default()
+        match heuristic.unwrap_or(usual) {
+            Self::Sah => BuildParams::paper(Heuristic::Sah),
+            Self::Saoh => BuildParams::paper(Heuristic::Saoh),
+            Self::Ward => BuildParams::BALANCED,
+            Self::Morton => BuildParams::FAST,
         }
     }
 }
@@ -157,6 +193,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             "scene": scene.name(), "width": args.width, "height": args.height, "spp": samples,
             "sampler": args.sampler, "backend": name,
         });
+        if args.sampler.needs_bvh() {
+            report["importance"] = json!(args.importance);
+        }
         // Direct lighting is reflected once.
         report["bounces"] = match integrator {
             Integrator::Direct => 1,
@@ -203,7 +242,11 @@ impl Sequence<'_> {
         let first = self.arrays(start)?;
         let step = self.step(start, &first);
         let target = device.map_or(Target::Cpu, Target::Device);
-        let mut images = Images::new(self.method, args.heuristic.params(), target, &step)?;
+        let params = HeuristicName::params(args.heuristic, args.importance);
+        let mut images = match args.importance {
+            ImportanceName::Moments => Images::new::<Standard, WIDTH>(self.method, params, target, &step)?,
+            ImportanceName::Eq4 => Images::new::<Paper, 4>(self.method, params, target, &step)?,
+        };
         let mut exposure = args.exposure;
         let mut reports = Vec::new();
         let mut arrays = Some(first);

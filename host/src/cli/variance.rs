@@ -9,8 +9,8 @@ mod points;
 use std::time::Instant;
 
 use lightbvh::{
-    BuildParams, CompactNode, Defensive, Eq4, FluxOverDistance, FullMomentNode, Heuristic, ImportanceModel, LeanMomentNode,
-    LightBvh, LightNode, Lights, MomentNode, Moments, ShadingPoint,
+    BuildParams, CompactNode, Defensive, Eq4, FluxOverDistance, FullMomentNode, Heuristic, ImportanceModel,
+    LeanMomentNode, LightBvh, LightNode, Lights, MomentNode, Moments, ShadingPoint,
 };
 use serde::Serialize;
 use serde_json::json;
@@ -63,7 +63,9 @@ struct Subject {
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     let named: Vec<String> = if args.scene.is_empty() {
-        ["random", "street", "square", "carousel"].map(String::from).into()
+        ["random", "street", "square", "carousel"]
+            .map(String::from)
+            .into()
     } else {
         args.scene.clone()
     };
@@ -71,11 +73,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     for name in named {
         let start = Instant::now();
         let (lights, points) = points::of(&name, args.lights, args.frame, args.points)?;
-        let subject = Subject {
-            name,
-            lights,
-            points,
-        };
+        let subject = Subject { name, lights, points };
         rows.extend(measure(&subject, args.all));
         eprintln!("{}: {:.1} s", subject.name, start.elapsed().as_secs_f64());
     }
@@ -87,8 +85,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     Ok(Outcome::Good)
 }
 
-/// The default importance of the crate: moments with a share of 1/32 of uniform choice.
-type Default32 = Defensive<Moments, 5>;
+/// The default importance of the crate: moments with a share of 1/64 of uniform choice.
+type DefaultImportance = Defensive<Moments, 6>;
 
 fn measure(subject: &Subject, all: bool) -> Vec<Row> {
     let balanced = BuildParams::default();
@@ -99,24 +97,68 @@ fn measure(subject: &Subject, all: bool) -> Vec<Row> {
     let light: Vec<Vec<f64>> = subject
         .points
         .iter()
-        .map(|point| subject.lights.triangles().iter().map(|t| irradiance(t, point)).collect())
+        .map(|point| {
+            subject
+                .lights
+                .triangles()
+                .iter()
+                .map(|t| irradiance(t, point))
+                .collect()
+        })
         .collect();
     let mut rows = Vec::new();
     let mut add = |new: [Row; 2]| rows.extend(new);
     add(both::<CompactNode<4>, Eq4, 4>("eq4", subject, &light, &saoh));
-    add(both::<MomentNode<8>, Default32, 8>("moments+1/32", subject, &light, &balanced));
+    add(both::<MomentNode<8>, DefaultImportance, 8>(
+        "moments+1/64",
+        subject,
+        &light,
+        &balanced,
+    ));
     if all {
-        add(both::<MomentNode<8>, Moments, 8>("moments", subject, &light, &balanced));
-        add(both::<MomentNode<16>, Default32, 16>("moments+1/32", subject, &light, &balanced));
-        add(both::<MomentNode<16>, Moments, 16>("moments", subject, &light, &balanced));
-        add(both::<MomentNode<4>, Moments, 4>("moments", subject, &light, &balanced));
-        add(both::<FullMomentNode<8>, Moments, 8>("moments", subject, &light, &balanced));
-        add(both::<LeanMomentNode<8>, Moments, 8>("moments", subject, &light, &balanced));
-        add(both::<MomentNode<8>, Default32, 8>("moments+1/32, fast", subject, &light, &BuildParams::FAST));
-        add(both::<MomentNode<8>, Default32, 8>("moments+1/32, best", subject, &light, &BuildParams::BEST));
+        add(both::<MomentNode<8>, Moments, 8>(
+            "moments", subject, &light, &balanced,
+        ));
+        add(both::<MomentNode<16>, DefaultImportance, 16>(
+            "moments+1/64",
+            subject,
+            &light,
+            &balanced,
+        ));
+        add(both::<MomentNode<16>, Moments, 16>(
+            "moments", subject, &light, &balanced,
+        ));
+        add(both::<MomentNode<4>, Moments, 4>(
+            "moments", subject, &light, &balanced,
+        ));
+        add(both::<FullMomentNode<8>, Moments, 8>(
+            "moments", subject, &light, &balanced,
+        ));
+        add(both::<LeanMomentNode<8>, Moments, 8>(
+            "moments", subject, &light, &balanced,
+        ));
+        add(both::<MomentNode<8>, DefaultImportance, 8>(
+            "moments+1/64, fast",
+            subject,
+            &light,
+            &BuildParams::FAST,
+        ));
+        add(both::<MomentNode<8>, DefaultImportance, 8>(
+            "moments+1/64, best",
+            subject,
+            &light,
+            &BuildParams::BEST,
+        ));
         add(both::<CompactNode<8>, Eq4, 8>("eq4", subject, &light, &saoh));
-        add(both::<CompactNode<4>, Eq4, 4>("eq4, ward", subject, &light, &balanced));
-        add(both::<CompactNode<4>, FluxOverDistance, 4>("flux/d²", subject, &light, &saoh));
+        add(both::<CompactNode<4>, Eq4, 4>(
+            "eq4, ward",
+            subject,
+            &light,
+            &balanced,
+        ));
+        add(both::<CompactNode<4>, FluxOverDistance, 4>(
+            "flux/d²", subject, &light, &saoh,
+        ));
     }
     rows
 }
@@ -129,13 +171,21 @@ fn both<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     params: &BuildParams,
 ) -> [Row; 2] {
     [
-        ("single-level", LightBvh::<N, W>::single_level(&subject.lights, params)),
+        (
+            "single-level",
+            LightBvh::<N, W>::single_level(&subject.lights, params),
+        ),
         ("two-level", LightBvh::<N, W>::two_level(&subject.lights, params)),
     ]
     .map(|(structure, bvh)| {
         let (variances, nothing) = variances::<N, I, W>(&bvh, subject, light);
         let count = variances.len().max(1) as f64;
-        let part = |share: f64| variances.get((share * (count - 1.0)) as usize).copied().unwrap_or(0.0);
+        let part = |share: f64| {
+            variances
+                .get((share * (count - 1.0)) as usize)
+                .copied()
+                .unwrap_or(0.0)
+        };
         Row {
             scene: subject.name.clone(),
             structure,

@@ -12,20 +12,22 @@ use std::ops::Range;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
+use lightbvh_kernels::bvh::{Paper, Standard, WIDTH};
 use serde::Serialize;
 
 use super::devices;
+use super::render::{HeuristicName, ImportanceName};
 use super::{Context, Outcome, table};
 use crate::backend::Sampler;
 use crate::error::HostError;
 use crate::method::Target;
 use crate::scene::{BUILT_IN, Scene};
-use structures::Structures;
+use structures::{Structures, Subject};
 use tally::Tally;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// How many lights to sample and how many pmfs to evaluate, over all scenes and both structures together.
+    /// How many lights to sample and how many pmfs to evaluate, over all scenes, importances and structures together.
     #[arg(long, default_value_t = 1_000_000)]
     queries: u64,
     /// Seed of the queries.
@@ -41,9 +43,32 @@ pub(super) struct Args {
     /// Refit that many more frames of every scene by either structure: the cheapest way to compare many words.
     #[arg(long, default_value_t = 0)]
     refits: u32,
+    /// What lights of a BVH are chosen by.
+    #[arg(long, value_enum, default_value_t = Importances::Both)]
+    importance: Importances,
     /// Scenes, built-in or files; all built-in ones by default. May be repeated.
     #[arg(long)]
     scene: Vec<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Importances {
+    /// The default: moments of the lights, 8 children to a node.
+    Moments,
+    /// The paper's Eq. 4 on bounds, 4 children to a node.
+    Eq4,
+    /// One after the other.
+    Both,
+}
+
+impl Importances {
+    fn chosen(self) -> &'static [ImportanceName] {
+        match self {
+            Self::Moments => &[ImportanceName::Moments],
+            Self::Eq4 => &[ImportanceName::Eq4],
+            Self::Both => &ImportanceName::ALL,
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -62,11 +87,11 @@ struct Report {
     queries: u64,
     seed: u32,
     scenes: Vec<String>,
+    importances: &'static [ImportanceName],
     frames: Range<u32>,
     frame_queries: u32,
     refits: u32,
-    /// Words that the CPU came by in two ways (sampled pmfs evaluated again, nodes refitted in one go), and those that came
-    /// out otherwise.
+    /// Words that the CPU came by in two ways (sampled pmfs, evaluated again), and those that came out otherwise.
     cpu_compared: u64,
     cpu_different: u64,
     devices: Vec<DeviceReport>,
@@ -88,10 +113,28 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         cpu: Tally::default(),
         progress: progress(args.queries, "queries", context.json),
     };
-    let shares = scenes.len() as u64 * 2;
+    let importances = args.importance.chosen();
+    let shares = scenes.len() as u64 * 2 * importances.len() as u64;
+    let count = args.queries.div_ceil(shares);
     for scene in &scenes {
-        for sampler in [Sampler::SingleLevel, Sampler::TwoLevel] {
-            run.structure(scene, sampler, &opened, args.queries.div_ceil(shares), args.seed)?;
+        for &importance in importances {
+            for sampler in [Sampler::SingleLevel, Sampler::TwoLevel] {
+                let subject = Subject {
+                    scene,
+                    sampler,
+                    importance: importance.name(),
+                    params: HeuristicName::params(None, importance),
+                    treeless: importance == importances[0] && sampler == Sampler::SingleLevel,
+                };
+                match importance {
+                    ImportanceName::Moments => {
+                        run.compare::<Standard, WIDTH>(&subject, &opened, count, args.seed)?;
+                    }
+                    ImportanceName::Eq4 => {
+                        run.compare::<Paper, 4>(&subject, &opened, count, args.seed)?;
+                    }
+                }
+            }
         }
     }
     run.progress.finish_and_clear();
@@ -103,6 +146,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         frames: args.frames.clone(),
         queries: args.frame_queries,
         seed: args.seed,
+        importances,
     };
     let targets: Vec<_> = opened.iter().map(|o| Target::Device(&o.device)).collect();
     let bar = progress((args.frames.len() * scenes.len()) as u64, "frames", context.json);
@@ -117,7 +161,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             context.json,
         );
         for scene in &scenes {
-            refits::compare(scene, args.refits, &opened, &mut tallies, &bar)?;
+            refits::compare(scene, importances, args.refits, &targets, &mut tallies, &bar)?;
         }
         bar.finish_and_clear();
     }
@@ -128,6 +172,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         queries: args.queries,
         seed: args.seed,
         scenes: names,
+        importances,
         frames: args.frames.clone(),
         frame_queries: args.frame_queries,
         refits: args.refits,
@@ -148,6 +193,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             })
             .collect(),
     };
+    drop(targets);
     devices::close(opened)?;
     print(context, &report, cpu.first_difference.as_deref())?;
     Ok(if report.different == 0 {

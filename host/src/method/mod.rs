@@ -17,6 +17,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use lightbvh::{BuildParams, Heuristic, Lights};
+use lightbvh_kernels::bvh::{Choice, Paper, Standard, WIDTH};
 use lightbvh_kernels::shading::restir::PixelReservoir;
 use lightbvh_kernels::shading::restir::surface::Surface;
 use serde::{Deserialize, Serialize};
@@ -39,31 +40,40 @@ pub enum Method {
     Uniform,
     /// In proportion to flux.
     Power,
-    /// One tree over all triangles, built at the first frame and refitted ever after.
+    /// One tree over all triangles by the paper's importance, built at the first frame and refitted ever after.
     SingleLevelRefit,
-    /// One tree over all triangles, built anew every frame.
+    /// The same, built anew every frame.
     SingleLevelRebuilt,
-    /// The paper's two levels, split by the surface area heuristic.
+    /// One tree over all triangles by the default importance, built anew every frame.
+    SingleLevelMomentsRebuilt,
+    /// The paper's two levels and importance, split by the surface area heuristic.
     TwoLevelSah,
-    /// The paper's two levels, split by the surface area orientation heuristic.
+    /// The paper's two levels and importance, split by the surface area orientation heuristic.
     TwoLevelSaoh,
+    /// Two levels by the default importance, built by the default criterion.
+    TwoLevelMoments,
     /// Spatiotemporal reservoirs (Bitterli et al. 2020).
     Restir,
-    /// The same with the two-level light BVH as the source of candidates.
+    /// The same with candidates from the paper's two-level light BVH.
     TwoLevelRestir,
+    /// The same with candidates from the default two-level light BVH.
+    TwoLevelMomentsRestir,
 }
 
 impl Method {
     /// All methods, in the order of tables.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 11] = [
         Self::Uniform,
         Self::Power,
         Self::SingleLevelRefit,
         Self::SingleLevelRebuilt,
+        Self::SingleLevelMomentsRebuilt,
         Self::TwoLevelSah,
         Self::TwoLevelSaoh,
+        Self::TwoLevelMoments,
         Self::Restir,
         Self::TwoLevelRestir,
+        Self::TwoLevelMomentsRestir,
     ];
 
     /// As on the command line.
@@ -74,20 +84,42 @@ impl Method {
             Self::Power => "power",
             Self::SingleLevelRefit => "single-level-refit",
             Self::SingleLevelRebuilt => "single-level-rebuilt",
+            Self::SingleLevelMomentsRebuilt => "single-level-moments-rebuilt",
             Self::TwoLevelSah => "two-level-sah",
             Self::TwoLevelSaoh => "two-level-saoh",
+            Self::TwoLevelMoments => "two-level-moments",
             Self::Restir => "restir",
             Self::TwoLevelRestir => "two-level-restir",
+            Self::TwoLevelMomentsRestir => "two-level-moments-restir",
         }
     }
 
     /// Whether it walks a light BVH and nothing else.
     #[must_use]
     pub fn is_light_bvh(self) -> bool {
-        matches!(
-            self,
-            Self::SingleLevelRefit | Self::SingleLevelRebuilt | Self::TwoLevelSah | Self::TwoLevelSaoh
-        )
+        self.importance().is_some() && !matches!(self, Self::TwoLevelRestir | Self::TwoLevelMomentsRestir)
+    }
+
+    /// Whether its light BVH is built anew by every frame that waits for it.
+    #[must_use]
+    pub fn is_rebuilt(self) -> bool {
+        matches!(self, Self::SingleLevelRebuilt | Self::SingleLevelMomentsRebuilt)
+    }
+
+    /// Name of the importance of the light BVH that it walks, if any: [`Choice::NAME`].
+    #[must_use]
+    pub fn importance(self) -> Option<&'static str> {
+        match self {
+            Self::Uniform | Self::Power | Self::Restir => None,
+            Self::SingleLevelRefit
+            | Self::SingleLevelRebuilt
+            | Self::TwoLevelSah
+            | Self::TwoLevelSaoh
+            | Self::TwoLevelRestir => Some(Paper::NAME),
+            Self::SingleLevelMomentsRebuilt | Self::TwoLevelMoments | Self::TwoLevelMomentsRestir => {
+                Some(Standard::NAME)
+            }
+        }
     }
 }
 
@@ -194,10 +226,14 @@ impl<'d> Target<'d> {
     }
 
     /// A backend over `bvh`, a BVH over `lights`.
-    fn backend(&self, bvh: Bvh, lights: &Lights) -> Result<Box<dyn Backend + 'd>, VulkanError> {
+    pub(crate) fn backend<C: Choice<W>, const W: usize>(
+        &self,
+        bvh: Bvh<C, W>,
+        lights: &Lights,
+    ) -> Result<Box<dyn Backend + 'd>, VulkanError> {
         Ok(match *self {
-            Self::Cpu => Box::new(CpuBackend::new(bvh, lights.clone())),
-            Self::Device(device) => Box::new(DeviceBackend::new(device, &bvh, lights)?),
+            Self::Cpu => Box::new(CpuBackend::<C, W>::new(bvh, lights.clone())),
+            Self::Device(device) => Box::new(DeviceBackend::<C, W>::new(device, &bvh, lights)?),
         })
     }
 }
@@ -211,24 +247,33 @@ pub fn runner<'d>(
     first: &Step<'_>,
     target: Target<'d>,
 ) -> Result<Box<dyn Runner + 'd>, HostError> {
-    let params = |heuristic| BuildParams {
-        heuristic,
-        ..BuildParams::default()
-    };
+    let sah = BuildParams::paper(Heuristic::Sah);
+    let saoh = BuildParams::paper(Heuristic::Saoh);
     let usual = BuildParams::default();
-    let reservoirs = |source| {
-        let options = RestirOptions::new(source, Combination::Unbiased);
-        Reservoirs::new(first, target, options, usual, Count::ShadowRays)
-    };
+    let options = |source| RestirOptions::new(source, Combination::Unbiased);
+    let (power, bvh) = (
+        options(CandidateSource::Power),
+        options(CandidateSource::LightBvh),
+    );
+    let count = Count::ShadowRays;
     Ok(match method {
         Method::Uniform => Box::new(NoTree::uniform(first, target)?),
         Method::Power => Box::new(NoTree::power(first, target)?),
-        Method::SingleLevelRefit => Box::new(SingleLevel::refitted(first, target, usual)?),
-        Method::SingleLevelRebuilt => Box::new(SingleLevel::rebuilt(first, target, usual)?),
-        Method::TwoLevelSah => Box::new(TwoLevel::new(first, target, params(Heuristic::Sah))?),
-        Method::TwoLevelSaoh => Box::new(TwoLevel::new(first, target, params(Heuristic::Saoh))?),
-        Method::Restir => Box::new(reservoirs(CandidateSource::Power)?),
-        Method::TwoLevelRestir => Box::new(reservoirs(CandidateSource::LightBvh)?),
+        Method::SingleLevelRefit => Box::new(SingleLevel::<Paper, 4>::refitted(first, target, saoh)?),
+        Method::SingleLevelRebuilt => Box::new(SingleLevel::<Paper, 4>::rebuilt(first, target, saoh)?),
+        Method::SingleLevelMomentsRebuilt => {
+            Box::new(SingleLevel::<Standard, WIDTH>::rebuilt(first, target, usual)?)
+        }
+        Method::TwoLevelSah => Box::new(TwoLevel::<Paper, 4>::new(first, target, sah)?),
+        Method::TwoLevelSaoh => Box::new(TwoLevel::<Paper, 4>::new(first, target, saoh)?),
+        Method::TwoLevelMoments => Box::new(TwoLevel::<Standard, WIDTH>::new(first, target, usual)?),
+        Method::Restir => Box::new(Reservoirs::<Standard, WIDTH>::new(
+            first, target, power, usual, count,
+        )?),
+        Method::TwoLevelRestir => Box::new(Reservoirs::<Paper, 4>::new(first, target, bvh, saoh, count)?),
+        Method::TwoLevelMomentsRestir => Box::new(Reservoirs::<Standard, WIDTH>::new(
+            first, target, bvh, usual, count,
+        )?),
     })
 }
 

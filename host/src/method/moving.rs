@@ -1,23 +1,24 @@
-//! The lights of a scene kept in a two-level light BVH from frame to frame: instances moved, changed bounds refitted, the
+//! The lights of a scene kept in a two-level light BVH from frame to frame: instances moved, what changed refitted, the
 //! top level rebuilt beside the frame and swapped in at the start of the next (paper sections 3.4 and 3.5).
 
 use std::time::Instant;
 
 use lightbvh::{BuildParams, Rebuilder, RebuilderParams};
+use lightbvh_kernels::bvh::Choice;
 
 use super::{Step, UpdateTimes};
-use crate::backend::{Backend, LightScene};
+use crate::backend::{Follow, LightScene};
 use crate::error::HostError;
 use crate::scene::Instances;
 
 /// Moving lights, their rebuilder, and where they stand.
-pub(super) struct Moving {
-    scene: LightScene,
+pub(super) struct Moving<C: Choice<W>, const W: usize> {
+    scene: LightScene<C, W>,
     instances: Instances,
-    rebuilder: Rebuilder<lightbvh_kernels::bvh::Node, { lightbvh_kernels::bvh::WIDTH }>,
+    rebuilder: Rebuilder<C::Node, W>,
 }
 
-impl Moving {
+impl<C: Choice<W>, const W: usize> Moving<C, W> {
     /// The lights at the first frame, built.
     pub fn new(first: &Step<'_>, params: BuildParams) -> Result<Self, HostError> {
         let (scene, instances) =
@@ -36,16 +37,16 @@ impl Moving {
     }
 
     /// The lights as last advanced to.
-    pub fn scene(&self) -> &LightScene {
+    pub fn scene(&self) -> &LightScene<C, W> {
         &self.scene
     }
 
     /// Brings the lights to the next frame, and `backend`, if any, after them. Refit is all that the frame's thread does for
-    /// it: swapping in the rebuilt tree, noting what moved, and new bounds (those of `backend`, where there is one).
+    /// it: swapping in the rebuilt tree, noting what moved, and new summaries (those of `backend`, where there is one).
     pub fn advance(
         &mut self,
         step: &Step<'_>,
-        backend: Option<&mut (dyn Backend + '_)>,
+        backend: Option<&mut (dyn Follow<C, W> + '_)>,
     ) -> Result<UpdateTimes, HostError> {
         // Following the animation is the scene's business, whichever method renders it.
         let edits = self.instances.edits(step.scene, step.frame);
@@ -58,7 +59,7 @@ impl Moving {
         })?;
         self.scene.plan();
         let mut refit = began.elapsed().saturating_sub(start.waited);
-        let own = |scene: &mut LightScene| {
+        let own = |scene: &mut LightScene<C, W>| {
             let began = Instant::now();
             scene.refit();
             began.elapsed()

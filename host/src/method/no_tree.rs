@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use lightbvh::BuildParams;
+use lightbvh_kernels::bvh::{Standard, WIDTH};
 
 use super::{Chain, Runner, Step, Target, UpdateTimes, render};
 use crate::backend::{Backend, Sampler, SceneArrays, Timed};
@@ -38,7 +39,7 @@ impl<'d> NoTree<'d> {
     fn new(first: &Step<'_>, target: Target<'d>, sampler: Sampler) -> Result<Self, HostError> {
         // Backends come with a tree; this one is never walked.
         let bvh = build(first.lights, Sampler::TwoLevel, &BuildParams::default());
-        let backend = target.backend(bvh, first.lights)?;
+        let backend = target.backend::<Standard, WIDTH>(bvh, first.lights)?;
         Ok(Self { sampler, backend })
     }
 }

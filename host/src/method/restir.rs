@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use lightbvh::BuildParams;
 use lightbvh::exact::hash;
-use lightbvh_kernels::bvh::BvhPicker;
+use lightbvh_kernels::bvh::{BvhPicker, Choice, Standard, WIDTH};
 
 use super::moving::Moving;
 use super::{Chain, History, Runner, Step, Target, UpdateTimes};
@@ -32,15 +32,15 @@ pub enum Count {
 }
 
 /// ReSTIR with one history per pixel or several that know nothing of each other.
-pub struct Reservoirs<'d> {
+pub struct Reservoirs<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     options: RestirOptions,
     count: Count,
     target: Target<'d>,
-    moving: Moving,
-    chains: BTreeMap<Chain, Vec<Box<dyn Restir + 'd>>>,
+    moving: Moving<C, W>,
+    chains: BTreeMap<Chain, Vec<Box<dyn Restir<C, W> + 'd>>>,
 }
 
-impl<'d> Reservoirs<'d> {
+impl<'d, C: Choice<W>, const W: usize> Reservoirs<'d, C, W> {
     /// Before the first image; a light BVH is built as `params` say.
     ///
     /// # Errors
@@ -62,7 +62,7 @@ impl<'d> Reservoirs<'d> {
     }
 }
 
-impl Runner for Reservoirs<'_> {
+impl<C: Choice<W>, const W: usize> Runner for Reservoirs<'_, C, W> {
     fn advance(&mut self, step: &Step<'_>) -> Result<UpdateTimes, HostError> {
         match self.options.source {
             CandidateSource::LightBvh => self.moving.advance(step, None),
@@ -97,10 +97,10 @@ impl Runner for Reservoirs<'_> {
         }
         let histories = self.chains.entry(chain).or_insert_with(|| {
             (0..count.histories(&options, shot.samples))
-                .map(|_| -> Box<dyn Restir> {
+                .map(|_| -> Box<dyn Restir<C, W>> {
                     match target {
-                        Target::Cpu => Box::new(CpuRestir::new(options)),
-                        Target::Device(device) => Box::new(DeviceRestir::new(device, options)),
+                        Target::Cpu => Box::new(CpuRestir::<C, W>::new(options)),
+                        Target::Device(device) => Box::new(DeviceRestir::<C, W>::new(device, options)),
                     }
                 })
                 .collect()
@@ -113,10 +113,7 @@ impl Runner for Reservoirs<'_> {
         for (number, history) in (0..).zip(histories) {
             let part = history.frame(&RestirFrame {
                 scene: arrays,
-                bvh: BvhPicker {
-                    tree: self.moving.scene().tree(),
-                    two_level: true,
-                },
+                bvh: BvhPicker::new(self.moving.scene().tree()),
                 width: shot.width,
                 height: shot.height,
                 seed: hash(hash(shot.seed).wrapping_add(number)).wrapping_add(step.frame),

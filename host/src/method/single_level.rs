@@ -1,10 +1,12 @@
 //! One light BVH over all triangles: refitted only, as in Mogwai, the paper's baseline; or built anew every frame, the best
 //! that a single level can do.
 
+use std::marker::PhantomData;
 use std::sync::Arc;
 use std::time::Instant;
 
 use lightbvh::BuildParams;
+use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
 
 use super::{Chain, Runner, Step, Target, UpdateTimes, render};
 use crate::backend::{Backend, Sampler, SceneArrays, Timed};
@@ -12,14 +14,15 @@ use crate::error::HostError;
 use crate::workload::{Shot, build};
 
 /// A single-level light BVH.
-pub struct SingleLevel<'d> {
+pub struct SingleLevel<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     params: BuildParams,
     rebuilds: bool,
     target: Target<'d>,
     backend: Box<dyn Backend + 'd>,
+    choice: PhantomData<C>,
 }
 
-impl<'d> SingleLevel<'d> {
+impl<'d, C: Choice<W>, const W: usize> SingleLevel<'d, C, W> {
     /// Built as `params` say at the first frame and refitted ever after.
     ///
     /// # Errors
@@ -47,12 +50,13 @@ impl<'d> SingleLevel<'d> {
             params,
             rebuilds,
             target,
-            backend: target.backend(bvh, first.lights)?,
+            backend: target.backend::<C, W>(bvh, first.lights)?,
+            choice: PhantomData,
         })
     }
 }
 
-impl Runner for SingleLevel<'_> {
+impl<C: Choice<W>, const W: usize> Runner for SingleLevel<'_, C, W> {
     fn advance(&mut self, step: &Step<'_>) -> Result<UpdateTimes, HostError> {
         let mut times = UpdateTimes::default();
         if self.rebuilds {
@@ -60,7 +64,7 @@ impl Runner for SingleLevel<'_> {
             let bvh = build(step.lights, Sampler::SingleLevel, &self.params);
             times.rebuild = start.elapsed();
             times.wait = times.rebuild;
-            self.backend = self.target.backend(bvh, step.lights)?;
+            self.backend = self.target.backend::<C, W>(bvh, step.lights)?;
         } else {
             times.refit = self.backend.refit(step.lights)?.time;
         }

@@ -3,37 +3,43 @@
 use std::sync::Arc;
 
 use lightbvh::BuildParams;
+use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
 
 use super::moving::Moving;
 use super::{Chain, Runner, Step, Target, UpdateTimes, render};
-use crate::backend::{Backend, CpuBackend, DeviceBackend, Sampler, SceneArrays, Timed};
+use crate::backend::{Backend, CpuBackend, DeviceBackend, Follow, Sampler, SceneArrays, Timed};
 use crate::error::HostError;
 use crate::workload::Shot;
 
 /// A two-level light BVH.
-pub struct TwoLevel<'d> {
-    moving: Moving,
-    backend: Box<dyn Backend + 'd>,
+pub struct TwoLevel<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
+    moving: Moving<C, W>,
+    backend: Box<dyn Follow<C, W> + 'd>,
 }
 
-impl<'d> TwoLevel<'d> {
+impl<'d, C: Choice<W>, const W: usize> TwoLevel<'d, C, W> {
     /// Built as `params` say at the first frame.
     ///
     /// # Errors
     /// [`HostError`] from a device, or for lights outside the domain.
     pub fn new(first: &Step<'_>, target: Target<'d>, params: BuildParams) -> Result<Self, HostError> {
-        let moving = Moving::new(first, params)?;
-        let backend: Box<dyn Backend + 'd> = match target {
-            Target::Cpu => Box::new(CpuBackend::new(moving.scene().clone(), first.lights.clone())),
-            Target::Device(device) => {
-                Box::new(DeviceBackend::of_scene(device, moving.scene(), first.lights)?)
-            }
+        let moving = Moving::<C, W>::new(first, params)?;
+        let backend: Box<dyn Follow<C, W> + 'd> = match target {
+            Target::Cpu => Box::new(CpuBackend::<C, W>::new(
+                moving.scene().clone(),
+                first.lights.clone(),
+            )),
+            Target::Device(device) => Box::new(DeviceBackend::<C, W>::of_scene(
+                device,
+                moving.scene(),
+                first.lights,
+            )?),
         };
         Ok(Self { moving, backend })
     }
 }
 
-impl Runner for TwoLevel<'_> {
+impl<C: Choice<W>, const W: usize> Runner for TwoLevel<'_, C, W> {
     fn advance(&mut self, step: &Step<'_>) -> Result<UpdateTimes, HostError> {
         self.moving.advance(step, Some(&mut *self.backend))
     }

@@ -4,9 +4,7 @@ use std::collections::BTreeMap;
 
 use lightbvh::light::TWO_SIDED;
 use lightbvh::scene::EditError;
-use lightbvh::{BuildParams, Edit, EmissiveTriangle, InstanceId, MeshId};
-
-use crate::backend::LightScene;
+use lightbvh::{BuildParams, Edit, EmissiveTriangle, InstanceId, LightNode, MeshId};
 
 use super::animate::world_transforms;
 use super::frame::{FRAMES_PER_SECOND, emits};
@@ -28,10 +26,14 @@ impl Instances {
     ///
     /// # Errors
     /// [`EditError`] for lights outside the domain.
-    pub fn new(scene: &Scene, frame: u32, params: BuildParams) -> Result<(LightScene, Self), EditError> {
+    pub fn new<N: LightNode<W>, const W: usize>(
+        scene: &Scene,
+        frame: u32,
+        params: BuildParams,
+    ) -> Result<(lightbvh::Scene<N, W>, Self), EditError> {
         let data = scene.data();
         let world = world_at(scene, frame);
-        let mut lights = LightScene::new(params);
+        let mut lights = lightbvh::Scene::new(params);
         let mut meshes: BTreeMap<(u32, usize), MeshId> = BTreeMap::new();
         let mut add = Vec::new();
         let mut nodes = Vec::new();
@@ -128,13 +130,14 @@ fn emissive_of(scene: &Scene, mesh: u32) -> Vec<Vec<EmissiveTriangle>> {
 mod tests {
     use super::*;
     use crate::scene::BUILT_IN;
+    use lightbvh_kernels::bvh::{Node, WIDTH};
 
     #[test]
     fn instances_stand_where_the_frame_has_its_lights() {
         for name in BUILT_IN {
             let scene = Scene::open(name).expect("built in");
             let (mut lights, mut instances) =
-                Instances::new(&scene, 3, BuildParams::default()).expect("sound");
+                Instances::new::<Node, WIDTH>(&scene, 3, BuildParams::default()).expect("sound");
             for frame in [3, 40] {
                 lights.update(instances.edits(&scene, frame)).expect("sound");
                 lights.refit();
@@ -157,7 +160,8 @@ mod tests {
     #[test]
     fn what_stands_still_is_not_edited() {
         let scene = Scene::open("street").expect("built in");
-        let (_, mut instances) = Instances::new(&scene, 7, BuildParams::default()).expect("sound");
+        let (_, mut instances) =
+            Instances::new::<Node, WIDTH>(&scene, 7, BuildParams::default()).expect("sound");
         assert!(instances.edits(&scene, 7).is_empty());
         let moved = instances.edits(&scene, 8).len();
         assert!(

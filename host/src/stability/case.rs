@@ -101,7 +101,7 @@ pub fn moving_scene(
         frame: 0,
         source,
     };
-    let mut scene = LightScene::new(*params);
+    let mut scene: LightScene = lightbvh::Scene::new(*params);
     let edits = meshes.iter().map(|triangles| Edit::AddMesh {
         triangles: triangles.clone(),
     });

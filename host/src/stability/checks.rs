@@ -5,19 +5,19 @@ use std::fmt::Write as _;
 use lightbvh::{EmissiveTriangle, INVALID, LightBounds, ShadingPoint};
 use rayon::prelude::*;
 
-use super::geometry::{can_contribute, contribution, may_lose_its_area, sum_tolerance};
+use super::geometry::{contribution, may_lose_its_area};
 use super::random::{Random, adversarial};
 use super::row::{Check, Row};
 use super::statistics::{chi_squared, chi_squared_quantile};
 use super::subject::Subject;
 
-/// What rounding of the input may decide, as a part of the distance.
-const MARGIN: f64 = 1e-6;
+/// |Σ pmf − 1|: a tree's probabilities are shares of one range of numbers; each is rounded where the uniform share is added.
+const SUM: f64 = 1.0 / 4_194_304.0;
 /// Chance that right frequencies exceed their threshold, for one tree under one extreme.
 const FREQUENCY_TAIL: f64 = 1e-6;
 /// Chance that a right estimate exceeds its bound, for one point.
 const BIAS_TAIL: f64 = 1e-9;
-/// Share of the sum that the estimate may be off beside that: rounding of pmfs, and light that grazes within [`MARGIN`].
+/// Share of the sum that the estimate may be off beside that, for rounding of pmfs.
 const BIAS_ROUNDING: f64 = 1e-5;
 /// Least count that is expected of a cell of the χ² test; fewer are put together with their neighbours.
 const LEAST_EXPECTED: f64 = 8.0;
@@ -82,7 +82,8 @@ pub fn check(
             sum.most((total - 1.0).abs(), || place(&format!("sum {total}")));
         }
         let lost = |i: &usize| {
-            seen.pmfs[*i] == 0.0 && shines(&lights[*i]) && can_contribute(&lights[*i], point, MARGIN)
+            let light = &lights[*i];
+            light.luminance() > 0.0 && shines(light) && subject.pmf_by_weights(point, *i as u32) == 0.0
         };
         let lost: Vec<usize> = (0..lights.len()).into_par_iter().filter(lost).collect();
         starved.count(lost.len(), || {
@@ -126,7 +127,7 @@ pub fn check(
         |check, worst: Worst, bound| Row::new(extreme, structure, check, worst.value, bound).at(worst.at);
     vec![
         row(Check::Finite, finite, 0.0),
-        row(Check::Sum, sum, sum_tolerance(subject.depth())),
+        row(Check::Sum, sum, SUM),
         row(Check::Equal, equal, 0.0),
         row(Check::Starved, starved, 0.0),
         Row::new(extreme, structure, Check::Frequencies, frequencies, 1.0).at(Some(detail)),

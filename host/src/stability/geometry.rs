@@ -62,13 +62,6 @@ pub fn can_contribute(light: &EmissiveTriangle, point: &ShadingPoint, margin: f6
     in_front && (n == DVec3::ZERO || triangle.p.iter().any(above))
 }
 
-/// By how much a sum of pmfs may be off 1: every factor of every pmf is rounded by at most 2^-24, and adopted masses add
-/// as many roundings again.
-#[must_use]
-pub fn sum_tolerance(depth: u32) -> f64 {
-    f64::from(depth * 4 + 8) * 2f64.powi(-24)
-}
-
 /// Whether rounding in `f32` may leave nothing of the triangle's area: it is below 2^-21 of the product of two of its edges.
 /// Such a light may count as one without area, and then emits nothing.
 #[must_use]

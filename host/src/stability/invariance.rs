@@ -2,6 +2,7 @@
 
 use glam::{DMat3, DQuat, DVec3};
 use lightbvh::{BuildParams, EmissiveTriangle, Lights, ShadingPoint, exact};
+use lightbvh_kernels::bvh::WIDTH;
 use rayon::prelude::*;
 
 use super::case::{around, door};
@@ -9,7 +10,7 @@ use super::cases::scattered;
 use super::checks::{all_pmfs, relative_deviation};
 use super::random::Random;
 use super::row::{Check, Row};
-use super::walked;
+use super::{Importance, walked};
 use crate::backend::{Bvh, Sampler};
 use crate::error::HostError;
 use crate::workload;
@@ -93,7 +94,7 @@ impl Scene {
             lights = door("invariance", self.lights.clone())?;
             bvh.refit(&lights);
         }
-        let tree = walked(&bvh, &lights);
+        let tree = walked::<_, Importance, WIDTH>(&bvh, &lights);
         let squares: Vec<f64> = self
             .points
             .par_iter()

@@ -15,17 +15,22 @@ pub mod statistics;
 pub mod subject;
 pub mod words;
 
-use lightbvh::{CompactNode, EmissiveTriangle, FullNode, Instance, LightBvh, LightNode, Lights, MeshLeaf};
-use lightbvh_kernels::bvh::WIDTH;
+use lightbvh::{
+    BoundsNode, CompactNode, EmissiveTriangle, Eq4, FullNode, ImportanceModel, LightBvh, LightNode, Lights,
+};
+use lightbvh_kernels::bvh::{Choice, Node, Standard, WIDTH};
 
 use self::case::{Case, Source, door, moving_scene};
 use self::row::{Check, Row};
 use self::subject::{Subject, Walked};
 use self::words::Compared;
-use crate::backend::{Bvh, Sampler};
+use crate::backend::Sampler;
 use crate::error::HostError;
 use crate::vulkan::Device;
 use crate::workload;
+
+/// Importance of the default choice.
+pub type Importance = <Standard as Choice<WIDTH>>::Importance;
 
 /// How much is done.
 #[derive(Clone, Copy, Debug)]
@@ -83,12 +88,7 @@ pub fn run(case: &Case, effort: &Effort, devices: &[&Device], found: &mut Found)
             };
             let mut refitted = scene.clone();
             refitted.refit();
-            let depth = refitted.validate().map_or(u32::MAX, |stats| stats.depth);
-            let tree = Walked::<_, _, WIDTH> {
-                tree: refitted.tree(),
-                lights: lights.triangles(),
-                depth,
-            };
+            let tree = Walked::<_, Importance, WIDTH>::new(refitted.tree(), lights.triangles());
             found.rows.extend(checks::check(
                 &case.name,
                 "instances",
@@ -123,8 +123,8 @@ fn world(
         effort.samples
     };
     for sampler in [Sampler::SingleLevel, Sampler::TwoLevel] {
-        let bvh: Bvh = workload::build(&lights, sampler, &case.params);
-        let tree = walked(&bvh, &lights);
+        let bvh = workload::build::<Node, WIDTH>(&lights, sampler, &case.params);
+        let tree = walked::<_, Importance, WIDTH>(&bvh, &lights);
         found.rows.extend(checks::check(
             &case.name,
             sampler.name(),
@@ -148,11 +148,12 @@ fn world(
     Ok(())
 }
 
-/// Trees of two-wide nodes, the deepest there are: on the CPU alone, since kernels are compiled for one layout.
-fn narrow<N: LightNode<2>>(case: &Case, lights: &Lights, samples: u32, found: &mut Found) {
-    let bvh: LightBvh<N, 2, Instance> = LightBvh::two_level(lights, &case.params).with_leaves();
+/// Trees of two-wide nodes, the deepest there are, by the paper's importance: on the CPU alone, since no kernels are compiled
+/// for them.
+fn narrow<N: BoundsNode<2>>(case: &Case, lights: &Lights, samples: u32, found: &mut Found) {
+    let bvh = LightBvh::<N, 2>::two_level(lights, &case.params);
     let structure = format!("two-level {} 2-wide", N::NAME);
-    let tree = walked(&bvh, lights);
+    let tree = walked::<N, Eq4, 2>(&bvh, lights);
     if case.least_depth > 0 {
         let missing = f64::from(case.least_depth.saturating_sub(tree.depth()));
         found
@@ -168,17 +169,13 @@ fn narrow<N: LightNode<2>>(case: &Case, lights: &Lights, samples: u32, found: &m
     ));
 }
 
-/// A tree over triangles in the world.
+/// A tree over triangles in the world, walked by importance `I`.
 #[must_use]
-pub fn walked<'a, N: LightNode<W>, L: MeshLeaf, const W: usize>(
-    bvh: &'a LightBvh<N, W, L>,
+pub fn walked<'a, N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    bvh: &'a LightBvh<N, W>,
     lights: &'a Lights,
-) -> Walked<'a, N, L, W> {
-    Walked {
-        tree: bvh.tree(),
-        lights: lights.triangles(),
-        depth: bvh.depth(),
-    }
+) -> Walked<'a, N, I, W> {
+    Walked::new(bvh.tree(), lights.triangles())
 }
 
 fn on_devices(

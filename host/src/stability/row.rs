@@ -13,7 +13,7 @@ pub enum Check {
     /// Samples whose pmf is not, to the bit, the one evaluated for the light; and samples without a light where one has a
     /// probability.
     Equal,
-    /// Lights that can contribute and have no probability.
+    /// Lights with flux that have no probability by weights alone, without a uniform share.
     Starved,
     /// χ² of the frequencies of lights, over its threshold.
     Frequencies,
@@ -79,31 +79,31 @@ impl Check {
         match self {
             Self::Finite => "probabilities that are not numbers in [0, 1]; none may be",
             Self::Sum => {
-                "|sum of pmf - 1|; each factor of a pmf is rounded by 2^-24 at most and adopted masses as often again: \
-                 (4 depth + 8) 2^-24"
+                "|sum of pmf - 1|; a tree's probabilities are exact shares of one range of numbers, and adding the uniform \
+                 share rounds each by 3 times 2^-24 at most: 2^-22"
             }
             Self::Equal => {
-                "samples whose pmf differs from the evaluated one in any bit, or without a light though one can be reached; \
-                 both are the same products in the same order, so none"
+                "samples whose pmf differs from the evaluated one in any bit, or without a light though one has a \
+                 probability; both come from the same range of numbers, so none"
             }
             Self::Starved => {
-                "lights that can contribute by geometry in f64, by more than 1e-6 of the distance, and have no probability; \
-                 bounds are rounded outward, so none"
+                "lights with flux that have no probability by weights alone; weights are positive wherever there is flux, so \
+                 none"
             }
             Self::Frequencies => {
                 "chi-square of lights drawn against probabilities, over its quantile with a tail of 1e-6"
             }
             Self::Bias => {
                 "error of unshadowed direct light by samples against the sum over all lights, over Bernstein's bound with \
-                 the exact variance and a tail of 1e-9 per point, 1e-5 relative added for rounding and grazing light"
+                 the exact variance and a tail of 1e-9 per point, 1e-5 relative added for rounding"
             }
             Self::Depth => "levels missing to what the extreme is to have",
             Self::SameBits => {
                 "probabilities that differ in any bit; the arithmetic is that of significands, so none"
             }
             Self::Variation => {
-                "share of samples that goes to other lights; new rounding of coordinates moves outward quantisation by a \
-                 step (1/128 of a box, 1/254 of a cone) here and there: 2 %"
+                "share of samples that goes to other lights; new rounding of coordinates moves quantised summaries by a \
+                 step here and there: 2 %"
             }
             Self::Deviation => {
                 "standard deviation of the estimate (root mean square over points), against the untouched scene; other \

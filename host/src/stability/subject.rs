@@ -1,53 +1,93 @@
 //! What is checked: lights, points to light, and trees over the lights.
 
+use std::marker::PhantomData;
+
 use lightbvh::{
-    EmissiveTriangle, Eq4, INVALID, LightNode, LightTree, MeshLeaf, SampledLight, ShadingPoint, traverse,
+    Defensive, EmissiveTriangle, Eq4, INVALID, ImportanceModel, LightNode, LightTree, Moments, Random64,
+    SampledLight, ShadingPoint, traverse,
 };
 
-/// A tree to be walked, whatever its nodes and leaves.
+/// A tree to be walked, whatever its nodes and importance.
 pub trait Subject: Sync {
     /// The lights, in the world.
     fn lights(&self) -> &[EmissiveTriangle];
-    /// Greatest number of nodes on a way from the root to a light.
+    /// Greatest number of nodes on a path from the root to a light.
     fn depth(&self) -> u32;
     /// Chooses a light.
     fn sample(&self, point: &ShadingPoint, random: u32) -> SampledLight;
     /// Evaluates the probability of a light.
     fn pmf(&self, point: &ShadingPoint, light: u32) -> f32;
+    /// The same by weights alone, without a uniform share.
+    fn pmf_by_weights(&self, point: &ShadingPoint, light: u32) -> f32;
 }
 
-/// A light tree of any layout.
-pub struct Walked<'a, N, L, const W: usize> {
-    /// The tree.
-    pub tree: LightTree<'a, N, L>,
-    /// Its lights in the world.
-    pub lights: &'a [EmissiveTriangle],
-    /// Its depth.
-    pub depth: u32,
+/// An importance, and what it is without a uniform share.
+pub trait Weighted: Sync {
+    /// The weights alone.
+    type Weights: Sync;
 }
 
-impl<N: LightNode<W>, L: MeshLeaf, const W: usize> Subject for Walked<'_, N, L, W> {
+impl Weighted for Eq4 {
+    type Weights = Self;
+}
+
+impl Weighted for Moments {
+    type Weights = Self;
+}
+
+impl<I: Sync, const HALVINGS: u32> Weighted for Defensive<I, HALVINGS> {
+    type Weights = I;
+}
+
+/// A light tree of any layout, walked by importance `I`.
+pub struct Walked<'a, N, I, const W: usize> {
+    tree: LightTree<'a, N>,
+    lights: &'a [EmissiveTriangle],
+    importance: PhantomData<I>,
+}
+
+impl<'a, N: LightNode<W>, I, const W: usize> Walked<'a, N, I, W> {
+    /// A tree over `lights`, which are in the world.
+    #[must_use]
+    pub fn new(tree: LightTree<'a, N>, lights: &'a [EmissiveTriangle]) -> Self {
+        Self {
+            tree,
+            lights,
+            importance: PhantomData,
+        }
+    }
+
+    fn pmf_by<J: ImportanceModel<N, W>>(&self, point: &ShadingPoint, light: u32) -> f32 {
+        let instance = match self.lights.get(light as usize) {
+            Some(triangle) if self.tree.live > 0 => triangle.mesh,
+            Some(_) => INVALID,
+            None => return 0.0,
+        };
+        traverse::pmf::<N, J, W>(&self.tree, point, light, instance)
+    }
+}
+
+impl<N: LightNode<W>, I: ImportanceModel<N, W> + Weighted, const W: usize> Subject for Walked<'_, N, I, W>
+where
+    I::Weights: ImportanceModel<N, W>,
+{
     fn lights(&self) -> &[EmissiveTriangle] {
         self.lights
     }
 
     fn depth(&self) -> u32 {
-        self.depth
+        self.tree.depth
     }
 
     fn sample(&self, point: &ShadingPoint, random: u32) -> SampledLight {
-        traverse::sample::<N, Eq4, L, W>(&self.tree, point, random)
+        traverse::sample::<N, I, W>(&self.tree, point, Random64::from(random))
     }
 
     fn pmf(&self, point: &ShadingPoint, light: u32) -> f32 {
-        let mesh = self.lights.get(light as usize).map(|triangle| triangle.mesh);
-        let mesh = if self.tree.meshes.is_empty() {
-            Some(INVALID)
-        } else {
-            mesh
-        };
-        mesh.map_or(0.0, |mesh| {
-            traverse::pmf::<N, Eq4, L, W>(&self.tree, point, light, mesh)
-        })
+        self.pmf_by::<I>(point, light)
+    }
+
+    fn pmf_by_weights(&self, point: &ShadingPoint, light: u32) -> f32 {
+        self.pmf_by::<I::Weights>(point, light)
     }
 }

@@ -2,13 +2,13 @@
 
 use bytemuck::cast_slice;
 use lightbvh::{INVALID, Lights, ShadingPoint};
-use lightbvh_kernels::bvh::Node;
+use lightbvh_kernels::bvh::{Node, WIDTH};
 use lightbvh_kernels::query::Query;
 
 use super::random::{Random, adversarial};
 use super::row::{Check, Row};
 use crate::backend::{
-    Backend, Bvh, CpuBackend, DeviceBackend, LightScene, NODE_RECORD, PMF_RECORD, SAMPLED_RECORD,
+    Backend, Bvh, CpuBackend, DeviceBackend, Follow, LightScene, PMF_RECORD, SAMPLED_RECORD,
 };
 use crate::compare::{Record, compare_words};
 use crate::error::HostError;
@@ -55,16 +55,16 @@ fn rows(
 ) -> Result<Vec<Row>, HostError> {
     let (mut cpu, mut other, nodes, found) = match compared {
         Compared::Bvh(bvh) => {
-            let mut cpu = CpuBackend::new((*bvh).clone(), lights.clone());
-            let mut other = DeviceBackend::new(device, bvh, lights)?;
-            other.write_nodes(&without_bounds(bvh.nodes()))?;
+            let mut cpu: CpuBackend = CpuBackend::new((*bvh).clone(), lights.clone());
+            let mut other: DeviceBackend<'_> = DeviceBackend::new(device, bvh, lights)?;
+            other.write_nodes(&without_summaries(bvh.nodes()))?;
             let nodes = cpu.refit(lights)?.value;
             let found = other.refit(lights)?.value;
             (cpu, other, nodes, found)
         }
         Compared::Moving(scene) => {
-            let mut cpu = CpuBackend::new((*scene).clone(), lights.clone());
-            let mut other = DeviceBackend::of_scene(device, scene, lights)?;
+            let mut cpu: CpuBackend = CpuBackend::new((*scene).clone(), lights.clone());
+            let mut other: DeviceBackend<'_> = DeviceBackend::of_scene(device, scene, lights)?;
             cpu.follow(scene, lights)?;
             other.follow(scene, lights)?;
             let (nodes, found) = (cpu.nodes()?, other.nodes()?);
@@ -77,12 +77,7 @@ fn rows(
         let row = Row::new(extreme, structure, check, comparison.different as f64, 0.0);
         Ok(row.on(device.name()).at(place))
     };
-    let mut out = vec![row(
-        Check::RefitWords,
-        &NODE_RECORD,
-        cast_slice(&nodes),
-        cast_slice(&found),
-    )?];
+    let mut out = vec![row(Check::RefitWords, &cpu.node_record(), &nodes, &found)?];
 
     let mut queries = queries(points);
     let sampled = cpu.sample(&queries)?.value;
@@ -113,11 +108,11 @@ fn rows(
 }
 
 /// Nodes with links alone, so that a refit has everything to compute.
-fn without_bounds(nodes: &[Node]) -> Vec<Node> {
+fn without_summaries(nodes: &[Node]) -> Vec<Node> {
     use lightbvh::LightNode;
     let mut out = nodes.to_vec();
     for node in &mut out {
-        for slot in 0..lightbvh_kernels::bvh::WIDTH {
+        for slot in 0..WIDTH {
             node.set_child(slot, node.kind(slot), node.link(slot));
         }
     }

@@ -1,8 +1,10 @@
 //! ReSTIR on the CPU: the kernels' functions for each pixel, over all cores of the current rayon pool.
 
+use std::marker::PhantomData;
 use std::sync::Arc;
 use std::time::Instant;
 
+use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
 use lightbvh_kernels::shading::pick::{PickLight, Power};
 use lightbvh_kernels::shading::pixel::Scene;
 use lightbvh_kernels::shading::restir::combine::{Biased, Combine, Unbiased};
@@ -21,10 +23,11 @@ use crate::backend::{SceneArrays, Timed};
 use crate::vulkan::VulkanError;
 
 /// ReSTIR on the CPU.
-pub struct CpuRestir {
+pub struct CpuRestir<C: Choice<W> = Standard, const W: usize = WIDTH> {
     options: RestirOptions,
     last: Option<Last>,
     shadow_rays: u64,
+    choice: PhantomData<C>,
 }
 
 /// The frame before.
@@ -35,7 +38,7 @@ struct Last {
     reservoirs: Vec<PixelReservoir>,
 }
 
-impl CpuRestir {
+impl<C: Choice<W>, const W: usize> CpuRestir<C, W> {
     /// Before the first frame.
     #[must_use]
     pub fn new(options: RestirOptions) -> Self {
@@ -43,12 +46,13 @@ impl CpuRestir {
             options,
             last: None,
             shadow_rays: 0,
+            choice: PhantomData,
         }
     }
 }
 
-impl Restir for CpuRestir {
-    fn frame(&mut self, frame: &RestirFrame<'_>) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
+impl<C: Choice<W>, const W: usize> Restir<C, W> for CpuRestir<C, W> {
+    fn frame(&mut self, frame: &RestirFrame<'_, C, W>) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
         let start = Instant::now();
         let params = params(&self.options, frame);
         let view = frame.scene.view();

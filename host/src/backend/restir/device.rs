@@ -1,11 +1,12 @@
 //! ReSTIR on a Vulkan device.
 
+use std::marker::PhantomData;
 use std::sync::Arc;
 use std::time::Duration;
 
-use bytemuck::bytes_of;
+use bytemuck::{Pod, bytes_of};
 use lightbvh::{EmissiveTriangle, Instance};
-use lightbvh_kernels::bvh::{BvhPicker, Node, TreePush};
+use lightbvh_kernels::bvh::{BvhPicker, Choice, Standard, TreePush, WIDTH};
 use lightbvh_kernels::restir::RestirPush;
 use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::material::Material;
@@ -23,11 +24,12 @@ use crate::vulkan::{Binding, Buffer, Device, Pass, VulkanError};
 const WORK_PER_PASS: usize = 1 << 21;
 
 /// ReSTIR on a device.
-pub struct DeviceRestir<'d> {
+pub struct DeviceRestir<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     device: &'d Device,
     options: RestirOptions,
     last: Option<Last>,
     shadow_rays: u64,
+    choice: PhantomData<C>,
 }
 
 /// A frame's scene on the device.
@@ -49,17 +51,18 @@ struct Last {
 }
 
 /// What initial candidates are drawn from.
-enum SourceBuffers {
+enum SourceBuffers<N> {
     Power(Buffer<u32>),
-    LightBvh(Box<TreeBuffers>),
+    LightBvh(Box<TreeBuffers<N>>),
 }
 
 /// A light BVH on the device.
-struct TreeBuffers {
-    nodes: Buffer<Node>,
-    meshes: Buffer<Instance>,
+struct TreeBuffers<N> {
+    nodes: Buffer<N>,
+    instances: Buffer<Instance>,
     trails: Buffer<u32>,
     push: TreePush,
+    kernel: String,
 }
 
 impl SceneBuffers {
@@ -84,12 +87,12 @@ impl SceneBuffers {
     }
 }
 
-impl SourceBuffers {
-    fn upload(
+impl<N: Pod> SourceBuffers<N> {
+    fn upload<C: Choice<W, Node = N>, const W: usize>(
         device: &Device,
         source: CandidateSource,
         scene: &SceneArrays,
-        bvh: &BvhPicker<'_>,
+        bvh: &BvhPicker<'_, C, W>,
     ) -> Result<Self, VulkanError> {
         Ok(match source {
             CandidateSource::Power => Self::Power(device.upload(&scene.thresholds)?),
@@ -97,29 +100,26 @@ impl SourceBuffers {
                 let tree = bvh.tree;
                 Self::LightBvh(Box::new(TreeBuffers {
                     nodes: device.upload(tree.nodes)?,
-                    meshes: device.upload(tree.meshes)?,
+                    instances: device.upload(tree.instances)?,
                     trails: device.upload(tree.trails)?,
-                    push: TreePush {
-                        root: tree.root,
-                        trail_words: tree.trail_words,
-                        two_level: u32::from(bvh.two_level),
-                    },
+                    push: TreePush::of(&tree),
+                    kernel: format!("restir_initial_bvh{}", C::SUFFIX),
                 }))
             }
         })
     }
 
-    fn kernel(&self) -> &'static str {
+    fn kernel(&self) -> &str {
         match self {
             Self::Power(_) => "restir_initial_power",
-            Self::LightBvh(_) => "restir_initial_bvh",
+            Self::LightBvh(tree) => &tree.kernel,
         }
     }
 
     fn bindings(&self) -> Vec<Binding<'_>> {
         match self {
             Self::Power(thresholds) => vec![thresholds.bind()],
-            Self::LightBvh(tree) => vec![tree.nodes.bind(), tree.meshes.bind(), tree.trails.bind()],
+            Self::LightBvh(tree) => vec![tree.nodes.bind(), tree.instances.bind(), tree.trails.bind()],
         }
     }
 
@@ -131,7 +131,7 @@ impl SourceBuffers {
     }
 }
 
-impl<'d> DeviceRestir<'d> {
+impl<'d, C: Choice<W>, const W: usize> DeviceRestir<'d, C, W> {
     /// Before the first frame.
     #[must_use]
     pub fn new(device: &'d Device, options: RestirOptions) -> Self {
@@ -140,6 +140,7 @@ impl<'d> DeviceRestir<'d> {
             options,
             last: None,
             shadow_rays: 0,
+            choice: PhantomData,
         }
     }
 
@@ -173,7 +174,7 @@ impl<'d> DeviceRestir<'d> {
     /// Pass 2.
     fn over_time(
         &self,
-        frame: &RestirFrame<'_>,
+        frame: &RestirFrame<'_, C, W>,
         last: &Last,
         params: &RestirParams,
         scene: &SceneBuffers,
@@ -212,8 +213,8 @@ impl<'d> DeviceRestir<'d> {
     }
 }
 
-impl Restir for DeviceRestir<'_> {
-    fn frame(&mut self, frame: &RestirFrame<'_>) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
+impl<C: Choice<W>, const W: usize> Restir<C, W> for DeviceRestir<'_, C, W> {
+    fn frame(&mut self, frame: &RestirFrame<'_, C, W>) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
         let device = self.device;
         let mut params = params(&self.options, frame);
         let pixels = frame.width as usize * frame.height as usize;

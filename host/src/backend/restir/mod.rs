@@ -10,7 +10,7 @@ pub use device::DeviceRestir;
 
 use std::sync::Arc;
 
-use lightbvh_kernels::bvh::BvhPicker;
+use lightbvh_kernels::bvh::{BvhPicker, Choice, Standard, WIDTH};
 use lightbvh_kernels::shading::restir::surface::Surface;
 use lightbvh_kernels::shading::restir::{PixelReservoir, RestirParams};
 use lightbvh_kernels::shading::trace::NONE;
@@ -162,11 +162,11 @@ impl LightRemap {
 
 /// One frame to render.
 #[derive(Clone, Copy)]
-pub struct RestirFrame<'a> {
+pub struct RestirFrame<'a, C: Choice<W> = Standard, const W: usize = WIDTH> {
     /// The scene; kept until the next frame, which asks what it hid from whom.
     pub scene: &'a Arc<SceneArrays>,
     /// The light BVH over its lights; used by [`CandidateSource::LightBvh`] only.
-    pub bvh: BvhPicker<'a>,
+    pub bvh: BvhPicker<'a, C, W>,
     /// Columns.
     pub width: u32,
     /// Rows.
@@ -182,7 +182,7 @@ pub struct RestirFrame<'a> {
 }
 
 /// ReSTIR over frames in a row. Equal frames give equal words, whatever runs them.
-pub trait Restir {
+pub trait Restir<C: Choice<W> = Standard, const W: usize = WIDTH> {
     /// Renders the next frame: direct lighting, W/(m² sr), by rows from the upper left.
     ///
     /// The history ends, as by [`reset`](Self::reset), where it cannot be used: the image has another size, reflectances
@@ -190,7 +190,7 @@ pub trait Restir {
     ///
     /// # Errors
     /// [`VulkanError`] from a device.
-    fn frame(&mut self, frame: &RestirFrame<'_>) -> Result<Timed<Vec<[f32; 3]>>, VulkanError>;
+    fn frame(&mut self, frame: &RestirFrame<'_, C, W>) -> Result<Timed<Vec<[f32; 3]>>, VulkanError>;
 
     /// Forgets the frames so far.
     fn reset(&mut self);
@@ -231,7 +231,10 @@ pub const RESERVOIR_RECORD: Record = Record {
 };
 
 /// Parameters of the passes.
-fn params(options: &RestirOptions, frame: &RestirFrame<'_>) -> RestirParams {
+fn params<C: Choice<W>, const W: usize>(
+    options: &RestirOptions,
+    frame: &RestirFrame<'_, C, W>,
+) -> RestirParams {
     RestirParams {
         width: frame.width,
         height: frame.height,
@@ -249,7 +252,11 @@ fn params(options: &RestirOptions, frame: &RestirFrame<'_>) -> RestirParams {
 }
 
 /// Whether the history of `before`, seen in an image of `size`, can be used for `frame`.
-fn continues(before: &SceneArrays, size: (u32, u32), frame: &RestirFrame<'_>) -> bool {
+fn continues<C: Choice<W>, const W: usize>(
+    before: &SceneArrays,
+    size: (u32, u32),
+    frame: &RestirFrame<'_, C, W>,
+) -> bool {
     let (then, now) = (
         before.lights.triangles().len(),
         frame.scene.lights.triangles().len(),

@@ -13,7 +13,7 @@ use lightbvh_kernels::bvh::{Node, WIDTH};
 pub(super) use self::report::print;
 use self::report::{Report, Row, Spread};
 use self::world::{Change, World};
-use crate::backend::{Backend, DeviceBackend};
+use crate::backend::{DeviceBackend, Follow};
 use crate::cli::devices::Opened;
 use crate::error::HostError;
 
@@ -155,7 +155,7 @@ fn device(
     scale: &Scale,
 ) -> Result<Row, HostError> {
     let lights = world.lights();
-    let mut backend = DeviceBackend::of_scene(&opened.device, &world.scene, &lights)?;
+    let mut backend: DeviceBackend<'_> = DeviceBackend::of_scene(&opened.device, &world.scene, &lights)?;
     let (mut update, mut refit) = (Vec::new(), Vec::new());
     let mut nodes = 0;
     // The first frame compiles.
@@ -227,10 +227,12 @@ fn copy(world: &mut World) -> (Spread, usize) {
     scene.update(edits).expect("the edits are within the domain");
     scene.refit();
     let work = scene.work();
-    let mut top: Vec<u32> = [&work.instances[..], work.top.nodes()].concat();
-    top.sort_unstable();
-    top.dedup();
-    let nodes: Vec<Node> = top.iter().map(|&i| scene.nodes()[i as usize]).collect();
+    let nodes: Vec<Node> = work
+        .top
+        .nodes()
+        .iter()
+        .map(|&i| scene.nodes()[i as usize])
+        .collect();
     let instances: Vec<Instance> = scene.instances().to_vec();
     let (mut to_nodes, mut to_instances) = (nodes.clone(), instances.clone());
     let times = (0..FRAMES).map(|_| {

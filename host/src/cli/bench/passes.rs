@@ -3,20 +3,22 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use lightbvh::{BuildParams, LightBvh, Lights, SampledLight};
-use lightbvh_kernels::bvh::{Importance, Node, WIDTH};
+use lightbvh::{Lights, Random64, SampledLight, ShadingPoint};
 use lightbvh_kernels::query::Query;
+use rayon::prelude::*;
 
-use crate::backend::{Backend, Sampler};
+use crate::backend::{Backend, Bvh};
 use crate::error::HostError;
+use crate::stability::Importance;
 
+/// Samples of a batch that one thread takes.
+const BATCH: usize = 4096;
 /// Runs of each measurement; the median counts.
 const RUNS: usize = 5;
 
 /// Times of several runs of each pass.
 pub(super) struct Times {
     pub refit: Vec<Duration>,
-    pub refit_once: Vec<Duration>,
     pub sample: Vec<Duration>,
     pub pmf: Vec<Duration>,
 }
@@ -28,14 +30,12 @@ pub(super) fn passes(
 ) -> Result<Times, HostError> {
     let mut times = Times {
         refit: Vec::new(),
-        refit_once: Vec::new(),
         sample: Vec::new(),
         pmf: Vec::new(),
     };
     // A device compiles at the first dispatch; that run is not counted.
     for run in 0..=RUNS {
         let refit = backend.refit(lights)?.time;
-        let refit_once = backend.refit_once(lights)?.time;
         let sampled = backend.sample(queries)?;
         let asked: Vec<Query> = queries
             .iter()
@@ -48,7 +48,6 @@ pub(super) fn passes(
         let pmf = backend.pmf(&asked)?.time;
         if run > 0 {
             times.refit.push(refit);
-            times.refit_once.push(refit_once);
             times.sample.push(sampled.time);
             times.pmf.push(pmf);
         }
@@ -57,12 +56,7 @@ pub(super) fn passes(
 }
 
 /// The passes by the library alone, on this thread.
-pub(super) fn library_passes(structure: Sampler, lights: &Lights, queries: &[Query]) -> Times {
-    let params = BuildParams::default();
-    let mut bvh: LightBvh<Node, WIDTH> = match structure {
-        Sampler::SingleLevel => LightBvh::single_level(lights, &params),
-        _ => LightBvh::two_level(lights, &params),
-    };
+pub(super) fn library_passes(mut bvh: Bvh, lights: &Lights, queries: &[Query]) -> Times {
     let mut sampled = vec![SampledLight::NONE; queries.len()];
     let mut pmfs = vec![0.0; queries.len()];
     let refit = measure(|| bvh.refit(lights));
@@ -77,12 +71,24 @@ pub(super) fn library_passes(structure: Sampler, lights: &Lights, queries: &[Que
         }
     });
     black_box((&sampled, &pmfs));
-    Times {
-        refit,
-        refit_once: Vec::new(),
-        sample,
-        pmf,
-    }
+    Times { refit, sample, pmf }
+}
+
+/// Samples in batches, by the threads of the current pool.
+pub(super) fn batches(bvh: &Bvh, queries: &[Query]) -> Vec<Duration> {
+    let points: Vec<ShadingPoint> = queries.iter().map(|query| query.point).collect();
+    let random = |query: &Query| Random64::from(query.random_or_light);
+    let randoms: Vec<Random64> = queries.iter().map(random).collect();
+    let mut sampled = vec![SampledLight::NONE; queries.len()];
+    let times = measure(|| {
+        let of_points = points.par_chunks(BATCH).zip(randoms.par_chunks(BATCH));
+        let parts = of_points.zip(sampled.par_chunks_mut(BATCH));
+        parts.for_each(|((points, randoms), sampled)| {
+            bvh.sample_batch::<Importance>(points, randoms, sampled);
+        });
+    });
+    black_box(&sampled);
+    times
 }
 
 pub(super) fn measure(mut work: impl FnMut()) -> Vec<Duration> {

@@ -5,9 +5,10 @@ use std::io;
 use std::time::Instant;
 
 use lightbvh::exact::{hash, unit_f32};
+use lightbvh::node::{FullMomentNode, LeanMomentNode};
 use lightbvh::{
-    BuildParams, CompactNode, EmissiveTriangle, Eq4, FluxOverDistance, FullNode, ImportanceModel, LightBvh,
-    LightNode, Lights, ShadingPoint,
+    BuildParams, CompactNode, Defensive, EmissiveTriangle, Eq4, FluxOverDistance, FullNode, ImportanceModel,
+    LightBvh, LightNode, Lights, MomentNode, Moments, ShadingPoint,
 };
 use serde::Serialize;
 
@@ -37,78 +38,90 @@ pub(super) fn rows() -> Vec<Row> {
     let points = points();
     let mut rows = Vec::new();
     for two_level in [false, true] {
-        let mut add = |row: Row| rows.push(row);
-        add(row::<FullNode<2>, Eq4, 2>("Eq. 4", two_level, &lights, &points));
-        add(row::<CompactNode<2>, Eq4, 2>(
-            "Eq. 4", two_level, &lights, &points,
-        ));
-        add(row::<CompactNode<4>, Eq4, 4>(
-            "Eq. 4", two_level, &lights, &points,
-        ));
-        add(row::<CompactNode<8>, Eq4, 8>(
-            "Eq. 4", two_level, &lights, &points,
-        ));
-        add(row::<CompactNode<16>, Eq4, 16>(
-            "Eq. 4", two_level, &lights, &points,
-        ));
-        add(row::<CompactNode<2>, FluxOverDistance, 2>(
-            "flux/d²", two_level, &lights, &points,
-        ));
-        add(row::<CompactNode<4>, FluxOverDistance, 4>(
-            "flux/d²", two_level, &lights, &points,
-        ));
+        let by = By {
+            two_level,
+            lights: &lights,
+            points: &points,
+        };
+        rows.extend([
+            by.row::<FullNode<2>, Eq4, 2>("Eq. 4"),
+            by.row::<CompactNode<2>, Eq4, 2>("Eq. 4"),
+            by.row::<CompactNode<4>, Eq4, 4>("Eq. 4"),
+            by.row::<CompactNode<8>, Eq4, 8>("Eq. 4"),
+            by.row::<CompactNode<16>, Eq4, 16>("Eq. 4"),
+            by.row::<CompactNode<2>, FluxOverDistance, 2>("flux/d²"),
+            by.row::<CompactNode<4>, FluxOverDistance, 4>("flux/d²"),
+            by.row::<FullMomentNode<8>, Moments, 8>("moments"),
+            by.row::<LeanMomentNode<8>, Moments, 8>("moments"),
+            by.row::<MomentNode<4>, Moments, 4>("moments"),
+            by.row::<MomentNode<8>, Moments, 8>("moments"),
+            by.row::<MomentNode<16>, Moments, 16>("moments"),
+            by.row::<MomentNode<8>, Defensive<Moments, 6>, 8>("moments, 1/64 uniform"),
+        ]);
     }
     rows
 }
 
-fn row<N: LightNode<W>, I: ImportanceModel, const W: usize>(
-    importance: &'static str,
+/// What all rows of a structure share.
+struct By<'a> {
     two_level: bool,
-    lights: &Lights,
-    points: &[ShadingPoint],
-) -> Row {
-    let params = BuildParams::default();
-    let bvh = if two_level {
-        LightBvh::<N, W>::two_level(lights, &params)
-    } else {
-        LightBvh::<N, W>::single_level(lights, &params)
-    };
-    let (mut variance, mut counted) = (0.0, 0);
-    for point in points {
-        let (mut mean, mut square) = (0.0, 0.0);
-        for (i, triangle) in lights.triangles().iter().enumerate() {
-            let light = diffuse(triangle, point);
-            if light > 0.0 {
-                mean += light;
-                square += light * light / f64::from(bvh.pmf::<I>(lights, point, i as u32));
+    lights: &'a Lights,
+    points: &'a [ShadingPoint],
+}
+
+impl By<'_> {
+    fn row<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+        &self,
+        importance: &'static str,
+    ) -> Row {
+        let &Self {
+            two_level,
+            lights,
+            points,
+        } = self;
+        let params = BuildParams::default();
+        let bvh = if two_level {
+            LightBvh::<N, W>::two_level(lights, &params)
+        } else {
+            LightBvh::<N, W>::single_level(lights, &params)
+        };
+        let (mut variance, mut counted) = (0.0, 0);
+        for point in points {
+            let (mut mean, mut square) = (0.0, 0.0);
+            for (i, triangle) in lights.triangles().iter().enumerate() {
+                let light = diffuse(triangle, point);
+                if light > 0.0 {
+                    mean += light;
+                    square += light * light / f64::from(bvh.pmf::<I>(lights, point, i as u32));
+                }
+            }
+            if mean > 0.0 {
+                variance += square / (mean * mean) - 1.0;
+                counted += 1;
             }
         }
-        if mean > 0.0 {
-            variance += square / (mean * mean) - 1.0;
-            counted += 1;
+        let times: Vec<f64> = (0..5)
+            .map(|_| {
+                let start = Instant::now();
+                let mut sum = 0.0;
+                for i in 0..20_000u32 {
+                    sum += bvh.sample::<I>(&points[(i % POINTS) as usize], hash(i)).pmf;
+                }
+                std::hint::black_box(sum);
+                start.elapsed().as_nanos() as f64 / 20_000.0
+            })
+            .collect();
+        let mut sorted = times;
+        sorted.sort_by(f64::total_cmp);
+        Row {
+            layout: N::NAME,
+            width: W,
+            importance,
+            structure: if two_level { "two-level" } else { "single-level" },
+            bytes_per_light: bvh.bytes() as f64 / lights.triangles().len() as f64,
+            sample_ns: sorted[sorted.len() / 2],
+            relative_variance: variance / f64::from(counted.max(1)),
         }
-    }
-    let times: Vec<f64> = (0..5)
-        .map(|_| {
-            let start = Instant::now();
-            let mut sum = 0.0;
-            for i in 0..20_000u32 {
-                sum += bvh.sample::<I>(&points[(i % POINTS) as usize], hash(i)).pmf;
-            }
-            std::hint::black_box(sum);
-            start.elapsed().as_nanos() as f64 / 20_000.0
-        })
-        .collect();
-    let mut sorted = times;
-    sorted.sort_by(f64::total_cmp);
-    Row {
-        layout: N::NAME,
-        width: W,
-        importance,
-        structure: if two_level { "two-level" } else { "single-level" },
-        bytes_per_light: bvh.bytes() as f64 / lights.triangles().len() as f64,
-        sample_ns: sorted[sorted.len() / 2],
-        relative_variance: variance / f64::from(counted.max(1)),
     }
 }
 

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::frames::Frames;
 use super::plan::Plan;
 use super::store::{Store, fingerprint};
-use crate::backend::{Backend, CpuBackend, Sampler};
+use crate::backend::{Backend, Bvh, CpuBackend, Sampler};
 use crate::error::HostError;
 use crate::metrics::{Judge, mean_squared_error};
 use crate::render::Film;
@@ -100,8 +100,8 @@ fn half(
     progress.set_message(format!("{} frame {frame}: reference", frames.scene().name()));
     frames.prepare(frame, true)?;
     let arrays = frames.arrays(frame);
-    let bvh = build(&arrays.lights, Sampler::TwoLevel, &BuildParams::default());
-    let mut cpu = CpuBackend::new(bvh, arrays.lights.clone());
+    let bvh: Bvh = build(&arrays.lights, Sampler::TwoLevel, &BuildParams::default());
+    let mut cpu: CpuBackend = CpuBackend::new(bvh, arrays.lights.clone());
     let all = plan.reference_samples / 2;
     let mut sum = vec![[0.0_f64; 3]; plan.width as usize * plan.height as usize];
     for (pass, first) in (0..).zip((0..all).step_by(PASS as usize)) {

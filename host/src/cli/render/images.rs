@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use lightbvh::BuildParams;
 use lightbvh::exact::hash;
+use lightbvh_kernels::bvh::Choice;
 use serde_json::{Value, json};
 
 use crate::backend::{CandidateSource, MAX_SAMPLES_PER_INVOCATION, RestirOptions, Sampler, SceneArrays};
@@ -99,8 +100,8 @@ pub(super) struct Images<'d> {
 }
 
 impl<'d> Images<'d> {
-    /// The images of `method` on `target` from the frame `first` on.
-    pub fn new(
+    /// The images of `method` on `target` from the frame `first` on, by light BVHs of choice `C`.
+    pub fn new<C: Choice<W>, const W: usize>(
         method: Method,
         params: BuildParams,
         target: Target<'d>,
@@ -110,12 +111,15 @@ impl<'d> Images<'d> {
             Method::Independent { sampler, rebuilt, .. } => match sampler {
                 Sampler::Uniform => Box::new(NoTree::uniform(first, target)?),
                 Sampler::Power => Box::new(NoTree::power(first, target)?),
-                Sampler::SingleLevel if rebuilt => Box::new(SingleLevel::rebuilt(first, target, params)?),
-                Sampler::SingleLevel => Box::new(SingleLevel::refitted(first, target, params)?),
-                Sampler::TwoLevel => Box::new(TwoLevel::new(first, target, params)?),
+                Sampler::SingleLevel if rebuilt => {
+                    Box::new(SingleLevel::<C, W>::rebuilt(first, target, params)?)
+                }
+                Sampler::SingleLevel => Box::new(SingleLevel::<C, W>::refitted(first, target, params)?),
+                Sampler::TwoLevel => Box::new(TwoLevel::<C, W>::new(first, target, params)?),
             },
             Method::Restir(options) => {
-                Box::new(Reservoirs::new(first, target, options, params, Count::Histories)?)
+                let count = Count::Histories;
+                Box::new(Reservoirs::<C, W>::new(first, target, options, params, count)?)
             }
         };
         let independent = match method {

@@ -78,6 +78,11 @@ impl SamplerName {
         }
     }
 
+    /// Whether it walks a light BVH.
+    pub(super) fn needs_bvh(self) -> bool {
+        !matches!(self, Self::Uniform | Self::Power | Self::Restir)
+    }
+
     /// As on the command line.
     pub(super) fn name(self) -> &'static str {
         match self {

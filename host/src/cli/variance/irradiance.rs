@@ -93,7 +93,10 @@ mod tests {
                         if third > 0.5 && i + j + 1 >= steps {
                             continue;
                         }
-                        let (u, v) = ((f64::from(i) + third) / f64::from(steps), (f64::from(j) + third) / f64::from(steps));
+                        let (u, v) = (
+                            (f64::from(i) + third) / f64::from(steps),
+                            (f64::from(j) + third) / f64::from(steps),
+                        );
                         let d: V = std::array::from_fn(|k| corners[0][k] + e1[k] * u + e2[k] * v);
                         let squared = dot(d, d);
                         let received = dot(point.n.map(f64::from), d).max(0.0);
@@ -103,7 +106,10 @@ mod tests {
             }
             let expected = sum * 0.5 / f64::from(steps * steps);
             let found = irradiance(&two_sided, &point);
-            assert!((found - expected).abs() < 2e-3 * expected.max(1e-3), "{found} {expected}");
+            assert!(
+                (found - expected).abs() < 2e-3 * expected.max(1e-3),
+                "{found} {expected}"
+            );
             let one_sided = irradiance(&triangle, &point);
             let front = dot(normal, corners[0]) < 0.0;
             assert_eq!(one_sided > 0.0, front && expected > 0.0);

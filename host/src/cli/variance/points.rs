@@ -10,7 +10,12 @@ use crate::workload::lights_at;
 
 /// The lights of a scene, and points on the front sides of its surfaces, spread evenly over their area; in the scene `random`
 /// points anywhere with any normal.
-pub(super) fn of(name: &str, lights: u32, frame: u32, count: u32) -> Result<(Lights, Vec<ShadingPoint>), HostError> {
+pub(super) fn of(
+    name: &str,
+    lights: u32,
+    frame: u32,
+    count: u32,
+) -> Result<(Lights, Vec<ShadingPoint>), HostError> {
     if name == "random" {
         let points = random_queries(count).into_iter().map(|query| query.point);
         return Ok((random_lights(lights), points.collect()));
@@ -34,7 +39,8 @@ pub(super) fn of(name: &str, lights: u32, frame: u32, count: u32) -> Result<(Lig
         let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
         let n = normal(p).map_or([0.0, 1.0, 0.0], |(_, n)| n);
         // A little off the surface, as the origin of a shadow ray.
-        let on: [f32; 3] = std::array::from_fn(|k| p[0][k] + (p[1][k] - p[0][k]) * u + (p[2][k] - p[0][k]) * v);
+        let on: [f32; 3] =
+            std::array::from_fn(|k| p[0][k] + (p[1][k] - p[0][k]) * u + (p[2][k] - p[0][k]) * v);
         ShadingPoint {
             p: std::array::from_fn(|k| on[k] + 1e-4 * n[k]),
             n,

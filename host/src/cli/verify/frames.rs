@@ -11,7 +11,8 @@ use lightbvh_kernels::query::Query;
 
 use super::queries::compare_queries;
 use super::tally::{Kind, Tally};
-use crate::backend::{Backend, NODE_RECORD, PIXEL_RECORD, RESERVOIR_RECORD, SURFACE_RECORD, SceneArrays};
+use crate::backend::{Backend, PIXEL_RECORD, RESERVOIR_RECORD, SURFACE_RECORD, SceneArrays};
+use crate::cli::render::ImportanceName;
 use crate::error::HostError;
 use crate::method::{Chain, Method, Runner, Step, Target, runner};
 use crate::scene::Scene;
@@ -28,6 +29,8 @@ pub(super) struct Plan {
     /// Lights sampled and pmfs evaluated per frame and method.
     pub queries: u32,
     pub seed: u32,
+    /// Only methods by these, and those without a light BVH.
+    pub importances: &'static [ImportanceName],
 }
 
 /// A method on the CPU and on each device.
@@ -56,7 +59,7 @@ pub(super) fn compare(
         };
         let asked = queries(&arrays, hash(plan.seed.wrapping_add(frame)), 0, plan.queries);
         if lanes.is_empty() {
-            lanes = start(&step, &arrays, targets)?;
+            lanes = start(plan, &step, &arrays, targets)?;
         } else {
             for lane in &mut lanes {
                 lane.advance(&step)?;
@@ -73,12 +76,21 @@ pub(super) fn compare(
 
 /// All methods at the first frame; those that choose by power only where there is a table for it.
 fn start<'d>(
+    plan: &Plan,
     step: &Step<'_>,
     arrays: &SceneArrays,
     targets: &[Target<'d>],
 ) -> Result<Vec<Lane<'d>>, HostError> {
     let mut lanes = Vec::new();
+    let wanted = |name: &str| {
+        plan.importances
+            .iter()
+            .any(|importance| importance.name() == name)
+    };
     for method in Method::ALL {
+        if !method.importance().is_none_or(wanted) {
+            continue;
+        }
         if matches!(method, Method::Power | Method::Restir) && arrays.thresholds.is_empty() {
             continue;
         }
@@ -132,16 +144,15 @@ impl Lane<'_> {
                 .collect();
             // A tree that was built anew came to the device complete; there it is refitted, so that its words are the
             // device's own.
-            let refits = method == Method::SingleLevelRebuilt;
+            let refits = method.is_rebuilt();
             let nodes = |backend: &mut dyn Backend| match refits {
                 true => backend.refit(step.lights).map(|refitted| refitted.value),
                 false => backend.nodes(),
             };
-            let expected = nodes(cpu)?;
+            let (expected, record) = (nodes(cpu)?, cpu.node_record());
             for (device, tally) in devices.iter_mut().zip(tallies.iter_mut()) {
                 let found = nodes(&mut **device)?;
-                let (expected, found) = (cast_slice(&expected), cast_slice(&found));
-                tally.take(Kind::Nodes, &what("refit"), &NODE_RECORD, expected, found)?;
+                tally.take(Kind::Nodes, &what("refit"), &record, &expected, &found)?;
             }
             let lights = arrays.lights.triangles().len() as u32;
             compare_queries(

@@ -3,54 +3,54 @@
 use std::sync::Arc;
 
 use bytemuck::cast_slice;
-use lightbvh::BuildParams;
 use lightbvh::exact::hash;
+use lightbvh_kernels::bvh::{BvhPicker, Choice};
 
+use super::structures::Subject;
 use super::tally::{Kind, Tally};
 use crate::backend::{
-    CandidateSource, Combination, CpuRestir, DeviceRestir, PIXEL_RECORD, RESERVOIR_RECORD, Restir,
-    RestirFrame, RestirOptions, SURFACE_RECORD, Sampler, picker,
+    Bvh, CandidateSource, Combination, CpuRestir, DeviceRestir, PIXEL_RECORD, RESERVOIR_RECORD, Restir,
+    RestirFrame, RestirOptions, SURFACE_RECORD,
 };
 use crate::cli::devices::Opened;
 use crate::error::HostError;
-use crate::scene::Scene;
 use crate::workload::{Shot, arrays_at, build};
 
 /// Frames in a row: the first has no history, the second a short one, the third one that was merged itself.
 const FRAMES: u32 = 3;
 
-/// Compares both combinations, with candidates from `structure` or, once per scene, by power.
-pub(super) fn compare(
-    scene: &Scene,
-    structure: Sampler,
+/// Compares both combinations, with candidates from the light BVH or, once per scene, by power.
+pub(super) fn compare<C: Choice<W>, const W: usize>(
+    subject: &Subject<'_>,
     shot: &Shot,
     opened: &[Opened],
     tallies: &mut [Tally],
 ) -> Result<(), HostError> {
+    let scene = subject.scene;
     let frames = (shot.frame..shot.frame + FRAMES)
         .map(|n| {
             let arrays = arrays_at(scene, n, shot.width, shot.height)?;
-            let bvh = build(&arrays.lights, structure, &BuildParams::default());
+            let bvh: Bvh<C, W> = build(&arrays.lights, subject.sampler, &subject.params);
             Ok((Arc::new(arrays), bvh))
         })
         .collect::<Result<Vec<_>, HostError>>()?;
     let background = scene.frame(shot.frame).background;
-    let power = structure == Sampler::SingleLevel && !frames[0].0.thresholds.is_empty();
+    let power = subject.treeless && !frames[0].0.thresholds.is_empty();
     for source in [CandidateSource::Power, CandidateSource::LightBvh] {
         if source == CandidateSource::Power && !power {
             continue;
         }
         for combination in [Combination::Unbiased, Combination::Biased] {
             let options = RestirOptions::new(source, combination);
-            let mut cpu = CpuRestir::new(options);
+            let mut cpu = CpuRestir::<C, W>::new(options);
             let mut devices: Vec<_> = opened
                 .iter()
-                .map(|o| DeviceRestir::new(&o.device, options))
+                .map(|o| DeviceRestir::<C, W>::new(&o.device, options))
                 .collect();
             for (number, (arrays, bvh)) in (0..).zip(&frames) {
                 let frame = RestirFrame {
                     scene: arrays,
-                    bvh: picker(bvh),
+                    bvh: BvhPicker::new(bvh.tree()),
                     width: shot.width,
                     height: shot.height,
                     seed: hash(shot.seed).wrapping_add(number),
@@ -60,7 +60,7 @@ pub(super) fn compare(
                 };
                 let expected = cpu.frame(&frame)?.value;
                 let (surfaces, reservoirs) = cpu.state()?;
-                let what = format!("{} restir {} frame {number}", scene.name(), combination.name());
+                let what = subject.says(&format!("restir {} frame {number}", combination.name()));
                 for (device, tally) in devices.iter_mut().zip(tallies.iter_mut()) {
                     let found = device.frame(&frame)?.value;
                     let state = device.state()?;

@@ -4,12 +4,11 @@ use bytemuck::cast_slice;
 use indicatif::ProgressBar;
 use lightbvh::BuildParams;
 use lightbvh::exact::hash;
+use lightbvh_kernels::bvh::Choice;
 
 use super::queries::compare_queries;
 use super::tally::{Kind, Tally};
-use crate::backend::{
-    Backend, Bvh, CpuBackend, DeviceBackend, NODE_RECORD, PIXEL_RECORD, Sampler, SceneArrays,
-};
+use crate::backend::{Backend, Bvh, CpuBackend, DeviceBackend, PIXEL_RECORD, Sampler, SceneArrays};
 use crate::cli::devices::Opened;
 use crate::error::HostError;
 use crate::scene::Scene;
@@ -32,48 +31,46 @@ pub(super) struct Structures {
     pub progress: ProgressBar,
 }
 
-impl Structures {
-    /// The refits again, with one dispatch for all levels; to the last frame at the end, as before.
-    fn single_dispatch(
-        &mut self,
-        scene: &Scene,
-        what: &impl Fn(&str) -> String,
-        cpu: &mut CpuBackend,
-        devices: &mut [DeviceBackend<'_>],
-    ) -> Result<(), HostError> {
-        for frame in REFIT_FRAMES {
-            let what = what(&format!("frame {frame} refit with one dispatch"));
-            let lights = lights_at(scene, frame)?;
-            // From the nodes of another frame, as on the devices: none is as it should be already.
-            let climbed = cpu.refit_once(&lights)?.value;
-            let expected = cpu.refit(&lights)?.value;
-            let (expected, climbed) = (cast_slice(&expected), cast_slice(&climbed));
-            self.cpu
-                .take(Kind::Nodes, &what, &NODE_RECORD, expected, climbed)?;
-            for (device, tally) in devices.iter_mut().zip(&mut self.tallies) {
-                let found = device.refit_once(&lights)?.value;
-                tally.take(Kind::Nodes, &what, &NODE_RECORD, expected, cast_slice(&found))?;
-            }
-        }
-        Ok(())
-    }
+/// A structure over a scene.
+pub(super) struct Subject<'a> {
+    pub scene: &'a Scene,
+    pub sampler: Sampler,
+    /// What lights are chosen by, for messages.
+    pub importance: &'static str,
+    pub params: BuildParams,
+    /// Whether images and reservoirs without a tree are compared too: once per scene.
+    pub treeless: bool,
+}
 
+impl Subject<'_> {
+    /// Where words come from.
+    pub fn says(&self, kernel: &str) -> String {
+        format!(
+            "{} {} {} {kernel}",
+            self.scene.name(),
+            self.sampler.name(),
+            self.importance
+        )
+    }
+}
+
+impl Structures {
     /// Everything about one structure over one scene.
-    pub fn structure(
+    pub fn compare<C: Choice<W>, const W: usize>(
         &mut self,
-        scene: &Scene,
-        sampler: Sampler,
+        subject: &Subject<'_>,
         opened: &[Opened],
         count: u64,
         seed: u32,
     ) -> Result<(), HostError> {
-        let what = |kernel: &str| format!("{} {} {kernel}", scene.name(), sampler.name());
+        let scene = subject.scene;
+        let what = |kernel: &str| subject.says(kernel);
         let lights = lights_at(scene, BUILD_FRAME)?;
-        let bvh: Bvh = build(&lights, sampler, &BuildParams::default());
-        let mut cpu = CpuBackend::new(bvh.clone(), lights.clone());
+        let bvh: Bvh<C, W> = build(&lights, subject.sampler, &subject.params);
+        let mut cpu = CpuBackend::<C, W>::new(bvh.clone(), lights.clone());
         let mut devices = opened
             .iter()
-            .map(|o| DeviceBackend::new(&o.device, &bvh, &lights))
+            .map(|o| DeviceBackend::<C, W>::new(&o.device, &bvh, &lights))
             .collect::<Result<Vec<_>, _>>()?;
 
         for frame in REFIT_FRAMES {
@@ -81,17 +78,10 @@ impl Structures {
             let expected = cpu.refit(&lights)?.value;
             for (device, tally) in devices.iter_mut().zip(&mut self.tallies) {
                 let found = device.refit(&lights)?.value;
-                tally.take(
-                    Kind::Nodes,
-                    &what(&format!("frame {frame} refit")),
-                    &NODE_RECORD,
-                    cast_slice(&expected),
-                    cast_slice(&found),
-                )?;
+                let what = what(&format!("frame {frame} refit"));
+                tally.take(Kind::Nodes, &what, &cpu.node_record(), &expected, &found)?;
             }
         }
-
-        self.single_dispatch(scene, &what, &mut cpu, &mut devices)?;
 
         let shot = Shot {
             frame: REFIT_FRAMES[REFIT_FRAMES.len() - 1],
@@ -112,32 +102,36 @@ impl Structures {
             self.progress.inc(batch.into());
             first += u64::from(batch);
         }
-        self.images(scene, sampler, &arrays, &shot, &mut cpu, &mut devices)?;
-        super::restir::compare(scene, sampler, &shot, opened, &mut self.tallies)
+        let mut devices: Vec<&mut dyn Backend> = devices.iter_mut().map(|d| d as _).collect();
+        self.images(subject, &arrays, &shot, &mut cpu, &mut devices)?;
+        super::restir::compare::<C, W>(subject, &shot, opened, &mut self.tallies)
     }
 
     /// Small images, of light reflected once and of paths; those of the samplers without a tree once per scene only.
     fn images(
         &mut self,
-        scene: &Scene,
-        structure: Sampler,
+        subject: &Subject<'_>,
         arrays: &SceneArrays,
         shot: &Shot,
-        cpu: &mut CpuBackend,
-        devices: &mut [DeviceBackend<'_>],
+        cpu: &mut dyn Backend,
+        devices: &mut [&mut dyn Backend],
     ) -> Result<(), HostError> {
+        let (scene, structure) = (subject.scene, subject.sampler);
         let params = shot.params(scene.frame(shot.frame).background);
-        let others = [Sampler::Uniform, Sampler::Power].into_iter().filter(|&s| {
-            structure == Sampler::SingleLevel && (s != Sampler::Power || !arrays.thresholds.is_empty())
-        });
+        let others = [Sampler::Uniform, Sampler::Power]
+            .into_iter()
+            .filter(|&s| subject.treeless && (s != Sampler::Power || !arrays.thresholds.is_empty()));
         for sampler in others.chain([structure]) {
+            let what = |kernel: &str| match sampler.needs_bvh() {
+                true => subject.says(kernel),
+                false => format!("{} {} {kernel}", scene.name(), sampler.name()),
+            };
             let expected = cpu.render(arrays, &params, sampler)?.value;
             for (device, tally) in devices.iter_mut().zip(&mut self.tallies) {
                 let found = device.render(arrays, &params, sampler)?.value;
-                let what = format!("{} render {}", scene.name(), sampler.name());
                 tally.take(
                     Kind::Pixels,
-                    &what,
+                    &what("render"),
                     &PIXEL_RECORD,
                     cast_slice(&expected),
                     cast_slice(&found),
@@ -146,10 +140,9 @@ impl Structures {
             let expected = cpu.render_path(arrays, &params, BOUNCES, sampler)?.value;
             for (device, tally) in devices.iter_mut().zip(&mut self.tallies) {
                 let found = device.render_path(arrays, &params, BOUNCES, sampler)?.value;
-                let what = format!("{} path {}", scene.name(), sampler.name());
                 tally.take(
                     Kind::Pixels,
-                    &what,
+                    &what("path"),
                     &PIXEL_RECORD,
                     cast_slice(&expected),
                     cast_slice(&found),

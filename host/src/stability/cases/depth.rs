@@ -8,8 +8,8 @@ use super::facing_x;
 
 pub(super) fn cases() -> Vec<Case> {
     let params = BuildParams {
-        heuristic: Heuristic::Sah,
         buckets: 2,
+        ..BuildParams::paper(Heuristic::Sah)
     };
     let points = || {
         let random = &mut Random::new(61);

@@ -1,6 +1,6 @@
 //! What is lit: points on lights, in boxes and at their centres, far away, grazing and behind.
 
-use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, LightNode, Lights, ShadingPoint, exact};
+use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, LightNode, Lights, ShadingPoint, Summary, exact};
 use lightbvh_kernels::bvh::{Node, WIDTH};
 
 use super::super::case::Case;
@@ -58,10 +58,11 @@ fn in_boxes(lights: &[EmissiveTriangle]) -> Vec<ShadingPoint> {
     let mut points = Vec::new();
     for node in bvh.nodes().iter().step_by(2) {
         for slot in 0..2 {
-            let (cluster, bounds) = (node.cluster(slot), node.bounds(slot));
-            points.push(volume(cluster.center.to_array()));
+            let summary = node.summary(slot);
+            let (center, bounds) = (summary.center(), summary.bounds());
+            points.push(volume(center.to_array()));
             points.push(ShadingPoint {
-                p: cluster.center.to_array(),
+                p: center.to_array(),
                 n: random.direction(),
             });
             points.push(ShadingPoint {

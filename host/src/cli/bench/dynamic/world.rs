@@ -60,7 +60,7 @@ impl World {
 
     fn new(count: u32, per_mesh: u32, side: f32) -> Self {
         let mut world = Self {
-            scene: LightScene::default(),
+            scene: lightbvh::Scene::default(),
             meshes: Vec::new(),
             instances: Vec::new(),
             per_mesh,

@@ -1,12 +1,13 @@
 //! That a wrong word is found and named, whatever it is of: the CPU stands in for a device, with one bit of it turned.
 
-use lightbvh::{BuildParams, Lights};
-use lightbvh_kernels::bvh::Node;
+use lightbvh::{BuildParams, Heuristic, Lights};
+use lightbvh_kernels::bvh::Paper;
 use lightbvh_kernels::query::Sampled;
 use lightbvh_kernels::render::RenderParams;
 
 use super::*;
-use crate::backend::{CpuBackend, LightScene, Sampler, Timed};
+use crate::backend::{Bvh, CpuBackend, Sampler, Timed};
+use crate::compare::Record;
 use crate::method::{History, UpdateTimes};
 use crate::vulkan::VulkanError;
 use crate::workload::build;
@@ -21,7 +22,7 @@ struct Corrupt {
 }
 
 struct CorruptBackend {
-    inner: CpuBackend,
+    inner: CpuBackend<Paper, 4>,
     wrong: Option<Kind>,
 }
 
@@ -72,19 +73,15 @@ impl Backend for CorruptBackend {
         "corrupt"
     }
 
-    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<Node>>, VulkanError> {
+    fn node_record(&self) -> Record {
+        self.inner.node_record()
+    }
+
+    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, VulkanError> {
         self.inner.refit(lights)
     }
 
-    fn refit_once(&mut self, lights: &Lights) -> Result<Timed<Vec<Node>>, VulkanError> {
-        self.inner.refit_once(lights)
-    }
-
-    fn follow(&mut self, scene: &LightScene, lights: &Lights) -> Result<Timed<()>, VulkanError> {
-        self.inner.follow(scene, lights)
-    }
-
-    fn nodes(&mut self) -> Result<Vec<Node>, VulkanError> {
+    fn nodes(&mut self) -> Result<Vec<u32>, VulkanError> {
         let mut nodes = self.inner.nodes()?;
         turn(Kind::Nodes, self.wrong, &mut nodes);
         Ok(nodes)
@@ -137,7 +134,8 @@ fn found(method: Method, wrong: Option<Kind>) -> Tally {
         };
         let lane = match &mut lane {
             None => {
-                let bvh = build(step.lights, Sampler::SingleLevel, &BuildParams::default());
+                let params = BuildParams::paper(Heuristic::Saoh);
+                let bvh: Bvh<Paper, 4> = build(step.lights, Sampler::SingleLevel, &params);
                 let corrupt = Corrupt {
                     inner: runner(method, &step, Target::Cpu).expect("a runner"),
                     backend: CorruptBackend {

@@ -1,0 +1,164 @@
+//! `lightbvh bench --worst`: nodes evaluated and time of single samples and pmfs where they are hardest.
+
+mod scenes;
+
+use std::cell::Cell;
+use std::hint::black_box;
+use std::time::Instant;
+
+use lightbvh::traverse::{pmf, sample};
+use lightbvh::{
+    BuildParams, INVALID, ImportanceModel, LightBvh, LightNode, LightTree, Random64, ShadingPoint,
+};
+use lightbvh_kernels::bvh::{Choice, Paper, Standard};
+use serde::Serialize;
+use serde_json::json;
+
+use self::scenes::{Scene, hostile, scenes};
+use super::super::{Context, Outcome, table};
+use crate::error::HostError;
+
+/// Samples, and pmfs, of each scene.
+const QUERIES: u32 = 20_000;
+
+thread_local! {
+    /// Nodes whose weights were computed.
+    static EVALUATED: Cell<u32> = const { Cell::new(0) };
+}
+
+/// The importance `I`, counting the nodes that it is asked about.
+struct Counting<I>(std::marker::PhantomData<I>);
+
+impl<N, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W> for Counting<I> {
+    const UNIFORM_HALVINGS: u32 = I::UNIFORM_HALVINGS;
+
+    fn weights(node: &N, point: &ShadingPoint) -> [f32; W] {
+        EVALUATED.with(|count| count.set(count.get() + 1));
+        I::weights(node, point)
+    }
+}
+
+/// The distribution of one quantity over the queries of a scene.
+#[derive(Clone, Debug, Serialize)]
+struct Case {
+    what: &'static str,
+    importance: &'static str,
+    scene: &'static str,
+    lights: u32,
+    depth: u32,
+    unit: &'static str,
+    median: f64,
+    p99: f64,
+    p999: f64,
+    most: f64,
+}
+
+pub(super) fn run(context: &Context) -> Result<Outcome, HostError> {
+    let mut cases = Vec::new();
+    for scene in scenes() {
+        cases.extend(measure::<Standard, 8>(&scene));
+        cases.extend(measure::<Paper, 4>(&scene));
+    }
+    let bounded = cases
+        .iter()
+        .all(|case| case.unit != "nodes" || case.most <= f64::from(case.depth));
+    if context.json {
+        table::print_json(&json!({ "queries": QUERIES, "bounded": bounded, "cases": cases }))?;
+    } else {
+        print(&cases)?;
+        println!();
+        println!(
+            "most nodes of any sample or pmf: {} the depth of the tree",
+            if bounded { "at most" } else { "ABOVE" }
+        );
+    }
+    Ok(if bounded { Outcome::Good } else { Outcome::Bad })
+}
+
+fn measure<C: Choice<W>, const W: usize>(scene: &Scene) -> Vec<Case> {
+    let mut bvh = LightBvh::<C::Node, W>::single_level(&scene.lights, &BuildParams::default());
+    if scene.hostile {
+        hostile::<C::Node, W>(&mut bvh);
+    }
+    let tree = bvh.tree();
+    let lights = scene.lights.triangles().len() as u32;
+    let mut cases = Vec::new();
+    for what in ["sample", "pmf"] {
+        let mut nodes = Vec::with_capacity(QUERIES as usize);
+        let mut times = Vec::with_capacity(QUERIES as usize);
+        for i in 0..QUERIES {
+            let point = scene.point(i);
+            let (random, light) = scene.random(i);
+            EVALUATED.with(|count| count.set(0));
+            ask::<C::Node, Counting<C::Importance>, W>(what, &tree, &point, random, light);
+            nodes.push(f64::from(EVALUATED.with(Cell::get)));
+            let start = Instant::now();
+            ask::<C::Node, C::Importance, W>(what, &tree, &point, random, light);
+            times.push(start.elapsed().as_nanos() as f64);
+        }
+        for (unit, mut values) in [("nodes", nodes), ("ns", times)] {
+            values.sort_by(f64::total_cmp);
+            let part = |share: f64| values[((values.len() - 1) as f64 * share) as usize];
+            cases.push(Case {
+                what,
+                importance: C::NAME,
+                scene: scene.name,
+                lights,
+                depth: tree.depth,
+                unit,
+                median: part(0.5),
+                p99: part(0.99),
+                p999: part(0.999),
+                most: part(1.0),
+            });
+        }
+    }
+    cases
+}
+
+fn ask<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    what: &str,
+    tree: &LightTree<'_, N>,
+    point: &ShadingPoint,
+    random: u32,
+    light: u32,
+) {
+    if what == "sample" {
+        black_box(sample::<N, I, W>(tree, point, Random64::from(random)));
+    } else {
+        black_box(pmf::<N, I, W>(tree, point, light, INVALID));
+    }
+}
+
+fn print(cases: &[Case]) -> Result<(), HostError> {
+    let header = [
+        "scene",
+        "importance",
+        "what",
+        "lights",
+        "depth",
+        "unit",
+        "median",
+        "99 %",
+        "99.9 %",
+        "most",
+    ];
+    let cells: Vec<Vec<String>> = cases
+        .iter()
+        .map(|case| {
+            vec![
+                case.scene.to_owned(),
+                case.importance.to_owned(),
+                case.what.to_owned(),
+                case.lights.to_string(),
+                case.depth.to_string(),
+                case.unit.to_owned(),
+                format!("{:.0}", case.median),
+                format!("{:.0}", case.p99),
+                format!("{:.0}", case.p999),
+                format!("{:.0}", case.most),
+            ]
+        })
+        .collect();
+    Ok(table::print(&header, &cells)?)
+}

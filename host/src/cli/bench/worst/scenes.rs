@@ -1,0 +1,189 @@
+//! Scenes in which walks over bounds go astray: most of the flux is where it cannot arrive.
+
+use lightbvh::exact::{hash, unit_f32};
+use lightbvh::node::kind;
+use lightbvh::{EmissiveTriangle, LightBvh, LightNode, Lights, ShadingPoint};
+
+/// Lights, and where they are looked at from.
+pub(super) struct Scene {
+    pub name: &'static str,
+    pub lights: Lights,
+    /// Whether the words of the nodes are overwritten.
+    pub hostile: bool,
+    point: fn(u32) -> ShadingPoint,
+}
+
+impl Scene {
+    /// Point `i`.
+    pub fn point(&self, i: u32) -> ShadingPoint {
+        (self.point)(hash(i ^ 0x51ed_270b))
+    }
+
+    /// A random number for a sample, and a light for a pmf.
+    pub fn random(&self, i: u32) -> (u32, u32) {
+        let random = hash(i);
+        (random, hash(!random) % self.lights.triangles().len() as u32)
+    }
+}
+
+pub(super) fn scenes() -> Vec<Scene> {
+    let scene = |name, triangles, point: fn(u32) -> ShadingPoint| Scene {
+        name,
+        lights: Lights::new(triangles).expect("the scenes are made within the domain"),
+        hostile: false,
+        point,
+    };
+    let mut all = vec![
+        scene("wall below the horizon", wall(), |r| facing_wall(r, -0.001)),
+        scene("wall across the horizon", wall(), |r| facing_wall(r, 0.5)),
+        scene("tilted signs", signs(), beside_signs),
+        scene("nested shells facing outward", shells(), inside_shells),
+        scene("one bright among a million dim", one_bright(), anywhere),
+        scene("lights on a line, 2^i apart", exponential(), anywhere),
+    ];
+    all.push(Scene {
+        hostile: true,
+        ..scene("hostile words in a ring", wall(), |r| facing_wall(r, 0.5))
+    });
+    all
+}
+
+fn draw(seed: u32, k: u32) -> f32 {
+    unit_f32(hash(seed.wrapping_add(k.wrapping_mul(0x9e37_79b9))))
+}
+
+fn lamp(p: [f32; 3], u: [f32; 3], v: [f32; 3], radiance: f32) -> EmissiveTriangle {
+    let corner = |d: [f32; 3]| std::array::from_fn(|k| p[k] + d[k]);
+    EmissiveTriangle {
+        p: [p, corner(u), corner(v)],
+        radiance: [radiance; 3],
+        mesh: 0,
+        flags: 0,
+    }
+}
+
+/// 262,144 lamps in the plane x = 0 that shine along +x, from y = 0 to y = 51.2 m.
+fn wall() -> Vec<EmissiveTriangle> {
+    let size = 512u32;
+    (0..size * size)
+        .map(|i| {
+            let (y, z) = ((i / size) as f32 * 0.1, (i % size) as f32 * 0.1);
+            lamp([0.0, y, z], [0.0, 0.05, 0.0], [0.0, 0.0, 0.05], 1.0)
+        })
+        .collect()
+}
+
+/// Before the wall; `height` of it reaches above the receiver's horizon.
+fn facing_wall(r: u32, height: f32) -> ShadingPoint {
+    // The normal points up, so the wall is below where the point is above its upper edge.
+    let top = 51.2 - height * 51.2;
+    ShadingPoint {
+        p: [0.5 + 20.0 * draw(r, 0), top, 51.2 * draw(r, 1)],
+        n: [0.0, 1.0, 0.0],
+    }
+}
+
+/// 128 signs of 2048 lamps, turned every way.
+fn signs() -> Vec<EmissiveTriangle> {
+    let mut lamps = Vec::new();
+    for sign in 0..128u32 {
+        let center: [f32; 3] = std::array::from_fn(|k| 60.0 * draw(sign, k as u32));
+        let angle = 6.283 * draw(sign, 7);
+        let (along, up) = (
+            [angle.cos(), 0.0, angle.sin()],
+            [0.2 * angle.sin(), 0.98, -0.2 * angle.cos()],
+        );
+        let bright = if sign % 8 == 0 { 1000.0 } else { 1.0 };
+        for i in 0..2048u32 {
+            let (u, v) = ((i % 64) as f32 * 0.05, (i / 64) as f32 * 0.05);
+            let p = std::array::from_fn(|k| center[k] + along[k] * u + up[k] * v);
+            lamps.push(lamp(p, along.map(|x| x * 0.02), up.map(|x| x * 0.02), bright));
+        }
+    }
+    lamps
+}
+
+fn beside_signs(r: u32) -> ShadingPoint {
+    let angle = 6.283 * draw(r, 4);
+    ShadingPoint {
+        p: std::array::from_fn(|k| 62.0 * draw(r, k as u32)),
+        n: [angle.cos(), 0.0, angle.sin()],
+    }
+}
+
+/// Eight spheres within each other, 200,000 lamps, all facing away from the centre.
+fn shells() -> Vec<EmissiveTriangle> {
+    (0..200_000u32)
+        .map(|i| {
+            let (shell, at) = (1.0 + (i % 8) as f32, i / 8);
+            let (z, angle) = (2.0 * draw(at, 0) - 1.0, 6.283 * draw(at, 1));
+            let ring = (1.0 - z * z).max(0.0).sqrt();
+            let n = [ring * angle.cos(), ring * angle.sin(), z];
+            let a = [-angle.sin(), angle.cos(), 0.0];
+            let b = [
+                n[1] * a[2] - n[2] * a[1],
+                n[2] * a[0] - n[0] * a[2],
+                n[0] * a[1] - n[1] * a[0],
+            ];
+            lamp(
+                n.map(|x| x * shell),
+                a.map(|x| x * 0.01),
+                b.map(|x| x * 0.01),
+                1.0,
+            )
+        })
+        .collect()
+}
+
+fn inside_shells(r: u32) -> ShadingPoint {
+    ShadingPoint {
+        p: std::array::from_fn(|k| 4.0 * draw(r, k as u32) - 2.0),
+        n: [0.0, 0.0, 1.0],
+    }
+}
+
+/// A million lamps in a box of 100 m; one sends 10^9 times as much as each other.
+fn one_bright() -> Vec<EmissiveTriangle> {
+    (0..1_000_000u32)
+        .map(|i| {
+            let p = std::array::from_fn(|k| 100.0 * draw(i, k as u32));
+            let radiance = if i == 777_777 { 1.0e9 } else { 1.0 };
+            lamp(p, [0.0, 0.05, 0.0], [0.05, 0.0, 0.0], radiance)
+        })
+        .collect()
+}
+
+fn anywhere(r: u32) -> ShadingPoint {
+    ShadingPoint {
+        p: std::array::from_fn(|k| 100.0 * draw(r, k as u32)),
+        n: [0.6, -0.64, 0.48],
+    }
+}
+
+/// Lamps at x = 2^i, i from −60 to 39, a hundred sizes of them.
+fn exponential() -> Vec<EmissiveTriangle> {
+    (0..100i32)
+        .flat_map(|i| {
+            let x = 2.0f32.powi(i - 60);
+            (0..100u16).map(move |k| {
+                let y = f32::from(k) * x * 0.01;
+                lamp([x, y, 0.0], [0.0, 0.0, 0.01 * x], [0.0, 0.01 * x, 0.0], 1.0)
+            })
+        })
+        .collect()
+}
+
+/// Links every inner child to the next node of a ring, so that no walk would end by itself.
+pub(super) fn hostile<N: LightNode<W>, const W: usize>(bvh: &mut LightBvh<N, W>) {
+    let count = bvh.nodes().len() as u32;
+    for (i, node) in (0u32..).zip(bvh.nodes_mut()) {
+        for slot in 0..W {
+            // Summaries stay as they are, so that the children keep their weights.
+            if node.kind(slot) != kind::EMPTY {
+                let summaries = std::array::from_fn(|s| node.summary(s));
+                node.set_child(slot, kind::INNER, (i + 1 + slot as u32) % count);
+                node.set_summaries(&summaries);
+            }
+        }
+    }
+}
