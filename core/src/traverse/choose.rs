@@ -1,7 +1,8 @@
 //! The choice of a child.
 
+use glam::Vec4;
+
 use crate::exact;
-use crate::importance::halving_sum;
 
 /// Ranges of numbers are at most this long, 2^22: their sums are exact in `f32`.
 pub(super) const FULL: u32 = 1 << 22;
@@ -36,35 +37,45 @@ pub(super) fn choose<const W: usize>(
     follow: bool,
     wanted: u32,
 ) -> Share {
-    let sum = halving_sum(weights);
+    let weights = Rows::of(weights);
+    let sum = weights.sum::<W>();
     let alive = sum > 0.0;
     let length = range as i32 as f32;
     let scale = length * GIVEN * exact::recip(if alive { sum } else { 1.0 });
     // Integers, but in `f32`, where processors add and compare several at a time.
-    let mut counts = [0.0; W];
-    let mut open = [0.0; W];
-    for slot in 0..W {
-        let w = weights[slot];
-        let whole = exact::max((w * scale + COUNTS) - COUNTS, 1.0);
-        // Masks, for a select of floats would become a branch.
-        let some = exact::mask(w.to_bits());
-        counts[slot] = f32::from_bits(whole.to_bits() & some);
-        open[slot] = f32::from_bits((slot as i32 as f32).to_bits() & some);
+    let mut counts = Rows::ZERO;
+    let mut ends = Rows::ZERO;
+    let mut passed = Rows::ZERO;
+    let mut open = Rows::ZERO;
+    let at = Vec4::splat(number as i32 as f32);
+    let mut before = Vec4::ZERO;
+    for row in 0..ROWS {
+        if 4 * row < W {
+            let w = weights.0[row];
+            let whole = (w * scale + COUNTS) - COUNTS;
+            let at_least_one = Vec4::select(whole.cmpgt(Vec4::ONE), whole, Vec4::ONE);
+            let some = w.cmpgt(Vec4::ZERO);
+            let count = Vec4::select(some, at_least_one, Vec4::ZERO);
+            // Inclusive prefix sums: within the row by doubling steps, then from row to row.
+            let pairs = count + Vec4::new(0.0, count.x, count.y, count.z);
+            let end = (pairs + Vec4::new(0.0, 0.0, pairs.x, pairs.y)) + before;
+            before = Vec4::splat(end.w);
+            counts.0[row] = count;
+            ends.0[row] = end;
+            passed.0[row] = Vec4::select(end.cmple(at), Vec4::ONE, Vec4::ZERO);
+            let first = (4 * row) as i32 as f32;
+            let slots = Vec4::new(first, first + 1.0, first + 2.0, first + 3.0);
+            open.0[row] = Vec4::select(some, slots, Vec4::ZERO);
+        }
     }
-    let ends = prefix_sums(&counts);
     // The slot is the number of shares that end at or before the number, but not beyond the last child with weight.
-    let at = number as i32 as f32;
-    let mut passed = [0.0; W];
-    for slot in 0..W {
-        passed[slot] = if ends[slot] <= at { 1.0 } else { 0.0 };
-    }
-    let last = greatest(&open);
-    let found = integer(exact::min(halving_sum(&passed), last));
+    let last = open.greatest::<W>();
+    let found = integer(exact::min(passed.sum::<W>(), last));
     let last = integer(last);
     let slot = if follow { wanted } else { found };
     let within = if slot < W as u32 { slot } else { 0 };
-    let count = entry(&counts, within);
-    let first = entry(&ends, within) - count;
+    let count = counts.entry::<W>(within);
+    let first = ends.entry::<W>(within) - count;
     let all = if slot == last { length - first } else { count };
     let some = alive & (count > 0.0) & (slot < W as u32);
     Share {
@@ -80,59 +91,82 @@ fn integer(x: f32) -> u32 {
     (x + COUNTS).to_bits() & 0x007f_ffff
 }
 
-/// Inclusive prefix sums of integers: within rows of four, the width of the least vector registers, then over the rows.
-#[inline(always)]
-fn prefix_sums<const W: usize>(counts: &[f32; W]) -> [f32; W] {
-    let mut ones = *counts;
-    for slot in 0..W {
-        ones[slot] += if slot & 3 >= 1 { counts[slot - 1] } else { 0.0 };
+/// Rows of four of up to 16 children.
+const ROWS: usize = 4;
+
+/// One number of each child in rows of four, the width of the least vector registers: left to itself, the compiler packs such
+/// short loops badly. Only sums, products, comparisons and selects of vectors are used, which are those of their components.
+#[derive(Clone, Copy)]
+struct Rows([Vec4; ROWS]);
+
+impl Rows {
+    const ZERO: Self = Self([Vec4::ZERO; ROWS]);
+
+    #[inline(always)]
+    fn of<const W: usize>(numbers: &[f32; W]) -> Self {
+        let number = |slot: usize| if slot < W { numbers[slot] } else { 0.0 };
+        let row = |first: usize| {
+            Vec4::new(
+                number(first),
+                number(first + 1),
+                number(first + 2),
+                number(first + 3),
+            )
+        };
+        Self([row(0), row(4), row(8), row(12)])
     }
-    let mut ends = ones;
-    for slot in 0..W {
-        ends[slot] += if slot & 3 >= 2 { ones[slot - 2] } else { 0.0 };
+
+    /// The sum, by halves as [`halving_sum`](crate::importance::halving_sum).
+    #[inline(always)]
+    fn sum<const W: usize>(&self) -> f32 {
+        let [a, b, c, d] = self.0;
+        let row = if W > 8 {
+            (a + c) + (b + d)
+        } else if W > 4 {
+            a + b
+        } else {
+            a
+        };
+        (row.x + row.z) + (row.y + row.w)
     }
-    for row in 1..4 {
-        if 4 * row < W {
-            let before = ends[4 * row - 1];
-            for k in 0..4 {
-                if 4 * row + k < W {
-                    ends[4 * row + k] += before;
+
+    /// The greatest, of numbers that are not negative.
+    #[inline(always)]
+    fn greatest<const W: usize>(&self) -> f32 {
+        let [a, b, c, d] = self.0;
+        let max = |a: Vec4, b: Vec4| Vec4::select(a.cmpgt(b), a, b);
+        let row = if W > 8 {
+            max(max(a, c), max(b, d))
+        } else if W > 4 {
+            max(a, b)
+        } else {
+            a
+        };
+        exact::max(exact::max(row.x, row.z), exact::max(row.y, row.w))
+    }
+
+    /// The number of child `slot`, below `W`. Devices keep arrays in registers only where no index varies, so there it is
+    /// selected.
+    #[inline(always)]
+    fn entry<const W: usize>(&self, slot: u32) -> f32 {
+        #[cfg(target_arch = "spirv")]
+        {
+            let mut found = 0.0;
+            for row in 0..ROWS {
+                if 4 * row < W {
+                    let v = self.0[row];
+                    let first = (4 * row) as u32;
+                    found = if slot == first { v.x } else { found };
+                    found = if slot == first + 1 { v.y } else { found };
+                    found = if slot == first + 2 { v.z } else { found };
+                    found = if slot == first + 3 { v.w } else { found };
                 }
             }
+            found
         }
-    }
-    ends
-}
-
-/// The greatest of numbers, none of them negative; in the order of [`halving_sum`].
-#[inline(always)]
-fn greatest<const W: usize>(numbers: &[f32; W]) -> f32 {
-    let mut most = *numbers;
-    let mut stride = 8;
-    for _ in 0..4 {
-        for slot in 0..W {
-            if slot < stride && slot + stride < W {
-                most[slot] = exact::max(most[slot], most[slot + stride]);
-            }
+        #[cfg(not(target_arch = "spirv"))]
+        {
+            self.0[(slot / 4) as usize & 3].to_array()[(slot & 3) as usize]
         }
-        stride /= 2;
-    }
-    most[0]
-}
-
-/// Entry `slot` of a local array. Devices keep arrays in registers only where no index varies, so there it is selected.
-#[inline(always)]
-fn entry<const W: usize>(array: &[f32; W], slot: u32) -> f32 {
-    #[cfg(target_arch = "spirv")]
-    {
-        let mut found = 0.0;
-        for s in 0..W {
-            found = if s as u32 == slot { array[s] } else { found };
-        }
-        found
-    }
-    #[cfg(not(target_arch = "spirv"))]
-    {
-        array[slot as usize]
     }
 }

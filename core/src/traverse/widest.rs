@@ -3,20 +3,17 @@
 //! All are compiled from one source without contraction, so they give the same words. Without the feature `simd` there is one:
 //! that of the instructions that the program is compiled for.
 
-use super::random::Random64;
-use super::sample::SampledLight;
-use crate::importance::ImportanceModel;
-use crate::node::LightNode;
-use crate::point::ShadingPoint;
-use crate::tree::LightTree;
-
 #[cfg(feature = "simd")]
 mod dispatched {
     use core::marker::PhantomData;
 
     use pulp::{Arch, Simd, WithSimd};
 
-    use super::*;
+    use crate::importance::ImportanceModel;
+    use crate::node::LightNode;
+    use crate::point::ShadingPoint;
+    use crate::traverse::{Random64, SampledLight};
+    use crate::tree::LightTree;
 
     /// Arguments of a walk, as the dispatcher takes them.
     struct Job<'a, N, I, A, const W: usize> {
@@ -34,7 +31,7 @@ mod dispatched {
 
         #[inline(always)]
         fn with_simd<S: Simd>(self, _: S) -> SampledLight {
-            super::super::sample::<N, I, W>(self.tree, self.arguments.0, self.arguments.1)
+            crate::traverse::sample::<N, I, W>(self.tree, self.arguments.0, self.arguments.1)
         }
     }
 
@@ -44,7 +41,7 @@ mod dispatched {
         #[inline(always)]
         fn with_simd<S: Simd>(self, _: S) -> f32 {
             let Known(point, light, instance) = self.arguments;
-            super::super::pmf::<N, I, W>(self.tree, point, light, instance)
+            crate::traverse::pmf::<N, I, W>(self.tree, point, light, instance)
         }
     }
 
@@ -54,7 +51,7 @@ mod dispatched {
         #[inline(always)]
         fn with_simd<S: Simd>(self, _: S) {
             let Batch(points, randoms, sampled) = self.arguments;
-            super::super::sample_batch::<N, I, W>(self.tree, points, randoms, sampled);
+            crate::traverse::sample_batch::<N, I, W>(self.tree, points, randoms, sampled);
         }
     }
 
