@@ -44,7 +44,7 @@ impl<const W: usize> Words<W> {
         Field::new("unused", Self::EACH.saturating_sub(4)),
         Field::any("center_kind", Self::EACH),
         Field::any("center_phi", Self::EACH),
-        Field::new("normal", Self::EACH),
+        Field::any("normal", Self::EACH),
         Field::any("extent", Self::EACH),
         Field::new("link", Self::EACH),
     ];

@@ -8,6 +8,7 @@ mod devices;
 mod export;
 mod frames;
 mod info;
+mod numbers;
 mod range;
 mod render;
 mod stability;
@@ -51,6 +52,8 @@ enum Command {
     Bench(bench::Args),
     /// Compute the variance of one light sample exactly, scene by scene.
     Variance(variance::Args),
+    /// Compare stratified and low-discrepancy numbers with independent ones.
+    Numbers(numbers::Args),
     /// Compare the methods over an animation as the paper does: errors, times, graphs and close-ups.
     Compare(compare::Args),
     /// Check every extreme that the light BVH must survive, on the CPU and every device, against stated bounds.
@@ -102,6 +105,7 @@ pub fn main() -> ExitCode {
         Command::Verify(args) => verify::run(&context, args),
         Command::Bench(args) => bench::run(&context, args),
         Command::Variance(args) => variance::run(&context, args),
+        Command::Numbers(args) => numbers::run(&context, args),
         Command::Compare(args) => compare::run(&context, args),
         Command::Stability(args) => stability::run(&context, args),
         Command::Info => info::run(&context),

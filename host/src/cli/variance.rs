@@ -3,7 +3,7 @@
 //! At each point the unshadowed diffuse light of every triangle is computed in closed form, and its probability is asked of the
 //! tree: no sampling is involved, so the figure has no noise but that of the choice of points.
 
-mod irradiance;
+pub(super) mod irradiance;
 mod points;
 
 use std::time::Instant;

@@ -23,7 +23,7 @@ fn cross(a: V, b: V) -> V {
 /// Irradiance at a point with a normal, up to a factor common to all lights: Lambert's formula over the part of the triangle
 /// above the horizon, times luminance (J. H. Lambert, Photometria, 1760; Arvo, "Analytic methods for simulated light
 /// transport", 1995, section 2). Zero behind a one-sided emitter.
-pub(super) fn irradiance(triangle: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
+pub(in crate::cli) fn irradiance(triangle: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
     let (p, n) = (point.p.map(f64::from), point.n.map(f64::from));
     let corners = triangle.p.map(|vertex| sub(vertex.map(f64::from), p));
     let normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]));
