@@ -9,6 +9,8 @@ extern crate self as lightbvh_tests;
 pub mod edits;
 #[path = "../tests/src/generate.rs"]
 pub mod generate;
+#[path = "../tests/src/layouts.rs"]
+pub mod layouts;
 #[path = "../tests/src/oracle.rs"]
 pub mod oracle;
 #[path = "../tests/src/placing.rs"]
@@ -20,30 +22,20 @@ pub mod slowed;
 pub mod geometry;
 #[path = "../host/src/stability/random.rs"]
 pub mod random;
-#[path = "../host/src/stability/cases/scattered.rs"]
-pub mod scattered;
 #[path = "../host/src/stability/statistics.rs"]
 pub mod statistics;
 
 /// Where the host has them.
 pub mod stability {
     pub use crate::{geometry, random, statistics};
-    /// Of its cases, those that tests use.
-    pub mod cases {
-        pub use crate::scattered::scattered;
-    }
 }
 
 #[path = "../tests/tests/bounds.rs"]
 mod bounds;
-#[path = "../tests/tests/climb.rs"]
-mod climb;
 #[path = "../tests/tests/encoding.rs"]
 mod encoding;
 #[path = "../tests/tests/instance.rs"]
 mod instance;
-#[path = "../tests/tests/dead.rs"]
-mod later_dead;
 #[path = "../tests/tests/deep_scene.rs"]
 mod later_deep_scene;
 #[path = "../tests/tests/refit.rs"]
@@ -66,8 +58,6 @@ mod slow_exact_exhaustive;
 mod slow_hostile;
 #[path = "../tests/tests/importance.rs"]
 mod slow_importance;
-#[path = "../tests/tests/lanes.rs"]
-mod slow_lanes;
 #[path = "../tests/tests/rebuilder.rs"]
 mod slow_rebuilder;
 #[path = "../tests/tests/sampling.rs"]
@@ -76,3 +66,5 @@ mod slow_sampling;
 mod slow_scene;
 #[path = "../tests/tests/scene_edits.rs"]
 mod slow_scene_edits;
+#[path = "../tests/tests/sweep.rs"]
+mod slow_sweep;

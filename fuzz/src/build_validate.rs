@@ -1,7 +1,7 @@
 //! Lights of any words, refused or built into valid trees.
 
 use arbitrary::{Result, Unstructured};
-use lightbvh::{BuildParams, CompactNode, FullNode, LightBvh, LightNode, Lights};
+use lightbvh::{BuildParams, CompactNode, FullNode, LightBvh, LightNode, Lights, MomentNode};
 
 use crate::{Forms, input};
 
@@ -15,10 +15,11 @@ pub fn build_validate(data: &[u8], forms: Forms) {
             input::triangles(u)?
         };
         if let Ok(lights) = Lights::new(triangles) {
-            for form in forms.of(data, 6) {
+            for form in forms.of(data, 8) {
                 match form / 2 {
                     0 => valid::<CompactNode<2>, 2>(&lights, &params, form),
                     1 => valid::<CompactNode<4>, 4>(&lights, &params, form),
+                    2 => valid::<MomentNode<8>, 8>(&lights, &params, form),
                     _ => valid::<FullNode<16>, 16>(&lights, &params, form),
                 }
             }

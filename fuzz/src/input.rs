@@ -1,8 +1,9 @@
 //! Lights, points and nodes from the fuzzer's bytes.
 
 use arbitrary::{Error, Result, Unstructured};
+use lightbvh::build::Effort;
 use lightbvh::exact::pow2;
-use lightbvh::{BuildParams, CompactNode, EmissiveTriangle, Heuristic, LightNode, Lights, ShadingPoint};
+use lightbvh::{BuildParams, EmissiveTriangle, Heuristic, LightNode, Lights, ShadingPoint, Summary};
 
 /// Most triangles of an input: enough for several levels.
 const MOST: u8 = 40;
@@ -46,13 +47,24 @@ impl Coordinates {
 
 /// Build parameters, also outside of their range.
 pub fn params(u: &mut Unstructured<'_>) -> Result<BuildParams> {
-    let heuristic = if u.arbitrary()? {
-        Heuristic::Sah
+    let bits: u8 = u.arbitrary()?;
+    let heuristic = [
+        Heuristic::Saoh,
+        Heuristic::Sah,
+        Heuristic::Ward,
+        Heuristic::Morton,
+    ][usize::from(bits & 3)];
+    let effort = if bits & 4 == 0 {
+        Effort::Usual
     } else {
-        Heuristic::Saoh
+        Effort::Most
     };
     let buckets = u32::from(u.arbitrary::<u8>()? % 40);
-    Ok(BuildParams { heuristic, buckets })
+    Ok(BuildParams {
+        heuristic,
+        buckets,
+        effort,
+    })
 }
 
 /// Zero, or a power of two of the domain.
@@ -172,16 +184,36 @@ pub fn any_point(u: &mut Unstructured<'_>) -> Result<ShadingPoint> {
 }
 
 /// A node of any words, or with links that mostly lead to one of eight nodes.
-pub fn node(u: &mut Unstructured<'_>) -> Result<CompactNode<2>> {
-    let words: [u32; 14] = u.arbitrary()?;
-    let mut node: CompactNode<2> = bytemuck::cast(words);
+pub fn node<N: LightNode<W>, const W: usize>(u: &mut Unstructured<'_>) -> Result<N> {
+    let words: Vec<u32> = (0..size_of::<N>() / 4)
+        .map(|_| u.arbitrary())
+        .collect::<Result<_>>()?;
+    let mut node: N = bytemuck::pod_read_unaligned(bytemuck::cast_slice(&words));
     if u.arbitrary()? {
-        for slot in 0..2 {
-            let bounds = node.bounds(slot);
+        let summaries = std::array::from_fn(|slot| node.summary(slot));
+        for slot in 0..W {
             let links: u8 = u.arbitrary()?;
             node.set_child(slot, u32::from(links & 3), u32::from(links >> 2 & 15));
-            node.set_bounds(slot, &bounds);
         }
+        node.set_summaries(&summaries);
     }
     Ok(node)
+}
+
+/// Whether a light has flux, as nodes of layout `N` know it.
+pub fn shines<N: LightNode<W>, const W: usize>(triangle: &EmissiveTriangle) -> bool {
+    N::Summary::of_triangle(triangle).phi() > 0.0
+}
+
+/// Asserts that pmfs sum to one, as in the property tests: those of a tree are exact but for the rounding of the sum; a uniform
+/// share of 2^-`halvings` is divided twice and added, each within 2^-24.
+pub fn sum_is_one(pmfs: &[f32], halvings: u32) {
+    let sum: f64 = pmfs.iter().map(|&pmf| f64::from(pmf)).sum();
+    let uniform = if halvings > 0 {
+        (1.0 + 2.0 * 0.5f64.powi(halvings as i32)) * 2f64.powi(-24)
+    } else {
+        0.0
+    };
+    let tolerance = pmfs.len() as f64 * 2f64.powi(-53) + uniform;
+    assert!((sum - 1.0).abs() <= tolerance, "sum {sum}");
 }

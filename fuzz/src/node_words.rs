@@ -1,18 +1,48 @@
 //! Arrays of a tree that hold any words.
 
+use std::cell::Cell;
+
 use arbitrary::{Result, Unstructured};
-use lightbvh::{CompactNode, Eq4, INVALID, Instance, LightTree, refit, traverse};
+use lightbvh::trail::max_levels;
+use lightbvh::{
+    CompactNode, Eq4, INVALID, ImportanceModel, Instance, LightNode, LightTree, MomentNode, Moments,
+    ShadingPoint, refit, traverse,
+};
 
 use crate::{Forms, input};
 
-/// Bytes as the arrays of a tree: whatever they are, sampling, pmf and refit return.
-pub fn node_words(data: &[u8], _: Forms) {
-    fn run(u: &mut Unstructured<'_>) -> Result<()> {
+thread_local! {
+    static NODES: Cell<u32> = const { Cell::new(0) };
+}
+
+/// An importance that counts how many nodes it is asked about, with a share of 1/4 of uniform choice.
+struct Counting<I>(std::marker::PhantomData<I>);
+
+impl<N, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W> for Counting<I> {
+    const UNIFORM_HALVINGS: u32 = 2;
+
+    fn weights(node: &N, point: &ShadingPoint) -> [f32; W] {
+        NODES.set(NODES.get() + 1);
+        I::weights(node, point)
+    }
+}
+
+/// Bytes as the arrays of a tree: whatever they are, sampling, pmf and refit return, after no more steps than the tree is said
+/// to be deep.
+pub fn node_words(data: &[u8], forms: Forms) {
+    fn run<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+        u: &mut Unstructured<'_>,
+    ) -> Result<()> {
         let point = input::any_point(u)?;
         let triangles = input::any_triangles(u)?;
-        let (random, light, mesh): (u32, u32, u32) = u.arbitrary()?;
-        let meshes: Vec<Instance> = (0..u.int_in_range(0..=3)?)
-            .map(|_| Ok(bytemuck::cast(u.arbitrary::<[u32; 24]>()?)))
+        let (random, light, instance): (u32, u32, u32) = u.arbitrary()?;
+        let instances: Vec<Instance> = (0..u.int_in_range(0..=3)?)
+            .map(|_| {
+                let (first, last): ([u32; 32], u32) = u.arbitrary()?;
+                let mut words = [last; 33];
+                words[..32].copy_from_slice(&first);
+                Ok(bytemuck::cast(words))
+            })
             .collect::<Result<_>>()?;
         let roots: Vec<refit::BlasRoot> = (0..u.int_in_range(0..=3)?)
             .map(|_| Ok(bytemuck::cast(u.arbitrary::<[u32; 13]>()?)))
@@ -22,33 +52,49 @@ pub fn node_words(data: &[u8], _: Forms) {
             .collect::<Result<_>>()?;
         let trail_words = u.arbitrary::<u32>()? & 3;
         let root = u.arbitrary::<u32>()? & 7;
-        let nodes: Vec<CompactNode<2>> = (0..u.int_in_range(1..=8)?)
+        let (live, lights): (u32, u32) = u.arbitrary()?;
+        let depth = u.arbitrary::<u8>()?;
+        let nodes: Vec<N> = (0..u.int_in_range(1..=8)?)
             .map(|_| input::node(u))
             .collect::<Result<_>>()?;
 
         let tree = LightTree {
             nodes: &nodes,
             root,
-            meshes: &meshes,
+            instances: &instances,
             trails: &trails,
             trail_words,
+            live,
+            lights,
+            depth: u32::from(depth),
         };
-        let sampled = traverse::sample::<_, Eq4, _, 2>(&tree, &point, random);
-        for (light, mesh) in [
-            (sampled.light, mesh),
-            (light, mesh),
-            (light & 7, mesh & 3),
+        let counted = |pmf: f32| {
+            assert!(NODES.take() <= u32::from(depth).min(2 * max_levels(W)));
+            assert!((0.0..=1.0).contains(&pmf), "{pmf}");
+        };
+        NODES.set(0);
+        let sampled = traverse::sample::<_, Counting<I>, W>(&tree, &point, random.into());
+        counted(sampled.pmf);
+        for (light, instance) in [
+            (sampled.light, instance),
+            (light, instance),
+            (light & 7, instance & 3),
             (sampled.light, INVALID),
         ] {
-            let _ = traverse::pmf::<_, Eq4, _, 2>(&tree, &point, light, mesh);
+            counted(traverse::pmf::<_, Counting<I>, W>(&tree, &point, light, instance));
         }
         for i in 0..nodes.len() as u32 {
-            let _ = refit::leaves(&nodes, &triangles, i);
-            let _ = refit::level(&nodes, i);
-            let _ = refit::mesh_leaves(&nodes, &meshes, &roots, i);
+            let _ = refit::bottom(&nodes, &triangles, i);
+            let _ = refit::top(&nodes, &instances, &roots, i);
             let _ = refit::root(&nodes, i);
         }
         Ok(())
     }
-    let _ = run(&mut Unstructured::new(data));
+    for form in forms.of(data, 2) {
+        let u = &mut Unstructured::new(data);
+        let _ = match form {
+            0 => run::<CompactNode<2>, Eq4, 2>(u),
+            _ => run::<MomentNode<4>, Moments, 4>(u),
+        };
+    }
 }

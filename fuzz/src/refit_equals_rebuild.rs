@@ -1,7 +1,7 @@
 //! Lights that move: a refitted tree against a tree built anew.
 
 use arbitrary::{Result, Unstructured};
-use lightbvh::{BuildParams, CompactNode, FullNode, LightBvh, LightNode, Lights};
+use lightbvh::{BuildParams, CompactNode, FullNode, LightBvh, LightNode, Lights, MomentNode};
 
 use crate::{Forms, input};
 
@@ -12,11 +12,11 @@ pub fn refit_equals_rebuild(data: &[u8], forms: Forms) {
         let params = input::params(u)?;
         let lights = input::lights(u)?;
         let moved = input::moved(u, &lights)?;
-        for form in forms.of(data, 2) {
-            if form == 0 {
-                refitted::<CompactNode<4>, 4>(&lights, &moved, &params);
-            } else {
-                bounded_alike(&lights, &moved, &params);
+        for form in forms.of(data, 3) {
+            match form {
+                0 => refitted::<CompactNode<4>, 4>(&lights, &moved, &params),
+                1 => refitted::<MomentNode<8>, 8>(&lights, &moved, &params),
+                _ => bounded_alike(&lights, &moved, &params),
             }
         }
         Ok(())
@@ -40,7 +40,7 @@ fn bounded_alike(lights: &Lights, moved: &Lights, params: &BuildParams) {
     full.refit(moved);
     let anew = LightBvh::<FullNode<2>, 2>::single_level(moved, params);
     // Without quantisation boxes do not depend on the order of merges; flux does, by its rounding.
-    let (a, b) = (full.bounds(), anew.bounds());
+    let (a, b) = (full.summary(), anew.summary());
     assert_eq!((a.min, a.max), (b.min, b.max));
     assert!((a.phi - b.phi).abs() <= a.phi * 1e-4, "{} {}", a.phi, b.phi);
 }

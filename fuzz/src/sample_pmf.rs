@@ -1,11 +1,14 @@
 //! Probabilities against samples.
 
 use arbitrary::{Result, Unstructured};
-use lightbvh::{CompactNode, Eq4, INVALID, LightBvh, LightNode, Lights, ShadingPoint};
+use lightbvh::{
+    CompactNode, Defensive, Eq4, INVALID, ImportanceModel, LightBvh, LightNode, Lights, MomentNode, Moments,
+    Random64, ShadingPoint,
+};
 
 use crate::{Forms, input};
 
-/// Lights and points: probabilities sum to one, and samples come with them.
+/// Lights and points: every light with flux has a probability, they sum to one, and samples come with them.
 pub fn sample_pmf(data: &[u8], forms: Forms) {
     let run = |u: &mut Unstructured<'_>| -> Result<()> {
         let params = input::params(u)?;
@@ -15,16 +18,19 @@ pub fn sample_pmf(data: &[u8], forms: Forms) {
             input::point(u, lights.triangles())?,
         ];
         let random: u32 = u.arbitrary()?;
-        for form in forms.of(data, 2) {
-            if form == 0 {
-                let bvh = LightBvh::<CompactNode<2>, 2>::two_level(&lights, &params);
-                for point in &points {
-                    distribution(&bvh, &lights, point, random);
+        for form in forms.of(data, 3) {
+            match form {
+                0 => {
+                    let bvh = LightBvh::<CompactNode<2>, 2>::two_level(&lights, &params);
+                    distributions::<_, Eq4, 2>(&bvh, &lights, &points, random);
                 }
-            } else {
-                let bvh = LightBvh::<CompactNode<4>, 4>::single_level(&lights, &params);
-                for point in &points {
-                    distribution(&bvh, &lights, point, random);
+                1 => {
+                    let bvh = LightBvh::<CompactNode<4>, 4>::single_level(&lights, &params);
+                    distributions::<_, Eq4, 4>(&bvh, &lights, &points, random);
+                }
+                _ => {
+                    let bvh = LightBvh::<MomentNode<8>, 8>::two_level(&lights, &params);
+                    distributions::<_, Defensive<Moments, 6>, 8>(&bvh, &lights, &points, random);
                 }
             }
         }
@@ -33,28 +39,46 @@ pub fn sample_pmf(data: &[u8], forms: Forms) {
     let _ = run(&mut Unstructured::new(data));
 }
 
-fn distribution<N: LightNode<W>, const W: usize>(
+fn distributions<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     bvh: &LightBvh<N, W>,
     lights: &Lights,
-    point: &ShadingPoint,
+    points: &[ShadingPoint],
     random: u32,
 ) {
-    let count = lights.triangles().len() as u32;
-    let pmfs: Vec<f32> = (0..count)
-        .map(|light| bvh.pmf::<Eq4>(lights, point, light))
-        .collect();
-    let sum: f64 = pmfs.iter().map(|&p| f64::from(p)).sum();
-    let reachable = pmfs.iter().any(|&p| p > 0.0);
-    // As in the property tests: a few roundings of 2^-24 for each level.
-    let tolerance = f64::from(bvh.depth() * 4 + 8) / 16_777_216.0;
-    assert!(!reachable || (sum - 1.0).abs() <= tolerance, "sum {sum}");
-    for i in 0..8_u32 {
-        let sampled = bvh.sample::<Eq4>(point, random.wrapping_add(i.wrapping_mul(0x9e37_79b9)));
-        if reachable {
-            assert!(sampled.light < count, "{sampled:?}");
-            assert_eq!(sampled.pmf.to_bits(), pmfs[sampled.light as usize].to_bits());
-        } else {
-            assert_eq!(sampled.light, INVALID);
+    let shines: Vec<bool> = lights.triangles().iter().map(input::shines::<N, W>).collect();
+    for point in points {
+        let count = lights.triangles().len() as u32;
+        let pmfs: Vec<f32> = (0..count)
+            .map(|light| bvh.pmf::<I>(lights, point, light))
+            .collect();
+        for (pmf, shines) in pmfs.iter().zip(&shines) {
+            assert!((0.0..=1.0).contains(pmf));
+            assert_eq!(*pmf > 0.0, *shines || I::UNIFORM_HALVINGS > 0);
+        }
+        let sampled = |number: Random64| {
+            let sampled = bvh.sample::<I>(point, number);
+            if sampled.light == INVALID {
+                assert!(!shines.contains(&true) && sampled.pmf == 0.0, "{sampled:?}");
+            } else {
+                assert_eq!(sampled.pmf.to_bits(), pmfs[sampled.light as usize].to_bits());
+            }
+        };
+        if shines.contains(&true) {
+            input::sum_is_one(&pmfs, I::UNIFORM_HALVINGS);
+        }
+        for i in 0..8_u32 {
+            sampled(random.wrapping_add(i.wrapping_mul(0x9e37_79b9)).into());
+        }
+        // The ends of the range, which no rounding may carry beyond.
+        for bits in [
+            0,
+            u64::MAX,
+            u64::MAX << 32,
+            u64::MAX >> 32,
+            1 << 63,
+            (1 << 63) - 1,
+        ] {
+            sampled(bits.into());
         }
     }
 }

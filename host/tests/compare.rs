@@ -210,8 +210,13 @@ fn quick_compares_all_methods_on_all_scenes() {
             "power",
             "single-level-refit",
             "single-level-rebuilt",
+            "single-level-moments-rebuilt",
             "two-level-sah",
             "two-level-saoh",
+            "two-level-moments",
+            "restir",
+            "two-level-restir",
+            "two-level-moments-restir",
         ] {
             let of_method = |row: &&Value| row["scene"] == scene && row["method"] == method;
             assert_eq!(
@@ -237,6 +242,8 @@ fn devices_render_the_words_of_the_cpu() {
         "single-level-rebuilt",
         "--method",
         "two-level-saoh",
+        "--method",
+        "two-level-moments",
     ];
     let report = report(
         &folder.0,
@@ -247,7 +254,7 @@ fn devices_render_the_words_of_the_cpu() {
         .iter()
         .filter(|row| row["backend"] == "cpu")
         .collect();
-    assert_eq!(cpu.len(), 6);
+    assert_eq!(cpu.len(), 8);
     // No frame was timed.
     assert!(cpu[0]["frame_ms"].is_null());
     if rows(&report).len() == cpu.len() {

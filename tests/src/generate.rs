@@ -1,7 +1,7 @@
 //! Lights and points to test with: seeded, and with the degenerate cases in.
 
 use lightbvh::cone::{Cone, normalized};
-use lightbvh::{EmissiveTriangle, LightBounds, Lights, ShadingPoint, exact};
+use lightbvh::{BuildParams, EmissiveTriangle, Heuristic, LightBounds, Lights, ShadingPoint, exact};
 pub use lightbvh_host::stability::random::Random;
 use proptest::prelude::*;
 
@@ -36,6 +36,15 @@ pub fn small_triangles(
             }
         })
         .collect()
+}
+
+/// Trees split top-down by `heuristic` in so many buckets.
+#[must_use]
+pub fn split(heuristic: Heuristic, buckets: u32) -> BuildParams {
+    BuildParams {
+        buckets,
+        ..BuildParams::paper(heuristic)
+    }
 }
 
 /// A shading point in a box a little larger than `side`; one in eight is in a volume.

@@ -7,6 +7,7 @@ pub mod edits;
 pub mod generate;
 pub mod gltf_files;
 pub mod known;
+pub mod layouts;
 pub mod oracle;
 pub mod placing;
 pub mod slowed;

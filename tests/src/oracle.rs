@@ -1,10 +1,14 @@
-//! Oracles in f64, independent of the arithmetic under test: angles and cones here; which light can arrive where is shared
-//! with `lightbvh stability`.
+//! Oracles in f64, independent of the arithmetic under test: angles, cones, sums and orders here; which light can arrive where is
+//! shared with `lightbvh stability`.
 
 use glam::DVec3;
 use lightbvh::cone::Cone;
-use lightbvh::{ImportanceModel, LightBounds, LightBvh, LightNode, Lights, ShadingPoint};
-pub use lightbvh_host::stability::geometry::{Triangle, can_contribute, sum_tolerance, vector};
+use lightbvh::node::kind;
+use lightbvh::{
+    EmissiveTriangle, ImportanceModel, LightBounds, LightBvh, LightNode, LightTree, Lights, ShadingPoint,
+    Transform,
+};
+pub use lightbvh_host::stability::geometry::{Triangle, can_contribute, vector};
 
 /// The angle between two vectors of any length, precise at every angle.
 #[must_use]
@@ -28,7 +32,7 @@ pub fn cone_excess(outer: (DVec3, f32), inner: (DVec3, f32)) -> f64 {
 }
 
 /// Probability of every light at `point`.
-pub fn all_pmfs<I: ImportanceModel, N: LightNode<W>, const W: usize>(
+pub fn all_pmfs<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     bvh: &LightBvh<N, W>,
     lights: &Lights,
     point: &ShadingPoint,
@@ -37,6 +41,71 @@ pub fn all_pmfs<I: ImportanceModel, N: LightNode<W>, const W: usize>(
         .map(|i| bvh.pmf::<I>(lights, point, i))
         .collect()
 }
+
+/// By how much a sum of `lights` pmfs may be off 1.
+///
+/// Those of a tree are shares of numbers, so their sum is 1 but for the rounding of the sum itself, at most 2^-54 for each
+/// light, and for shares below 2^-98, which count as at least 2^-99. A uniform share s is divided twice, each time within
+/// 2^-24, and added to the tree's within 2^-24.
+#[must_use]
+pub fn sum_tolerance<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(lights: usize) -> f64 {
+    let uniform = if I::UNIFORM_HALVINGS > 0 {
+        (1.0 + 2.0 * 0.5f64.powi(I::UNIFORM_HALVINGS as i32)) * 2f64.powi(-24)
+    } else {
+        0.0
+    };
+    lights as f64 * 2f64.powi(-53) + uniform
+}
+
+/// Asserts that pmfs are probabilities, and sum to one.
+///
+/// # Panics
+/// If they are not.
+pub fn assert_sum_is_one<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    pmfs: impl IntoIterator<Item = f32>,
+    point: &ShadingPoint,
+) {
+    let (mut sum, mut count) = (0.0, 0);
+    for pmf in pmfs {
+        assert!((0.0..=1.0).contains(&pmf), "pmf {pmf} at {point:?}");
+        sum += f64::from(pmf);
+        count += 1;
+    }
+    let tolerance = sum_tolerance::<N, I, W>(count);
+    let off = (sum - 1.0).abs();
+    assert!(
+        off <= tolerance,
+        "{} {W}: the sum of {count} is off by {off:e}, at most {tolerance:e}, at {point:?}",
+        N::NAME
+    );
+}
+
+/// The leaves of a tree in the order of its slots: (triangle, instance), without an instance in a single-level tree.
+#[must_use]
+pub fn leaves<N: LightNode<W>, const W: usize>(tree: &LightTree<'_, N>) -> Vec<(u32, Option<u32>)> {
+    let (mut found, mut stack) = (Vec::new(), vec![(tree.root, None)]);
+    while let Some((index, instance)) = stack.pop() {
+        if index & LEAF != 0 {
+            found.push((index & !LEAF, instance));
+            continue;
+        }
+        let node = &tree.nodes[index as usize];
+        // The last slot first, so that the first is on top of the stack.
+        for slot in (0..W).rev() {
+            let link = node.link(slot);
+            match node.kind(slot) {
+                kind::INNER => stack.push((link, instance)),
+                kind::MESH => stack.push((tree.instances[link as usize].root, Some(link))),
+                kind::LIGHT => stack.push((link | LEAF, instance)),
+                _ => {}
+            }
+        }
+    }
+    found
+}
+
+/// Marks a triangle's index among those of nodes.
+const LEAF: u32 = 1 << 31;
 
 /// What f64 itself may be off in an angle, rad: acos and atan2 of numbers that are exact.
 const ANGLE_ERROR: f64 = 1e-12;
@@ -58,4 +127,41 @@ pub fn assert_cone_contains(outer: Cone, inner: Cone, what: &str) {
 #[must_use]
 pub fn box_contains(outer: &LightBounds, inner: &LightBounds) -> bool {
     outer.min.cmple(inner.min).all() && inner.max.cmple(outer.max).all()
+}
+
+/// Entries of maps and coordinates in a mesh's space below this count as zero: 2^-60.
+const TINY: f64 = 1.0 / 1_152_921_504_606_846_976.0;
+
+/// Asserts that `world` is `local` under the map: off by four roundings of 2^-24 of its terms; by what counts as zero, of an entry
+/// or a coordinate, times the other of the two; and by the result's own zero, 2^-100. Two vertices are exchanged where it mirrors;
+/// of a map as flat as f64 can tell, either way round.
+///
+/// # Panics
+/// If it is not.
+pub fn assert_mapped(map: &Transform, local: &EmissiveTriangle, world: &EmissiveTriangle) {
+    let near = |order: [usize; 3]| {
+        order.iter().zip(&world.p).all(|(&vertex, found)| {
+            let p = local.p[vertex];
+            let entries: f64 = map.columns.iter().flatten().map(|x| f64::from(x.abs())).sum();
+            let along: f64 = p.iter().map(|x| f64::from(x.abs())).sum();
+            (0..3).all(|row| {
+                let mut terms = [0.0, 0.0, 0.0, f64::from(map.translation[row])];
+                for k in 0..3 {
+                    terms[k] = f64::from(map.columns[k][row]) * f64::from(p[k]);
+                }
+                let size: f64 = terms.iter().map(|x| x.abs()).sum();
+                let tolerance = size * 2f64.powi(-22) + TINY * (entries + along) + 2f64.powi(-98);
+                (terms.iter().sum::<f64>() - f64::from(found[row])).abs() <= tolerance
+            })
+        })
+    };
+    let [x, y, z] = map.columns.map(vector);
+    let determinant = x.cross(y).dot(z);
+    let unclear = determinant.abs() <= 1e-12 * x.length() * y.length() * z.length();
+    let (straight, mirrored) = (near([0, 1, 2]), near([0, 2, 1]));
+    let expected = if determinant < 0.0 { mirrored } else { straight };
+    assert!(
+        expected || unclear && (straight || mirrored),
+        "{local:?} under {map:?} is {world:?}"
+    );
 }

@@ -3,7 +3,7 @@
 use glam::{DMat3, DQuat, DVec3};
 use lightbvh::Transform;
 
-use crate::generate::Random;
+use crate::generate::{self, Random};
 
 /// What kind of map to make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,6 +16,10 @@ pub enum Kind {
     Affine,
     /// One direction flattened.
     Flat,
+    /// Two directions on one, or everything to a point.
+    Singular,
+    /// Entries of every magnitude from 2^-62 to 2^12, one column after the other.
+    Extreme,
 }
 
 /// A map of `kind` to within `reach` metres of the origin.
@@ -42,6 +46,18 @@ pub fn transform(random: &mut Random, kind: Kind, reach: f32) -> Transform {
             turn * DMat3::from_diagonal(scale) * shear
         }
         Kind::Flat => turn * DMat3::from_diagonal(DVec3::new(1.0, 0.0, factor(random))),
+        Kind::Singular => {
+            let along = turn.x_axis;
+            let mut column = || along * f64::from(random.below(5)) * 0.25;
+            DMat3::from_cols(column(), column(), column())
+        }
+        Kind::Extreme => {
+            let mut column = || {
+                let size = f64::from(generate::log_uniform(random, -62, 11));
+                DVec3::from(random.direction().map(f64::from)) * size
+            };
+            DMat3::from_cols(column(), column(), column())
+        }
     };
     let columns = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
     Transform {
@@ -52,10 +68,12 @@ pub fn transform(random: &mut Random, kind: Kind, reach: f32) -> Transform {
 
 /// A kind, the usual ones more often.
 pub fn kind(random: &mut Random) -> Kind {
-    match random.below(10) {
+    match random.below(12) {
         0..=3 => Kind::Rigid,
         4..=6 => Kind::Similar,
         7..=8 => Kind::Affine,
-        _ => Kind::Flat,
+        9 => Kind::Flat,
+        10 => Kind::Singular,
+        _ => Kind::Extreme,
     }
 }

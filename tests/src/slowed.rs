@@ -8,7 +8,7 @@ use std::time::Duration;
 use bytemuck::{Pod, Zeroable};
 use lightbvh::bounds::LightBounds;
 use lightbvh::importance::Cluster;
-use lightbvh::{CompactNode, LightNode};
+use lightbvh::{BoundsNode, CompactNode, LightNode};
 
 /// Number of tests that may use [`Slowed`] in one program; each needs a number of its own.
 pub const TESTS: usize = 8;
@@ -110,6 +110,8 @@ fn touch<const TEST: usize>() {
 pub struct Slowed<const TEST: usize>(CompactNode<4>);
 
 impl<const TEST: usize> LightNode<4> for Slowed<TEST> {
+    type Summary = LightBounds;
+
     const EMPTY: Self = Self(<CompactNode<4> as LightNode<4>>::EMPTY);
     const NAME: &'static str = "slowed";
 
@@ -119,11 +121,8 @@ impl<const TEST: usize> LightNode<4> for Slowed<TEST> {
     fn link(&self, slot: usize) -> u32 {
         self.0.link(slot)
     }
-    fn cluster(&self, slot: usize) -> Cluster {
-        self.0.cluster(slot)
-    }
-    fn bounds(&self, slot: usize) -> LightBounds {
-        self.0.bounds(slot)
+    fn summary(&self, slot: usize) -> LightBounds {
+        self.0.summary(slot)
     }
     fn set_child(&mut self, slot: usize, kind: u32, link: u32) {
         touch::<TEST>();
@@ -132,10 +131,13 @@ impl<const TEST: usize> LightNode<4> for Slowed<TEST> {
     fn relink(&mut self, slot: usize, link: u32) {
         self.0.relink(slot, link);
     }
-    fn copy_child(&mut self, slot: usize, other: &Self, from: usize) {
-        self.0.copy_child(slot, &other.0, from);
+    fn set_summaries(&mut self, summaries: &[LightBounds; 4]) {
+        self.0.set_summaries(summaries);
     }
-    fn set_bounds(&mut self, slot: usize, bounds: &LightBounds) {
-        self.0.set_bounds(slot, bounds);
+}
+
+impl<const TEST: usize> BoundsNode<4> for Slowed<TEST> {
+    fn cluster(&self, slot: usize) -> Cluster {
+        self.0.cluster(slot)
     }
 }

@@ -5,25 +5,23 @@ use std::sync::OnceLock;
 
 use bytemuck::cast_slice;
 use lightbvh::BuildParams;
-use lightbvh_host::backend::{
-    Backend, CpuBackend, DeviceBackend, NODE_RECORD, PMF_RECORD, SAMPLED_RECORD, Sampler,
-};
+use lightbvh_host::backend::{Backend, Bvh, CpuBackend, DeviceBackend, PMF_RECORD, SAMPLED_RECORD, Sampler};
 use lightbvh_host::compare::compare_words;
 use lightbvh_host::scene::Scene;
 use lightbvh_host::vulkan::{Device, DeviceInfo, Exactness, Options};
 use lightbvh_host::workload::{arrays_at, build, lights_at, queries};
+use lightbvh_kernels::bvh::{Standard, WIDTH};
 use lightbvh_kernels_builder::verify::verify;
 use lightbvh_tests::broken::{Variant, module};
 use lightbvh_tests::devices::{devices, open};
 
 /// What a sample costs a software device with kernels ten times as long.
 const QUERIES: u32 = 4000;
-const KERNELS: [&str; 7] = [
+const KERNELS: [&str; 6] = [
     "self_test",
-    "refit_leaves",
-    "refit_level",
+    "refit_bottom",
     "refit_roots",
-    "refit_instances",
+    "refit_top",
     "sample",
     "pmf",
 ];
@@ -57,16 +55,15 @@ fn see(info: &DeviceInfo, variant: Variant) -> Seen {
 fn different(device: &Device) -> [u64; 3] {
     let scene = Scene::open("street").expect("a built-in scene");
     let lights = lights_at(&scene, 0).expect("lights");
-    let bvh = build(&lights, Sampler::TwoLevel, &BuildParams::default());
-    let mut cpu = CpuBackend::new(bvh.clone(), lights.clone());
-    let mut other = DeviceBackend::new(device, &bvh, &lights).expect("an upload");
+    let bvh: Bvh = build(&lights, Sampler::TwoLevel, &BuildParams::default());
+    let mut cpu = CpuBackend::<Standard, WIDTH>::new(bvh.clone(), lights.clone());
+    let mut other = DeviceBackend::<Standard, WIDTH>::new(device, &bvh, &lights).expect("an upload");
     let lights = lights_at(&scene, 40).expect("lights");
     let nodes = cpu.refit(&lights).expect("a refit").value;
     let found = other.refit(&lights).expect("a refit").value;
-    let of_nodes =
-        compare_words(&NODE_RECORD, cast_slice(&nodes), cast_slice(&found)).expect("whole records");
+    let of_nodes = compare_words(&cpu.node_record(), &nodes, &found).expect("whole records");
     // Each kernel by itself: samples are of the right nodes.
-    other.write_nodes(&nodes).expect("an upload");
+    other.write_nodes(cast_slice(&nodes)).expect("an upload");
     let arrays = arrays_at(&scene, 40, 16, 16).expect("arrays");
     let mut asked = queries(&arrays, 1, 0, QUERIES);
     let sampled = cpu.sample(&asked).expect("samples").value;

@@ -4,8 +4,11 @@ use glam::Vec3;
 use lightbvh::bounds::{MAX_PHI, MIN_PHI};
 use lightbvh::cone::{Cone, normalized};
 use lightbvh::node::kind;
-use lightbvh::{CompactNode, FullNode, LightBounds, LightNode, exact};
-use lightbvh_tests::generate::{Random, any_bounds};
+use lightbvh::{
+    BoundsNode, CompactNode, FullNode, ImportanceModel, Instance, LightBounds, LightNode, Summary, exact,
+};
+use lightbvh_tests::each_layout;
+use lightbvh_tests::generate::{self, Random, any_bounds, extreme_triangle};
 use lightbvh_tests::oracle::{assert_cone_contains, box_contains, half_angle};
 use proptest::prelude::*;
 use rayon::prelude::*;
@@ -13,15 +16,17 @@ use rayon::prelude::*;
 const ULP: f64 = 1.0 / 16_777_216.0;
 
 /// Sets slot `slot` of an otherwise empty node and reads it again.
-fn encoded<N: LightNode<W>, const W: usize>(bounds: &LightBounds, slot: usize) -> (N, LightBounds) {
+fn encoded<N: BoundsNode<W>, const W: usize>(bounds: &LightBounds, slot: usize) -> (N, LightBounds) {
     let mut node = N::EMPTY;
     node.set_child(slot, kind::LIGHT, 7);
-    node.set_bounds(slot, bounds);
-    let decoded = node.bounds(slot);
+    let mut children = [LightBounds::EMPTY; W];
+    children[slot] = *bounds;
+    node.set_summaries(&children);
+    let decoded = node.summary(slot);
     (node, decoded)
 }
 
-fn encoding_is_outward<N: LightNode<W>, const W: usize>(bounds: &LightBounds, slot: usize) {
+fn encoding_is_outward<N: BoundsNode<W>, const W: usize>(bounds: &LightBounds, slot: usize) {
     let (node, decoded) = encoded::<N, W>(bounds, slot);
     assert!(
         box_contains(&decoded, bounds),
@@ -117,7 +122,7 @@ fn all_cone_codes() {
         words[4 * 2] = 0x3ff << 22 | 511 << 12 | 511 << 2;
         words[5 * 2] = 0x3f80_0000 << 1 | code;
         let node: CompactNode<2> = node_of_words(&words);
-        let decoded = node.bounds(0);
+        let decoded = node.summary(0);
         assert_eq!(decoded.phi, 1.0);
         assert!(decoded.cos_theta_o < last || code == 255, "code {code}");
         last = decoded.cos_theta_o;
@@ -133,9 +138,11 @@ fn all_cone_codes() {
     assert_eq!(last, -1.0);
 }
 
-fn children_keep_to_their_slots<N: LightNode<W> + PartialEq + std::fmt::Debug, const W: usize>() {
+/// Kinds and links are kept apart from summaries, and from each other; what is said of a child does not touch the others.
+fn children_keep_to_their_slots<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>() {
     let mut random = Random::new(W as u32);
     let mut node = N::EMPTY;
+    let words = |node: &N, slot: usize| node.summary(slot).to_words().map(f32::to_bits);
     for round in 0..64 {
         for slot in 0..W {
             let before = node;
@@ -146,29 +153,72 @@ fn children_keep_to_their_slots<N: LightNode<W> + PartialEq + std::fmt::Debug, c
                 random.bits()
             };
             node.set_child(slot, to, link);
-            assert_eq!(
-                (node.kind(slot), node.link(slot), node.bounds(slot).phi),
-                (to, link, 0.0)
-            );
-            node.set_bounds(slot, &any_bounds(&mut random));
             assert_eq!((node.kind(slot), node.link(slot)), (to, link));
+            assert_eq!(node.summary(slot).phi(), 0.0, "set anew, it has no summary");
+            node.relink(slot, !link);
+            assert_eq!((node.kind(slot), node.link(slot)), (to, !link));
             for other in (0..W).filter(|&other| other != slot) {
                 assert_eq!(
                     (node.kind(other), node.link(other)),
                     (before.kind(other), before.link(other))
                 );
-                assert_eq!(node.bounds(other), before.bounds(other));
+                assert_eq!(words(&node, other), words(&before, other));
             }
+        }
+        let before = node;
+        node.set_summaries(&std::array::from_fn(|_| {
+            N::Summary::of_triangle(&extreme_triangle(&mut random))
+        }));
+        for slot in 0..W {
+            assert_eq!(
+                (node.kind(slot), node.link(slot)),
+                (before.kind(slot), before.link(slot))
+            );
         }
     }
 }
 
 #[test]
 fn kinds_and_links() {
-    children_keep_to_their_slots::<CompactNode<2>, 2>();
-    children_keep_to_their_slots::<CompactNode<8>, 8>();
-    children_keep_to_their_slots::<FullNode<2>, 2>();
-    children_keep_to_their_slots::<FullNode<16>, 16>();
+    each_layout!(children_keep_to_their_slots());
+}
+
+/// Flux that is not zero never becomes zero on its way into a node, up its parents and into the world.
+fn flux_is_kept<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>() {
+    let mut random = Random::new(W as u32);
+    for _ in 0..2000 {
+        let children: [N::Summary; W] =
+            std::array::from_fn(|_| N::Summary::of_triangle(&extreme_triangle(&mut random)));
+        let mut node = N::EMPTY;
+        for slot in 0..W {
+            node.set_child(slot, kind::LIGHT, 0);
+        }
+        node.set_summaries(&children);
+        let mut any = false;
+        for (slot, child) in children.iter().enumerate() {
+            assert_eq!(node.summary(slot).phi() > 0.0, child.phi() > 0.0, "{child:?}");
+            any |= child.phi() > 0.0;
+        }
+        let all = node.merged();
+        assert_eq!(all.phi() > 0.0, any, "{children:?}");
+        let flux = generate::log_uniform(&mut random, -100, 99);
+        for flux in [flux, exact::pow2(-100), exact::pow2(100), 0.0] {
+            let instance = Instance {
+                flux,
+                ..Instance::IDENTITY
+            };
+            let world = all.to_world(&instance).phi();
+            assert_eq!(world > 0.0, any && flux > 0.0, "{all:?} times {flux}");
+            assert!(world == 0.0 || (MIN_PHI..=exact::pow2(126)).contains(&world));
+        }
+        let words = all.to_words();
+        assert_eq!(N::Summary::from_words(&words), all);
+    }
+}
+
+#[test]
+fn flux_stays_flux() {
+    each_layout!(flux_is_kept());
 }
 
 /// The least and greatest of everything at once.

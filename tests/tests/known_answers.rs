@@ -2,8 +2,11 @@
 
 use std::collections::BTreeSet;
 
+use lightbvh::Instance;
 use lightbvh::node::NODE_FORMAT;
+use lightbvh::trail::max_levels;
 use lightbvh_host::vulkan::Options;
+use lightbvh_kernels::bvh::{Choice, Paper, Standard, WIDTH};
 use lightbvh_tests::devices::on_each_device;
 use lightbvh_tests::known::tree::{Tree, light_of};
 use lightbvh_tests::known::{FILES, File, Subject, answer, answer_on, changes_to_bits, stated_node_format};
@@ -46,13 +49,18 @@ fn every_exact_device_reproduces_every_word() {
 }
 
 #[test]
-fn the_lanes_of_the_cpu_refit_to_the_same_words() {
+fn the_sweeps_of_the_cpu_refit_to_the_same_words() {
+    fn swept<C: Choice<W>, const W: usize>(name: &str) {
+        let file = File::read(name);
+        let nodes = Tree::<C::Node, W>::read(&file).swept();
+        let known = file.find("nodes").expect("nodes").output();
+        assert!(bytemuck::cast_slice::<_, u32>(&nodes) == known, "{name}");
+    }
     for (name, subject) in FILES {
-        if subject == Subject::Tree {
-            let file = File::read(name);
-            let nodes = Tree::read(&file).refitted_in_lanes();
-            let known = file.find("nodes").expect("nodes").output();
-            assert!(bytemuck::cast_slice::<_, u32>(&nodes) == known, "{name}");
+        match subject {
+            Subject::Tree => swept::<Standard, WIDTH>(name),
+            Subject::PaperTree => swept::<Paper, 4>(name),
+            _ => {}
         }
     }
 }
@@ -112,51 +120,49 @@ fn files_are_whole() {
 #[test]
 fn trees_hold_what_they_are_named_after() {
     for (name, subject) in FILES {
-        if subject != Subject::Tree {
-            continue;
+        match subject {
+            Subject::Tree => holds_what_it_is_named_after::<Standard, WIDTH>(name),
+            Subject::PaperTree => holds_what_it_is_named_after::<Paper, 4>(name),
+            _ => {}
         }
-        let file = File::read(name);
-        let tree = Tree::read(&file);
-        let (nodes, _) = tree.refitted();
-        let (sampled, pmfs) = tree.queried(&nodes);
-        let drawn: BTreeSet<u32> = sampled.iter().filter_map(light_of).collect();
-        let dead = tree.dead(&nodes);
-        println!(
-            "{name}: depth {}, {} lights drawn, {dead} dead branches",
-            tree.depth(),
-            drawn.len()
-        );
-        assert!(drawn.len() > 5, "{name}: {} lights are drawn", drawn.len());
-        match name {
-            "tree_deep" => assert_eq!(tree.depth(), 64),
-            "tree_dead_branches" => assert!(dead > 20, "{dead} dead branches"),
-            "tree_instances" => {
-                assert!(tree.instances.iter().any(|i| i.mirrored == 1));
-                assert!(
-                    tree.instances.iter().any(|i| i.error == 0.0),
-                    "one has a bottom level of its own"
-                );
-                assert!(tree.instances.iter().any(|i| i.radiance == 0.0));
-                assert_eq!(tree.push.two_level, 1);
-            }
-            "tree_two_levels" => assert!(tree.roots.len() > 5),
-            _ => assert_eq!(tree.push.two_level, 0),
+    }
+}
+
+fn holds_what_it_is_named_after<C: Choice<W>, const W: usize>(name: &str) {
+    let file = File::read(name);
+    let tree = Tree::<C::Node, W>::read(&file);
+    let (nodes, _) = tree.refitted();
+    let (sampled, pmfs) = tree.queried::<C>(&nodes);
+    let drawn: BTreeSet<u32> = sampled.iter().filter_map(light_of).collect();
+    println!("{name}: depth {}, {} lights drawn", tree.depth(), drawn.len());
+    assert!(drawn.len() > 5, "{name}: {} lights are drawn", drawn.len());
+    assert!(tree.depth() <= tree.push.depth, "{name}");
+    match name {
+        "tree_deep" => assert_eq!(tree.depth(), 2 * max_levels(W)),
+        "tree_instances" | "tree_eq4" => {
+            assert!(tree.instances.iter().any(|i| i.mirrored == 1));
+            assert!(tree.instances.iter().any(|i| i.radiance == 0.0));
+            let flat = |i: &Instance| i.columns.contains(&[0.0; 3]);
+            assert!(tree.instances.iter().any(flat));
+            assert!(tree.push.live > 10);
         }
-        assert!(pmfs.iter().all(|pmf| (0.0..=1.0).contains(pmf)), "{name}");
-        // A sample's pmf is that of its light.
-        for (query, sampled) in tree.samples.iter().zip(&sampled) {
-            let Some(light) = light_of(sampled) else { continue };
-            let asked = tree
-                .pmfs
-                .iter()
-                .position(|q| q.point == query.point && q.random_or_light == light);
-            if let Some(asked) = asked {
-                assert_eq!(
-                    sampled.pmf.to_bits(),
-                    pmfs[asked].to_bits(),
-                    "{name}: light {light}"
-                );
-            }
+        "tree_two_levels" => assert!(tree.roots.len() > 5),
+        _ => assert_eq!(tree.push.live, 0),
+    }
+    assert!(pmfs.iter().all(|pmf| (0.0..=1.0).contains(pmf)), "{name}");
+    // A sample's pmf is that of its light.
+    for (query, sampled) in tree.samples.iter().zip(&sampled) {
+        let Some(light) = light_of(sampled) else { continue };
+        let asked = tree
+            .pmfs
+            .iter()
+            .position(|q| q.point == query.point && q.random_or_light == light);
+        if let Some(asked) = asked {
+            assert_eq!(
+                sampled.pmf.to_bits(),
+                pmfs[asked].to_bits(),
+                "{name}: light {light}"
+            );
         }
     }
 }

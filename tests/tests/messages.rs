@@ -212,18 +212,18 @@ fn violations() {
         (What::Depth, "depth"),
         (What::Listed, "times in the list of levels"),
         (What::ListedLevel, "level in the list of levels"),
-        (What::Word(5), "word 5 of the child"),
+        (What::Word(5), "word 5 of the node"),
     ];
     for (what, name) in whole {
         assert_eq!(say(what), format!("node 3, {name}: expected 1069547520, found 7"));
     }
     assert_eq!(
-        say(What::Bounds(4)),
-        "node 3, greatest y of the refitted bounds: expected 1.5e0, found 1e-44"
+        say(What::Bounds("greatest y")),
+        "node 3, greatest y after a refit: expected 1.5e0, found 1e-44"
     );
     assert_eq!(
-        say(What::Containment(9)),
-        "node 3, cos θ_o within the parent's bounds: expected 1.5e0, found 1e-44"
+        say(What::Containment("cos θ_o")),
+        "node 3, cos θ_o within the parent's: expected 1.5e0, found 1e-44"
     );
     says(
         &RebuildError::Panicked {

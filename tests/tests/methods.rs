@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use lightbvh::BuildParams;
-use lightbvh_host::backend::{Backend, CpuBackend, Sampler};
+use lightbvh_host::backend::{Backend, Bvh, CpuBackend, Sampler};
 use lightbvh_host::method::{Method, Step, Target, runner};
 use lightbvh_host::scene::Scene;
 use lightbvh_host::workload::{Shot, arrays_at, build, lights_at};
+use lightbvh_kernels::bvh::{Standard, WIDTH};
 
 const LAST: u32 = 12;
 const SHOT: Shot = Shot {
@@ -64,8 +65,8 @@ fn skipped_frames_change_no_word() {
 fn a_rebuilt_tree_is_a_new_tree_and_a_refitted_one_is_not() {
     let scene = Scene::open("street").expect("a scene");
     let arrays = arrays_at(&scene, LAST, SHOT.width, SHOT.height).expect("a frame");
-    let bvh = build(&arrays.lights, Sampler::SingleLevel, &BuildParams::default());
-    let mut cpu = CpuBackend::new(bvh, arrays.lights.clone());
+    let bvh: Bvh = build(&arrays.lights, Sampler::SingleLevel, &BuildParams::default());
+    let mut cpu = CpuBackend::<Standard, WIDTH>::new(bvh, arrays.lights.clone());
     let params = SHOT.params(scene.data().background);
     let new = cpu
         .render(&arrays, &params, Sampler::SingleLevel)

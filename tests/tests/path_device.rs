@@ -2,15 +2,15 @@
 
 use bytemuck::cast_slice;
 use lightbvh::BuildParams;
-use lightbvh_host::backend::{Backend, CpuBackend, DeviceBackend, PIXEL_RECORD, Sampler};
+use lightbvh_host::backend::{Backend, Bvh, CpuBackend, DeviceBackend, PIXEL_RECORD, Sampler};
 use lightbvh_host::compare::compare_words;
 use lightbvh_host::scene::Scene;
 use lightbvh_host::vulkan::Options;
 use lightbvh_host::workload::{Shot, arrays_at, build};
+use lightbvh_kernels::bvh::{Choice, Paper, Standard, WIDTH};
 use lightbvh_tests::devices::on_each_device;
 
-#[test]
-fn paths_have_the_same_words_on_every_device() {
+fn same_words<C: Choice<W>, const W: usize>() {
     let scene = Scene::open("carousel").expect("a built-in scene");
     let shot = Shot {
         frame: 30,
@@ -23,9 +23,9 @@ fn paths_have_the_same_words_on_every_device() {
     let params = shot.params([0.2, 0.3, 0.4]);
     on_each_device(Options::default(), |device| {
         for sampler in Sampler::ALL {
-            let bvh = build(&arrays.lights, sampler, &BuildParams::default());
-            let mut cpu = CpuBackend::new(bvh.clone(), arrays.lights.clone());
-            let mut other = DeviceBackend::new(device, &bvh, &arrays.lights).expect("a backend");
+            let bvh: Bvh<C, W> = build(&arrays.lights, sampler, &BuildParams::default());
+            let mut cpu = CpuBackend::<C, W>::new(bvh.clone(), arrays.lights.clone());
+            let mut other = DeviceBackend::<C, W>::new(device, &bvh, &arrays.lights).expect("a backend");
             for bounces in [0, 1, 7] {
                 let expected = cpu
                     .render_path(&arrays, &params, bounces, sampler)
@@ -39,8 +39,9 @@ fn paths_have_the_same_words_on_every_device() {
                     .expect("images of one size");
                 assert!(
                     comparison.different == 0,
-                    "{}, {}, {bounces} bounces: {} words differ, first {}",
+                    "{}, {} by {}, {bounces} bounces: {} words differ, first {}",
                     device.name(),
+                    C::NAME,
                     sampler.name(),
                     comparison.different,
                     comparison.first.expect("a difference")
@@ -54,4 +55,10 @@ fn paths_have_the_same_words_on_every_device() {
             }
         }
     });
+}
+
+#[test]
+fn paths_have_the_same_words_on_every_device() {
+    same_words::<Standard, WIDTH>();
+    same_words::<Paper, 4>();
 }

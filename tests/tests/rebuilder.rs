@@ -8,12 +8,12 @@ use std::time::Duration;
 use lightbvh::rebuilder::Swap;
 use lightbvh::scene::{RebuildParams, Rebuilt};
 use lightbvh::{
-    Edit, EmissiveTriangle, Eq4, InstanceId, MeshId, RebuildError, Rebuilder, RebuilderParams, Scene,
-    Transform,
+    Edit, EmissiveTriangle, Eq4, InstanceId, LightBounds, MeshId, RebuildError, Rebuilder, RebuilderParams,
+    Scene, Transform,
 };
 use lightbvh_tests::edits::{Model, edits};
 use lightbvh_tests::generate::{self, Random};
-use lightbvh_tests::oracle::sum_tolerance;
+use lightbvh_tests::oracle::assert_sum_is_one;
 use lightbvh_tests::placing::{self, Kind};
 use lightbvh_tests::slowed::{self, Pace, Slowed};
 
@@ -66,11 +66,11 @@ fn words<const TEST: usize>(scene: &Tree<TEST>, ids: &[InstanceId], seed: u32) -
     }
 }
 
-fn valid<const TEST: usize>(scene: &Tree<TEST>, model: &Model) -> u32 {
+fn valid<const TEST: usize>(scene: &Tree<TEST>, model: &Model) {
     let stats = scene.validate().unwrap_or_else(|violation| panic!("{violation}"));
     assert_eq!(stats.instances as usize, model.instances.len());
     assert_eq!(stats.lights as usize, scene.light_count());
-    stats.depth
+    assert!(stats.depth <= scene.depth());
 }
 
 fn ids(model: &Model) -> Vec<InstanceId> {
@@ -78,24 +78,24 @@ fn ids(model: &Model) -> Vec<InstanceId> {
 }
 
 fn check_pmfs<const TEST: usize>(scene: &Tree<TEST>, model: &Model, random: &mut Random) {
-    let depth = valid(scene, model);
+    valid(scene, model);
     for _ in 0..8 {
         let point = generate::point(random, REACH);
-        let sum: f64 = ids(model)
-            .iter()
-            .flat_map(|&id| {
-                scene
-                    .lights_of(id)
-                    .expect("it is there")
-                    .map(move |light| (light, id))
-            })
-            .map(|(light, id)| f64::from(scene.pmf::<Eq4>(&point, light, id)))
-            .sum();
-        let reachable = scene.sample::<Eq4>(&point, random.bits()).pmf > 0.0;
-        assert!(
-            (sum - f64::from(u8::from(reachable))).abs() <= sum_tolerance(depth),
-            "sum {sum} at {point:?}, reachable: {reachable}"
-        );
+        let (mut pmfs, mut any) = (Vec::new(), false);
+        for (&id, (mesh, _, radiance)) in &model.instances {
+            let lights = scene.lights_of(id).expect("it is there");
+            for (light, local) in lights.zip(&model.meshes[mesh]) {
+                let pmf = scene.pmf::<Eq4>(&point, light, id);
+                let shines = *radiance > 0.0 && LightBounds::of_triangle(local).phi > 0.0;
+                assert_eq!(pmf > 0.0, shines, "light {light} at {point:?}");
+                any |= shines;
+                pmfs.push(pmf);
+            }
+        }
+        assert_eq!(scene.sample::<Eq4>(&point, random.bits()).pmf > 0.0, any);
+        if any {
+            assert_sum_is_one::<Slowed<TEST>, Eq4, 4>(pmfs, &point);
+        }
     }
 }
 
@@ -393,7 +393,7 @@ fn scene_cost<const TEST: usize>(scene: &Tree<TEST>, model: &Model) -> f64 {
         let node = &scene.nodes()[node as usize];
         for slot in 0..4 {
             if node.kind(slot) != kind::EMPTY {
-                let bounds = node.bounds(slot);
+                let bounds = node.summary(slot);
                 let d = (bounds.max - bounds.min).as_dvec3();
                 sum += f64::from(bounds.phi) * (d.x * d.y + d.y * d.z + d.z * d.x);
             }

@@ -1,12 +1,13 @@
-//! Refit and validation: the same bounds whatever way they are come by, and no wrong word unnoticed.
+//! Refit and validation: the same summaries whatever way they are come by, and no wrong word unnoticed.
 
 use lightbvh::node::kind;
 use lightbvh::validate::What;
 use lightbvh::{
-    BuildParams, CompactNode, EmissiveTriangle, FullNode, Heuristic, INVALID, LightBounds, LightBvh,
-    LightNode, Lights, MeshLight, bvh, exact, refit,
+    BuildParams, CompactNode, EmissiveTriangle, FullNode, Heuristic, INVALID, ImportanceModel, Instance,
+    LightBvh, LightNode, Lights, Summary, bvh, exact, refit,
 };
-use lightbvh_tests::generate::{self, Random};
+use lightbvh_tests::each_layout;
+use lightbvh_tests::generate::{self, Random, split};
 use proptest::prelude::*;
 
 fn words<T: bytemuck::Pod>(values: &[T]) -> Vec<u32> {
@@ -31,36 +32,42 @@ fn moved(lights: &Lights, random: &mut Random) -> Lights {
     later
 }
 
-/// Bounds of node `index` and all below it from the lights alone, written into `out`: depth first, where refit goes
+/// The summary of node `index` and all below it from the lights alone, written into `out`: depth first, where refit goes
 /// level by level.
 fn recomputed<N: LightNode<W>, const W: usize>(
     bvh: &LightBvh<N, W>,
     lights: &Lights,
     index: u32,
     out: &mut [N],
-) -> LightBounds {
+) -> N::Summary {
     let tree = bvh.tree();
     let old = tree.nodes[index as usize];
     let mut node = N::EMPTY;
-    let mut all: Option<LightBounds> = None;
+    let mut children = [N::Summary::EMPTY; W];
     for slot in 0..W {
         let (to, link) = (old.kind(slot), old.link(slot));
-        if to == kind::EMPTY {
-            continue;
-        }
-        let bounds = match to {
-            kind::LIGHT => LightBounds::of_triangle(&lights.triangles()[link as usize]),
-            kind::MESH => recomputed(bvh, lights, tree.meshes[link as usize].root, out),
+        node.set_child(slot, to, link);
+        children[slot] = match to {
+            kind::EMPTY => continue,
+            kind::LIGHT => N::Summary::of_triangle(&lights.triangles()[link as usize]),
+            kind::MESH => {
+                let instance = &tree.instances[link as usize];
+                recomputed(bvh, lights, instance.root, out).to_world(instance)
+            }
             _ => recomputed(bvh, lights, link, out),
         };
-        node.set_child(slot, to, link);
-        node.set_bounds(slot, &bounds);
-        // What a parent is told is what is stored, rounding included.
-        let stored = node.bounds(slot);
-        all = Some(all.map_or(LightBounds::EMPTY.merge(&stored), |all| all.merge(&stored)));
     }
+    node.set_summaries(&children);
     out[index as usize] = node;
-    all.expect("a child")
+    // What a parent is told is what is stored, rounding included, in the order of the slots.
+    let stored: [N::Summary; W] = std::array::from_fn(|slot| {
+        if node.kind(slot) == kind::EMPTY {
+            N::Summary::EMPTY
+        } else {
+            node.summary(slot)
+        }
+    });
+    N::Summary::merged(&stored)
 }
 
 /// Refit with the nodes of each pass in another order, and each pass reading only what the pass before it wrote.
@@ -71,11 +78,6 @@ fn refitted_in_another_order<N: LightNode<W>, const W: usize>(
 ) -> Vec<N> {
     let tree = bvh.tree();
     let mut nodes = tree.nodes.to_vec();
-    let split = if bvh.is_two_level() {
-        tree.root
-    } else {
-        nodes.len() as u32
-    };
     let mut pass = |nodes: &mut Vec<N>, list: &[u32], body: &dyn Fn(&[N], u32) -> N| {
         let mut order = list.to_vec();
         for i in (1..order.len()).rev() {
@@ -86,13 +88,9 @@ fn refitted_in_another_order<N: LightNode<W>, const W: usize>(
             nodes[i as usize] = body(&before, i);
         }
     };
-    let all = |range: std::ops::Range<u32>| range.collect::<Vec<_>>();
-    pass(&mut nodes, &all(0..split), &|n, i| {
-        refit::leaves(n, lights.triangles(), i)
-    });
     for range in bvh.bottom_levels().ranges() {
         pass(&mut nodes, &bvh.bottom_levels().nodes()[range], &|n, i| {
-            refit::level(n, i)
+            refit::bottom(n, lights.triangles(), i)
         });
     }
     let roots: Vec<_> = bvh
@@ -100,12 +98,9 @@ fn refitted_in_another_order<N: LightNode<W>, const W: usize>(
         .iter()
         .map(|root| refit::root(&nodes, root.node))
         .collect();
-    pass(&mut nodes, &all(split..tree.nodes.len() as u32), &|n, i| {
-        refit::mesh_leaves(n, tree.meshes, &roots, i)
-    });
     for range in bvh.top_levels().ranges() {
         pass(&mut nodes, &bvh.top_levels().nodes()[range], &|n, i| {
-            refit::level(n, i)
+            refit::top(n, tree.instances, &roots, i)
         });
     }
     nodes
@@ -123,7 +118,7 @@ fn built<N: LightNode<W>, const W: usize>(
     }
 }
 
-fn check<N: LightNode<W>, const W: usize>(
+fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     lights: &Lights,
     params: &BuildParams,
     two: bool,
@@ -135,7 +130,7 @@ fn check<N: LightNode<W>, const W: usize>(
         let tree = bvh.tree();
         (
             words(tree.nodes),
-            words(tree.meshes),
+            words(tree.instances),
             tree.trails.to_vec(),
             tree.root,
             tree.trail_words,
@@ -164,17 +159,17 @@ fn check<N: LightNode<W>, const W: usize>(
     let later = moved(lights, random);
     bvh.refit(&later);
     let mut expected = bvh.nodes().to_vec();
-    let bounds = recomputed(&bvh, &later, bvh.tree().root, &mut expected);
+    let summary = recomputed(&bvh, &later, bvh.tree().root, &mut expected);
     assert_eq!(
         words(bvh.nodes()),
         words(&expected),
         "refit is not what the lights give"
     );
-    assert_eq!(bvh.bounds(), bounds);
+    assert_eq!(bvh.summary(), summary);
     bvh.validate(&later)
         .unwrap_or_else(|v| panic!("after refit: {v}"));
     if words(bvh.nodes()) != first.0 {
-        bvh.validate(lights).expect_err("bounds of other lights");
+        bvh.validate(lights).expect_err("summaries of other lights");
     }
 
     let mut stale = again;
@@ -194,25 +189,21 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn every_way_to_the_same_bounds(lights in generate::lights(150), seed: u32, sah: bool, two: bool, buckets in 2..=32u32) {
+    fn every_way_to_the_same_summaries(lights in generate::lights(150), seed: u32, sah: bool, two: bool, buckets in 2..=32u32) {
         let random = &mut Random::new(seed);
         let heuristic = if sah { Heuristic::Sah } else { Heuristic::Saoh };
-        let params = BuildParams { heuristic, buckets };
-        check::<CompactNode<2>, 2>(&lights, &params, two, random);
-        check::<CompactNode<4>, 4>(&lights, &params, two, random);
-        check::<CompactNode<8>, 8>(&lights, &params, two, random);
-        check::<CompactNode<16>, 16>(&lights, &params, two, random);
-        check::<FullNode<2>, 2>(&lights, &params, two, random);
-        check::<FullNode<4>, 4>(&lights, &params, two, random);
-        check::<FullNode<8>, 8>(&lights, &params, two, random);
-        check::<FullNode<16>, 16>(&lights, &params, two, random);
+        let params = split(heuristic, buckets);
+        each_layout!(check(&lights, &params, two, random));
     }
 }
 
 /// Every word of every array of a small BVH, each of its bits turned, and all of them: not one goes unnoticed. (None is
 /// harmless: links, kinds, trails and lists are held against the one walk that reaches everything once, all other words
 /// against what refit writes.)
-fn no_wrong_word_goes_unnoticed<N: LightNode<W>, const W: usize>(two: bool, seed: u32) {
+fn no_wrong_word_goes_unnoticed<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    two: bool,
+    seed: u32,
+) {
     let triangles = generate::small_triangles(11, 4, 10.0, 1.0, true, seed);
     let lights = Lights::new(triangles).expect("lights");
     let bvh = built::<N, W>(&lights, &BuildParams::default(), two);
@@ -220,7 +211,9 @@ fn no_wrong_word_goes_unnoticed<N: LightNode<W>, const W: usize>(two: bool, seed
     type Part<N> = fn(bvh::Parts<'_, N>) -> &mut [u32];
     let arrays: [(&str, Part<N>); 5] = [
         ("nodes", |p| bytemuck::cast_slice_mut(p.nodes)),
-        ("meshes", |p| bytemuck::cast_slice_mut::<MeshLight, u32>(p.meshes)),
+        ("instances", |p| {
+            bytemuck::cast_slice_mut::<Instance, u32>(p.instances)
+        }),
         ("trails", |p| p.trails),
         ("bottom levels", |p| p.bottom),
         ("top levels", |p| p.top),
@@ -244,12 +237,8 @@ fn no_wrong_word_goes_unnoticed<N: LightNode<W>, const W: usize>(two: bool, seed
 
 #[test]
 fn every_bit_counts() {
-    for two in [false, true] {
-        no_wrong_word_goes_unnoticed::<CompactNode<2>, 2>(two, 1);
-        no_wrong_word_goes_unnoticed::<CompactNode<4>, 4>(two, 2);
-        no_wrong_word_goes_unnoticed::<CompactNode<16>, 16>(two, 3);
-        no_wrong_word_goes_unnoticed::<FullNode<2>, 2>(two, 4);
-    }
+    each_layout!(no_wrong_word_goes_unnoticed(false, 1));
+    each_layout!(no_wrong_word_goes_unnoticed(true, 2));
 }
 
 /// In the lists of levels nodes may change places within a level, which changes nothing, but not between levels.
@@ -295,14 +284,14 @@ fn hostile_arrays_are_refused() {
                     }
                     4 => parts.trails[random.below(40) as usize] = random.bits(),
                     _ if two => {
-                        let m = random.below(parts.meshes.len() as u32) as usize;
-                        parts.meshes[m].root = random.below(count + 2);
+                        let m = random.below(parts.instances.len() as u32) as usize;
+                        parts.instances[m].root = random.below(count + 2);
                     }
                     _ => parts.bottom[0] = random.bits(),
                 }
             }
             let same = words(wrong.nodes()) == words(bvh.nodes())
-                && words(wrong.tree().meshes) == words(bvh.tree().meshes)
+                && words(wrong.tree().instances) == words(bvh.tree().instances)
                 && wrong.tree().trails == bvh.tree().trails
                 && wrong.bottom_levels() == bvh.bottom_levels();
             let result = wrong.validate(&lights);
@@ -335,22 +324,15 @@ fn violations_say_where_and_what() {
     assert_eq!((v.node, v.what, v.expected, v.found), (root, What::Reached, 1, 2));
 
     let mut wrong = bvh.clone();
-    let bounds = wrong.nodes()[0].bounds(0);
-    wrong.nodes_mut()[0].set_bounds(
-        0,
-        &LightBounds {
-            phi: f32::NAN,
-            ..bounds
-        },
-    );
+    let mut children = [0, 1].map(|slot| wrong.nodes()[0].summary(slot));
+    let flux = children[0].phi;
+    children[0].phi = f32::NAN;
+    wrong.nodes_mut()[0].set_summaries(&children);
     let v = wrong.validate(&lights).expect_err("NaN");
-    assert_eq!((v.node, v.slot, v.what), (0, 0, What::Bounds(11)));
+    assert_eq!((v.node, v.slot, v.what), (0, 0, What::Bounds("flux")));
     assert_eq!(
         v.to_string(),
-        format!(
-            "node 0, slot 0, flux of the refitted bounds: expected {:e}, found NaN",
-            bounds.phi
-        )
+        format!("node 0, slot 0, flux after a refit: expected {flux:e}, found NaN")
     );
 
     let other = Lights::new(generate::small_triangles(9, 4, 10.0, 1.0, true, 7)).expect("lights");

@@ -2,7 +2,7 @@
 
 use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, ShadingPoint};
 use lightbvh_host::render::{flux, power_thresholds};
-use lightbvh_kernels::bvh::{BvhPicker, Node, WIDTH};
+use lightbvh_kernels::bvh::{BvhPicker, Choice, Node, Standard, WIDTH};
 use lightbvh_kernels::shading::pick::{MAX_PICKABLE, PickLight, Power, Uniform};
 use lightbvh_kernels::shading::trace::NONE;
 use lightbvh_tests::generate::{Random, point, small_triangles};
@@ -175,18 +175,16 @@ fn evaluated_pmfs_are_those_of_the_pick() {
 
     let lights = Lights::new(triangles).expect("within the domain");
     for bvh in [
-        LightBvh::<Node, WIDTH>::single_level(&lights, &BuildParams::default()).with_leaves(),
-        LightBvh::<Node, WIDTH>::two_level(&lights, &BuildParams::default()).with_leaves(),
+        LightBvh::<Node, WIDTH>::single_level(&lights, &BuildParams::default()),
+        LightBvh::<Node, WIDTH>::two_level(&lights, &BuildParams::default()),
     ] {
-        let picker = BvhPicker {
-            tree: bvh.tree(),
-            two_level: bvh.is_two_level(),
-        };
+        let picker = BvhPicker::<Standard, WIDTH>::new(bvh.tree());
         let what = if bvh.is_two_level() {
             "two-level"
         } else {
             "single-level"
         };
-        pmf_is_of_the_pick(what, &picker, lights.triangles(), sum_tolerance(bvh.depth()));
+        let tolerance = sum_tolerance::<Node, <Standard as Choice<WIDTH>>::Importance, WIDTH>(300);
+        pmf_is_of_the_pick(what, &picker, lights.triangles(), tolerance);
     }
 }

@@ -6,13 +6,14 @@ use bytemuck::cast_slice;
 use lightbvh::{BuildParams, LightBvh, Lights};
 use lightbvh_host::backend::{
     Bvh, CandidateSource, Combination, CpuRestir, DeviceRestir, LightRemap, PIXEL_RECORD, RESERVOIR_RECORD,
-    Restir, RestirFrame, RestirOptions, SURFACE_RECORD, SceneArrays, picker,
+    Restir, RestirFrame, RestirOptions, SURFACE_RECORD, SceneArrays,
 };
 use lightbvh_host::compare::compare_words;
 use lightbvh_host::render::RayBvh;
 use lightbvh_host::scene::Scene;
 use lightbvh_host::vulkan::{Device, Options};
 use lightbvh_host::workload::arrays_at;
+use lightbvh_kernels::bvh::BvhPicker;
 use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::restir::combine::Unbiased;
 use lightbvh_kernels::shading::restir::shade::shade;
@@ -37,7 +38,7 @@ struct Shot {
 
 impl Shot {
     fn new(arrays: SceneArrays, remap: Option<LightRemap>) -> Self {
-        let bvh = LightBvh::two_level(&arrays.lights, &BuildParams::default()).with_leaves();
+        let bvh = LightBvh::two_level(&arrays.lights, &BuildParams::default());
         Self {
             arrays: Arc::new(arrays),
             bvh,
@@ -48,7 +49,7 @@ impl Shot {
     fn frame(&self, width: u32, height: u32, seed: u32) -> RestirFrame<'_> {
         RestirFrame {
             scene: &self.arrays,
-            bvh: picker(&self.bvh),
+            bvh: BvhPicker::new(self.bvh.tree()),
             width,
             height,
             seed,

@@ -5,11 +5,12 @@ use std::sync::Arc;
 use lightbvh::{BuildParams, LightBvh};
 use lightbvh_host::backend::{
     Backend, Bvh, CandidateSource, Combination, CpuBackend, CpuRestir, Restir, RestirFrame, RestirOptions,
-    Sampler, SceneArrays, picker,
+    Sampler, SceneArrays,
 };
 use lightbvh_host::render::Film;
 use lightbvh_host::scene::Scene;
 use lightbvh_host::workload::{Shot, arrays_at};
+use lightbvh_kernels::bvh::{BvhPicker, Standard, WIDTH as WIDE};
 
 const WIDTH: u32 = 128;
 const HEIGHT: u32 = 72;
@@ -32,18 +33,18 @@ fn independent(case: &Case, sampler: Sampler, samples: u32, seed: u32) -> Vec<[f
         samples,
         seed,
     };
-    let mut cpu = CpuBackend::new(bvh.clone(), arrays.lights.clone());
+    let mut cpu = CpuBackend::<Standard, WIDE>::new(bvh.clone(), arrays.lights.clone());
     let params = shot.params(case.background);
     cpu.render(arrays, &params, sampler).expect("an image").value
 }
 
 fn restir(case: &Case, options: RestirOptions, seed: u32) -> (Vec<[f32; 3]>, f64) {
-    let mut restir = CpuRestir::new(options);
+    let mut restir = CpuRestir::<Standard, WIDE>::new(options);
     let mut image = Vec::new();
     for (number, (scene, bvh)) in (0..).zip(&case.frames) {
         let frame = RestirFrame {
             scene,
-            bvh: picker(bvh),
+            bvh: BvhPicker::new(bvh.tree()),
             width: WIDTH,
             height: HEIGHT,
             seed: seed * 1000 + number,
@@ -73,7 +74,7 @@ fn case(name: &str, frame: u32) -> Case {
     let frames: Vec<_> = (frame - HISTORY..=frame)
         .map(|n| {
             let arrays = arrays_at(&scene, n, WIDTH, HEIGHT).expect("a frame");
-            let bvh: Bvh = LightBvh::two_level(&arrays.lights, &BuildParams::default()).with_leaves();
+            let bvh: Bvh = LightBvh::two_level(&arrays.lights, &BuildParams::default());
             (Arc::new(arrays), bvh)
         })
         .collect();

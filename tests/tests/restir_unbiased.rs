@@ -6,10 +6,10 @@ use std::sync::Arc;
 use glam::Vec3;
 use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, exact};
 use lightbvh_host::backend::{
-    Bvh, CandidateSource, Combination, CpuRestir, LightRemap, Restir, RestirFrame, RestirOptions,
-    SceneArrays, picker,
+    Bvh, CandidateSource, Combination, CpuRestir, LightRemap, Restir, RestirFrame, RestirOptions, SceneArrays,
 };
 use lightbvh_host::render::{RayBvh, View, camera};
+use lightbvh_kernels::bvh::BvhPicker;
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 use lightbvh_tests::direct::{Reference, brute_force};
@@ -114,7 +114,7 @@ impl World {
         );
         let position = |k: u32| order.iter().position(|&i| i == k).map_or(NONE, |i| i as u32);
         Shot {
-            bvh: LightBvh::two_level(&arrays.lights, &BuildParams::default()).with_leaves(),
+            bvh: LightBvh::two_level(&arrays.lights, &BuildParams::default()),
             arrays: Arc::new(arrays),
             remap: before.map(|before| {
                 let to_current: Vec<u32> = before.iter().map(|&k| position(k)).collect();
@@ -148,7 +148,7 @@ fn moving() -> Vec<Shot> {
 fn frame(shot: &Shot, seed: u32) -> RestirFrame<'_> {
     RestirFrame {
         scene: &shot.arrays,
-        bvh: picker(&shot.bvh),
+        bvh: BvhPicker::new(shot.bvh.tree()),
         width: WIDTH,
         height: HEIGHT,
         seed,

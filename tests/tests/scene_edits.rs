@@ -8,8 +8,9 @@ use lightbvh_tests::placing::{self, Kind};
 
 type Tree = Scene<CompactNode<4>, 4>;
 
+/// Whatever the map, it is the instance's leaf and the nodes above it.
 #[test]
-fn rigid_motion_costs_one_way_up_and_no_bottom_level() {
+fn motion_costs_one_way_up_and_no_bottom_level() {
     let random = &mut Random::new(5);
     let mut scene = Tree::default();
     let mesh = add_mesh(&mut scene, mesh(random));
@@ -28,49 +29,72 @@ fn rigid_motion_costs_one_way_up_and_no_bottom_level() {
     scene.refit();
     assert_eq!(scene.work().computed(), 0, "nothing changed");
 
-    let transform = placing::transform(random, Kind::Similar, 50.0);
     let instance = ids[123];
-    scene
-        .update(vec![Edit::Move { instance, transform }])
-        .expect("moved");
-    scene.refit();
-    let work = scene.work();
-    assert!(work.leaves.is_empty() && work.roots.is_empty());
-    assert_eq!(work.instances.len(), 1);
-    assert!(
-        work.top.nodes().len() < stats.depth as usize,
-        "{} nodes",
-        work.top.nodes().len()
-    );
-    scene.validate().expect("valid");
+    for kind in [
+        Kind::Rigid,
+        Kind::Similar,
+        Kind::Affine,
+        Kind::Flat,
+        Kind::Singular,
+        Kind::Extreme,
+    ] {
+        let transform = placing::transform(random, kind, 50.0);
+        scene
+            .update(vec![Edit::Move { instance, transform }])
+            .expect("moved");
+        scene.refit();
+        let work = scene.work();
+        assert!(work.bottom.nodes().is_empty() && work.roots.is_empty());
+        assert_eq!(work.written_instances, [instance.index()..instance.index() + 1]);
+        assert!(
+            work.top.nodes().len() < stats.depth as usize,
+            "{kind:?}: {} nodes",
+            work.top.nodes().len()
+        );
+        assert!(
+            work.written_nodes.is_empty()
+                && work.written_triangles.is_empty()
+                && work.written_trails.is_empty()
+        );
+        assert_eq!(scene.validate().expect("valid").blases, 1);
+    }
+}
 
-    // Bent out of shape it gets triangles of its own, once; moved on, nothing below its leaf changes; back in shape, the
-    // shared ones serve again.
-    let bent = placing::transform(random, Kind::Affine, 50.0);
-    scene
-        .update(vec![Edit::Move {
-            instance,
-            transform: bent,
-        }])
-        .expect("bent");
-    scene.refit();
-    assert_eq!(scene.validate().expect("valid").blases, 2);
-    let mut moved = bent;
-    moved.translation[0] += 1.0;
-    scene
-        .update(vec![Edit::Move {
-            instance,
-            transform: moved,
-        }])
-        .expect("moved");
-    scene.refit();
-    assert!(scene.work().leaves.is_empty(), "its shape is the same");
-    scene.validate().expect("valid");
-    scene
-        .update(vec![Edit::Move { instance, transform }])
-        .expect("straight");
-    scene.refit();
-    assert_eq!(scene.validate().expect("valid").blases, 1);
+/// The instances in use are listed without gaps, each once, whatever comes and goes: what a uniform choice relies on.
+#[test]
+fn instances_in_use_are_listed() {
+    let random = &mut Random::new(11);
+    let mut scene = Tree::default();
+    let mesh = add_mesh(&mut scene, mesh(random));
+    let mut ids = Vec::new();
+    for round in 0..300 {
+        let mut batch: Vec<Edit> = (0..random.below(6))
+            .map(|_| Edit::AddInstance {
+                mesh,
+                transform: placing::transform(random, Kind::Rigid, 10.0),
+                radiance: 1.0,
+            })
+            .collect();
+        for _ in 0..random.below(6) {
+            if !ids.is_empty() {
+                batch.push(Edit::RemoveInstance(
+                    ids.swap_remove(random.below(ids.len() as u32) as usize),
+                ));
+            }
+        }
+        ids.extend(scene.update(batch).expect("sound edits").instances);
+        scene.refit();
+        let tree = scene.tree();
+        assert_eq!(tree.live as usize, ids.len(), "round {round}");
+        let mut listed: Vec<u32> = tree.instances[..ids.len()]
+            .iter()
+            .map(|record| record.listed)
+            .collect();
+        let mut expected: Vec<u32> = ids.iter().map(|id| id.index()).collect();
+        listed.sort_unstable();
+        expected.sort_unstable();
+        assert_eq!(listed, expected, "round {round}");
+    }
 }
 
 #[test]
@@ -117,7 +141,7 @@ fn the_last_light_may_go() {
     let random = &mut Random::new(7);
     let mut scene = Tree::default();
     let point = generate::point(random, 1.0);
-    assert_eq!(scene.sample::<Eq4>(&point, 1).light, INVALID);
+    assert_eq!(scene.sample::<Eq4>(&point, 1u32).light, INVALID);
     let mesh = add_mesh(&mut scene, mesh(random));
     let lamp = add_instance(&mut scene, mesh, Transform::IDENTITY);
     scene.refit();
@@ -126,11 +150,11 @@ fn the_last_light_may_go() {
         .update(vec![Edit::RemoveInstance(lamp), Edit::RemoveMesh(mesh)])
         .expect("gone");
     scene.refit();
-    assert_eq!(scene.sample::<Eq4>(&point, 1).light, INVALID);
+    assert_eq!(scene.sample::<Eq4>(&point, 1u32).light, INVALID);
     assert_eq!(scene.validate().expect("valid").lights, 0);
     scene.adopt(flying);
     scene.refit();
-    assert_eq!(scene.sample::<Eq4>(&point, 1).light, INVALID);
+    assert_eq!(scene.sample::<Eq4>(&point, 1u32).light, INVALID);
     scene.validate().expect("valid");
 }
 

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use lightbvh::{BuildParams, EmissiveTriangle, Heuristic, LightBvh, Lights, ShadingPoint, exact};
 use lightbvh_host::render::{RayBvh, power_thresholds};
-use lightbvh_kernels::bvh::{BvhPicker, Node, WIDTH};
+use lightbvh_kernels::bvh::{BvhPicker, Node, Standard, WIDTH};
 use lightbvh_kernels::shading::area::sample_triangle;
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
@@ -102,12 +102,9 @@ fn each_picker(lights: &Lights, mut test: impl FnMut(&str, &dyn Fn(&ShadingPoint
         heuristic: Heuristic::Sah,
         ..BuildParams::default()
     };
-    let one = LightBvh::<Node, WIDTH>::single_level(lights, &BuildParams::default()).with_leaves();
-    let two = LightBvh::<Node, WIDTH>::two_level(lights, &sah).with_leaves();
-    let [one, two] = [&one, &two].map(|bvh| BvhPicker {
-        tree: bvh.tree(),
-        two_level: bvh.is_two_level(),
-    });
+    let one = LightBvh::<Node, WIDTH>::single_level(lights, &BuildParams::default());
+    let two = LightBvh::<Node, WIDTH>::two_level(lights, &sah);
+    let [one, two] = [&one, &two].map(|bvh| BvhPicker::<Standard, WIDTH>::new(bvh.tree()));
     let call = |p: &dyn Fn(&ShadingPoint, u32) -> lightbvh_kernels::shading::pick::Picked,
                 point: &ShadingPoint,
                 r| {

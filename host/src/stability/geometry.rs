@@ -62,11 +62,12 @@ pub fn can_contribute(light: &EmissiveTriangle, point: &ShadingPoint, margin: f6
     in_front && (n == DVec3::ZERO || triangle.p.iter().any(above))
 }
 
-/// Whether rounding in `f32` may leave nothing of the triangle's area: it is below 2^-21 of the product of two of its edges.
+/// Whether rounding in `f32` may leave nothing of the triangle's area: it is none, or below 2^-21 of the product of two of its edges.
 /// Such a light may count as one without area, and then emits nothing.
 #[must_use]
 pub fn may_lose_its_area(light: &EmissiveTriangle) -> bool {
-    Triangle::new(light).condition.recip() < 1.0 / 2_097_152.0
+    let triangle = Triangle::new(light);
+    triangle.area() == 0.0 || triangle.condition.recip() < 1.0 / 2_097_152.0
 }
 
 /// What `light` contributes to `point` if nothing is between, in f64: radiance (green) times both cosines over squared

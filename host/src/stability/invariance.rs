@@ -16,9 +16,9 @@ use crate::error::HostError;
 use crate::workload;
 
 /// Greatest share of samples that may go elsewhere; see [`Check::Variation`].
-const VARIATION: f64 = 0.02;
+const VARIATION: f64 = 0.04;
 /// Greatest factor on the standard deviation; see [`Check::Deviation`].
-const DEVIATION: f64 = 1.5;
+const DEVIATION: f64 = 2.0;
 
 /// A scene and where it is looked at.
 #[derive(Clone)]

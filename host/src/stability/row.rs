@@ -102,12 +102,12 @@ impl Check {
                 "probabilities that differ in any bit; the arithmetic is that of significands, so none"
             }
             Self::Variation => {
-                "share of samples that goes to other lights; new rounding of coordinates moves quantised summaries by a \
-                 step here and there: 2 %"
+                "share of samples that goes to other lights; new rounding of the input moves quantised summaries by a step \
+                 here and there, of which those of flux and deviation are the coarsest (1/16 and 1/8): 4 %"
             }
             Self::Deviation => {
-                "standard deviation of the estimate (root mean square over points), against the untouched scene; other \
-                 boxes and another tree may be worse, within a factor of 1.5"
+                "standard deviation of the estimate (root mean square over points), against the untouched scene; another \
+                 tree may be worse, within a factor of 2"
             }
             Self::RefitWords | Self::SampleWords | Self::PmfWords => {
                 "words that the device computes otherwise than the CPU; none may be"

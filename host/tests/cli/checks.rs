@@ -28,11 +28,12 @@ fn verify_compares_words_on_every_device() {
     assert_eq!(report["different"], 0);
     assert_eq!(report["cpu_different"], 0);
     assert_eq!(report["frames"], serde_json::json!({ "start": 0, "end": 3 }));
+    assert_eq!(report["importances"], serde_json::json!(["moments", "eq4"]));
     for device in report["devices"].as_array().expect("devices") {
         assert_eq!(device["different"], 0, "{device}");
         assert_eq!(device["exact"], true, "{device}");
-        // Four methods with a light BVH over three frames.
-        let queries = 3000 + 4 * 3 * 64;
+        // Six methods with a light BVH over three frames.
+        let queries = 3000 + 6 * 3 * 64;
         assert!(device["samples"].as_u64() >= Some(queries));
         assert!(device["pmfs"].as_u64() >= Some(queries));
         let words = device["words"].as_object().expect("words by kind");
@@ -63,6 +64,17 @@ fn bench_reports_every_case() {
             assert!(case["ns_per_item"].as_f64() > Some(0.0));
             assert!(case["bytes_per_light"].as_f64() > Some(0.0));
             assert!(case["threads"].is_u64());
+        }
+        for (what, key, value) in [
+            ("build", "preset", "fast"),
+            ("build", "preset", "balanced"),
+            ("build", "preset", "best"),
+            ("refit", "passes", "levels"),
+            ("sample", "variant", "one"),
+            ("sample", "variant", "batch"),
+        ] {
+            let is_it = |case: &serde_json::Value| case["what"] == what && case[key] == value;
+            assert!(cases.iter().any(is_it), "no {what} by {value} of {structure}");
         }
     }
 }
@@ -102,8 +114,11 @@ fn bench_follows_moving_lights() {
 #[test]
 fn validate_finds_the_scenes_valid() {
     for scene in ["street", "square", "carousel"] {
-        let report = json(&["validate", scene, "--json"]);
-        assert_eq!(report["valid"], true, "{report}");
+        for importance in ["moments", "eq4"] {
+            let report = json(&["validate", scene, "--importance", importance, "--json"]);
+            assert_eq!(report["valid"], true, "{report}");
+            assert_eq!(report["importance"], importance);
+        }
     }
 }
 

@@ -75,7 +75,7 @@ fn paths_render_and_add_what_is_reflected_again() {
 }
 
 #[test]
-fn every_sampler_and_heuristic_renders() {
+fn every_sampler_heuristic_and_importance_renders() {
     let folder = Folder::new("samplers");
     for sampler in [
         "uniform",
@@ -86,7 +86,12 @@ fn every_sampler_and_heuristic_renders() {
         "restir",
         "bvh-restir",
     ] {
-        for heuristic in ["sah", "saoh"] {
+        for (heuristic, importance) in [
+            ("sah", "eq4"),
+            ("saoh", "eq4"),
+            ("ward", "moments"),
+            ("morton", "moments"),
+        ] {
             let file = folder.file(&format!("{sampler}-{heuristic}.png"));
             let output = run(&[
                 "render",
@@ -103,6 +108,8 @@ fn every_sampler_and_heuristic_renders() {
                 sampler,
                 "--heuristic",
                 heuristic,
+                "--importance",
+                importance,
                 "--backend",
                 "cpu",
                 "-o",

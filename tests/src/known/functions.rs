@@ -1,11 +1,11 @@
-//! Answers of functions of the core: arithmetic, bounds, the words of a node's slot, importance.
+//! Answers of functions of the core: arithmetic, summaries of lights, the words of nodes, weights.
 
-use glam::Vec3;
-use lightbvh::importance::{Cluster, Importance};
+use lightbvh::importance::Cluster;
 use lightbvh::node::kind;
+use lightbvh::summary::SUMMARY_WORDS;
 use lightbvh::{
-    CompactNode, EmissiveTriangle, Eq4, FluxOverDistance, ImportanceModel, Instance, LightBounds, LightNode,
-    MeshLeaf, Receiver, ShadingPoint, exact,
+    BoundsNode, CompactNode, EmissiveTriangle, Eq4, FluxOverDistance, ImportanceModel, Instance, LightBounds,
+    LightMoments, LightNode, MomentNode, Moments, ShadingPoint, Summary, exact,
 };
 
 use super::file::{Answer, File};
@@ -77,59 +77,68 @@ fn arithmetic(name: &str, input: &[u32]) -> Option<u32> {
     Some(float.to_bits())
 }
 
+/// Words of an instance.
+const INSTANCE: usize = size_of::<Instance>() / 4;
+
 fn of_lights(name: &str, input: &[u32]) -> Option<Vec<u32>> {
+    let instance = || record::<Instance>(&input[..INSTANCE]);
     Some(match name {
         "triangle_bounds" => words_of(&LightBounds::of_triangle(&record::<EmissiveTriangle>(input))),
-        "merge" => words_of(&bounds(&input[..12]).merge(&bounds(&input[12..]))),
-        "encode" => encode(&bounds(input)),
-        "to_world" => {
-            let instance: Instance = record(&input[..24]);
-            words_of(&instance.to_world(&bounds(&input[24..])))
+        "triangle_moments" => words_of(&LightMoments::of_triangle(&record::<EmissiveTriangle>(input))),
+        "merge_bounds" => words_of(&LightBounds::merged(&summaries::<_, 4>(input))),
+        "merge_moments" => words_of(&LightMoments::merged(&summaries::<_, 8>(input))),
+        "bounds_to_world" => words_of(&summary::<LightBounds>(&input[INSTANCE..]).to_world(&instance())),
+        "moments_to_world" => words_of(&summary::<LightMoments>(&input[INSTANCE..]).to_world(&instance())),
+        "encode_bounds" => encode_bounds(&summary(input)),
+        "encode_moments" => {
+            let node = node::<MomentNode<8>, 8>(input);
+            let mut out = bytemuck::cast_slice::<_, u32>(&[node]).to_vec();
+            out.extend((0..8).flat_map(|slot| words_of(&node.summary(slot))));
+            out
         }
         "vertex" => {
-            let instance: Instance = record(&input[..24]);
-            instance.vertex(record(&input[24..])).map(f32::to_bits).to_vec()
+            let vertex = instance().vertex(record(&input[INSTANCE..]));
+            vertex.map(f32::to_bits).to_vec()
         }
-        "inside" => {
-            let local = record::<Instance>(&input[..24]).inside(&record::<ShadingPoint>(&input[24..]));
-            let (p, n) = (local.position(), local.normal());
-            [p.x, p.y, p.z, n.x, n.y, n.z]
-                .into_iter()
-                .chain([local.slack(), local.near_squared(), local.tilt()])
-                .map(f32::to_bits)
-                .collect()
+        "to_local" => {
+            let local = instance().to_local(&record::<ShadingPoint>(&input[INSTANCE..]));
+            bytemuck::cast_slice(&[local]).to_vec()
         }
-        "importance" => {
-            let cluster = cluster_of(&input[..14]);
-            let point: ShadingPoint = record(&input[14..]);
-            both_models(&cluster, &point)
-        }
-        "importance_inside" => {
-            let cluster = cluster_of(&input[..14]);
-            let local = record::<Instance>(&input[14..38]).inside(&record::<ShadingPoint>(&input[38..]));
-            both_models(&cluster, &local)
-        }
+        "eq4" => weights::<CompactNode<4>, Eq4, 4>(input),
+        "moments" => weights::<MomentNode<8>, Moments, 8>(input),
+        "flux_over_distance" => weights::<CompactNode<4>, FluxOverDistance, 4>(input),
         _ => return None,
     })
 }
 
-fn both_models<R: Receiver>(cluster: &Cluster, point: &R) -> Vec<u32> {
-    let words = |i: Importance| [i.significand.to_bits(), i.exponent as u32];
-    [
-        words(Eq4::importance(cluster, point)),
-        words(FluxOverDistance::importance(cluster, point)),
-    ]
-    .concat()
+/// Weights of the children of a node with the summaries that come first, at the point that comes after them.
+fn weights<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(input: &[u32]) -> Vec<u32> {
+    let point = record::<ShadingPoint>(&input[W * SUMMARY_WORDS..]);
+    I::weights(&node::<N, W>(input), &point)
+        .map(f32::to_bits)
+        .to_vec()
+}
+
+/// A node of lights with these summaries.
+fn node<N: LightNode<W>, const W: usize>(words: &[u32]) -> N {
+    let mut node = N::EMPTY;
+    for slot in 0..W {
+        node.set_child(slot, kind::LIGHT, slot as u32);
+    }
+    node.set_summaries(&summaries(words));
+    node
 }
 
 /// The seven words of a slot, the bounds that they decode to, and the cluster that importance sees.
-fn encode(bounds: &LightBounds) -> Vec<u32> {
+fn encode_bounds(bounds: &LightBounds) -> Vec<u32> {
     let mut node = <CompactNode<4> as LightNode<4>>::EMPTY;
     node.set_child(SLOT, kind::LIGHT, 7);
-    node.set_bounds(SLOT, bounds);
+    let mut children = [LightBounds::EMPTY; 4];
+    children[SLOT] = *bounds;
+    node.set_summaries(&children);
     let words: [u32; 28] = bytemuck::cast(node);
     let mut out: Vec<u32> = words.chunks_exact(4).map(|field| field[SLOT]).collect();
-    out.extend(words_of(&node.bounds(SLOT)));
+    out.extend(words_of(&node.summary(SLOT)));
     out.extend(words_of_cluster(&node.cluster(SLOT)));
     out
 }
@@ -138,52 +147,23 @@ fn record<T: bytemuck::AnyBitPattern>(words: &[u32]) -> T {
     bytemuck::pod_read_unaligned(bytemuck::cast_slice(words))
 }
 
-fn vector(words: &[u32]) -> Vec3 {
-    Vec3::new(
-        f32::from_bits(words[0]),
-        f32::from_bits(words[1]),
-        f32::from_bits(words[2]),
-    )
+/// A summary of twelve words.
+fn summary<S: Summary>(words: &[u32]) -> S {
+    S::from_words(&std::array::from_fn(|i| f32::from_bits(words[i])))
 }
 
-/// Bounds of twelve words: min, max, axis, cos θ_o, cos θ_e, Φ.
+fn summaries<S: Summary, const W: usize>(words: &[u32]) -> [S; W] {
+    std::array::from_fn(|slot| summary(&words[slot * SUMMARY_WORDS..]))
+}
+
+/// The words of a summary.
 #[must_use]
-pub fn bounds(words: &[u32]) -> LightBounds {
-    LightBounds {
-        min: vector(words),
-        max: vector(&words[3..]),
-        axis: vector(&words[6..]),
-        cos_theta_o: f32::from_bits(words[9]),
-        cos_theta_e: f32::from_bits(words[10]),
-        phi: f32::from_bits(words[11]),
-    }
-}
-
-/// The words that [`bounds`] reads.
-#[must_use]
-pub fn words_of(bounds: &LightBounds) -> Vec<u32> {
-    let [a, b, c] = [bounds.min, bounds.max, bounds.axis].map(|v| [v.x, v.y, v.z]);
-    let rest = [bounds.cos_theta_o, bounds.cos_theta_e, bounds.phi];
-    [a, b, c, rest].concat().into_iter().map(f32::to_bits).collect()
-}
-
-fn cluster_of(words: &[u32]) -> Cluster {
-    let f = |k: usize| f32::from_bits(words[k]);
-    Cluster {
-        center: vector(words),
-        extent: vector(&words[3..]),
-        radius_squared: f(6),
-        axis: vector(&words[7..]),
-        cos_theta_o: f(10),
-        sin_theta_o: f(11),
-        cos_theta_e: f(12),
-        phi: f(13),
-    }
+pub fn words_of<S: Summary>(summary: &S) -> Vec<u32> {
+    summary.to_words().map(f32::to_bits).to_vec()
 }
 
 /// Fourteen words: centre, half extents, r², axis, cos θ_o, sin θ_o, cos θ_e, Φ.
-#[must_use]
-pub fn words_of_cluster(cluster: &Cluster) -> Vec<u32> {
+fn words_of_cluster(cluster: &Cluster) -> Vec<u32> {
     let (c, e, a) = (cluster.center, cluster.extent, cluster.axis);
     [
         c.x,

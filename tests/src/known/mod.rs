@@ -10,6 +10,7 @@ pub mod image;
 pub mod tree;
 
 use lightbvh_host::vulkan::Device;
+use lightbvh_kernels::bvh::{Paper, Standard, WIDTH};
 
 pub use file::{Answer, File, Table};
 
@@ -18,8 +19,10 @@ pub use file::{Answer, File, Table};
 pub enum Subject {
     /// Functions of the core, one per table.
     Functions,
-    /// A tree: refit, samples, pmfs.
+    /// A tree of the default layout and importance: refit, samples, pmfs.
     Tree,
+    /// A tree of the paper's.
+    PaperTree,
     /// An image.
     Image,
 }
@@ -30,10 +33,10 @@ pub const FILES: [(&str, Subject); 9] = [
     ("bounds", Subject::Functions),
     ("importance", Subject::Functions),
     ("tree_extremes", Subject::Tree),
-    ("tree_dead_branches", Subject::Tree),
     ("tree_two_levels", Subject::Tree),
     ("tree_deep", Subject::Tree),
     ("tree_instances", Subject::Tree),
+    ("tree_eq4", Subject::PaperTree),
     ("image", Subject::Image),
 ];
 
@@ -42,7 +45,8 @@ pub const FILES: [(&str, Subject); 9] = [
 pub fn answer(file: &File, subject: Subject) -> Vec<Answer> {
     match subject {
         Subject::Functions => functions::answer(file),
-        Subject::Tree => tree::answer(file),
+        Subject::Tree => tree::answer::<Standard, WIDTH>(file),
+        Subject::PaperTree => tree::answer::<Paper, 4>(file),
         Subject::Image => image::answer(file),
     }
 }
@@ -52,7 +56,8 @@ pub fn answer(file: &File, subject: Subject) -> Vec<Answer> {
 pub fn answer_on(device: &Device, file: &File, subject: Subject) -> Option<Vec<Answer>> {
     match subject {
         Subject::Functions => None,
-        Subject::Tree => Some(tree::answer_on(device, file)),
+        Subject::Tree => Some(tree::answer_on::<Standard, WIDTH>(device, file)),
+        Subject::PaperTree => Some(tree::answer_on::<Paper, 4>(device, file)),
         Subject::Image => Some(image::answer_on(device, file)),
     }
 }

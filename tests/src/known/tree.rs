@@ -1,55 +1,52 @@
-//! Answers of a tree: refit pass by pass, samples, pmfs, by the kernels' functions or by the kernels.
+//! Answers of a tree: refit pass by pass, samples, pmfs, by the functions that the kernels run or by the kernels.
 
 use bytemuck::{Zeroable, bytes_of};
-use glam::UVec3;
-use lightbvh::refit::BlasRoot;
-use lightbvh::{EmissiveTriangle, Eq4, INVALID, Instance, LightNode, ShadingPoint, lanes};
+use lightbvh::node::kind;
+use lightbvh::refit::{self, BlasRoot};
+use lightbvh::{EmissiveTriangle, INVALID, Instance, LightNode, LightTree, sweep};
 use lightbvh_host::vulkan::{Device, Pass};
-use lightbvh_kernels::bvh::{Node, TreePush, WIDTH};
-use lightbvh_kernels::query::{Query, QueryPush, Sampled, pmf, sample};
-use lightbvh_kernels::refit::{RefitPush, refit_instances, refit_leaves, refit_level, refit_roots};
+use lightbvh_kernels::bvh::{Choice, TreePush};
+use lightbvh_kernels::query::{Query, QueryPush, Sampled, pmf_query, sample_query};
+use lightbvh_kernels::refit::RefitPush;
 
 use super::file::{Answer, File};
 
 /// What refit does, in order; each pass is a list of node indices, or of bottom levels for [`Step::Roots`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
-    /// `refit_leaves`.
-    Leaves,
-    /// `refit_level`.
-    Level,
+    /// `refit_bottom`.
+    Bottom,
     /// `refit_roots`.
     Roots,
-    /// `refit_instances`.
-    Instances,
+    /// `refit_top`.
+    Top,
 }
 
 impl Step {
     /// All of them with their names in the files.
-    pub const NAMES: [(&'static str, Self); 4] = [
-        ("leaves", Self::Leaves),
-        ("level", Self::Level),
+    pub const NAMES: [(&'static str, Self); 3] = [
+        ("bottom", Self::Bottom),
         ("roots", Self::Roots),
-        ("instances", Self::Instances),
+        ("top", Self::Top),
     ];
 }
 
-/// The arrays of a tree file.
+/// The arrays of a tree file, with nodes of layout `N`.
 #[derive(Clone, Debug)]
-pub struct Tree {
-    /// Nodes with links but without bounds.
-    pub nodes: Vec<Node>,
+pub struct Tree<N, const W: usize> {
+    /// Nodes with links but without summaries.
+    pub nodes: Vec<N>,
     /// Triangles of the bottom levels.
     pub triangles: Vec<EmissiveTriangle>,
     /// Of each light, the leaf of the top level that it belongs to.
     pub meshes_of_lights: Vec<u32>,
     /// Leaves of the top level; empty in a single level.
     pub instances: Vec<Instance>,
-    /// Roots of the bottom levels, without bounds.
+    /// Roots of the bottom levels, without summaries.
     pub roots: Vec<BlasRoot>,
     /// Bit trails of the triangles.
     pub trails: Vec<u32>,
-    /// Root, words per trail, whether there are two levels.
+    /// What a tree holds besides its arrays.
     pub push: TreePush,
     /// The passes of a refit.
     pub passes: Vec<(Step, Vec<u32>)>,
@@ -59,7 +56,7 @@ pub struct Tree {
     pub pmfs: Vec<Query>,
 }
 
-impl Tree {
+impl<N: LightNode<W>, const W: usize> Tree<N, W> {
     /// Reads the inputs.
     ///
     /// # Panics
@@ -107,131 +104,93 @@ impl Tree {
 
     /// Nodes and roots after a refit on the CPU.
     #[must_use]
-    pub fn refitted(&self) -> (Vec<Node>, Vec<BlasRoot>) {
+    pub fn refitted(&self) -> (Vec<N>, Vec<BlasRoot>) {
         let (mut nodes, mut roots) = (self.nodes.clone(), self.roots.clone());
         for (step, list) in &self.passes {
-            let push = RefitPush {
-                first: 0,
-                count: list.len() as u32,
-            };
-            for i in 0..push.count {
-                let id = UVec3::new(i, 0, 0);
+            for &index in list {
+                let i = index as usize;
                 match step {
-                    Step::Leaves => refit_leaves(id, &push, list, &self.triangles, &mut nodes),
-                    Step::Level => refit_level(id, &push, list, &mut nodes),
-                    Step::Roots => refit_roots(id, &push, list, &nodes, &mut roots),
-                    Step::Instances => refit_instances(id, &push, list, &self.instances, &roots, &mut nodes),
+                    Step::Bottom => nodes[i] = refit::bottom(&nodes, &self.triangles, index),
+                    Step::Roots => roots[i] = refit::root(&nodes, roots[i].node),
+                    Step::Top => nodes[i] = refit::top(&nodes, &self.instances, &roots, index),
                 }
             }
         }
         (nodes, roots)
     }
 
-    /// The nodes after a refit by [`lanes`], which `LightBvh` and `Scene` use on the CPU.
+    /// The nodes after a refit by [`sweep`], which `LightBvh` and `Scene` use on the CPU.
     #[must_use]
-    pub fn refitted_in_lanes(&self) -> Vec<Node> {
+    pub fn swept(&self) -> Vec<N> {
         let (mut nodes, mut roots) = (self.nodes.clone(), self.roots.clone());
         for (step, list) in &self.passes {
             match step {
-                Step::Leaves => lanes::leaves(&mut nodes, &self.triangles, list),
-                Step::Level => lanes::level(&mut nodes, list),
+                Step::Bottom => sweep::bottom(&mut nodes, &self.triangles, list),
                 Step::Roots => {
                     for &blas in list {
                         let root = &mut roots[blas as usize];
-                        *root = lightbvh::refit::root(&nodes, root.node);
+                        *root = refit::root(&nodes, root.node);
                     }
                 }
-                Step::Instances => lanes::mesh_leaves(&mut nodes, &self.instances, &roots, list),
+                Step::Top => sweep::top(&mut nodes, &self.instances, &roots, list),
             }
         }
         nodes
     }
 
+    /// The tree over `nodes`, as traversal takes it.
+    #[must_use]
+    pub fn tree<'a>(&'a self, nodes: &'a [N]) -> LightTree<'a, N> {
+        self.push.tree(nodes, &self.instances, &self.trails)
+    }
+
     /// What the CPU samples and evaluates in `nodes`.
     #[must_use]
-    pub fn queried(&self, nodes: &[Node]) -> (Vec<Sampled>, Vec<f32>) {
-        let mut sampled = vec![Sampled::zeroed(); self.samples.len()];
-        let push = self.query_push(&self.samples);
-        for i in 0..push.count {
-            let id = UVec3::new(i, 0, 0);
-            sample(
-                id,
-                &push,
-                nodes,
-                &self.instances,
-                &self.trails,
-                &self.samples,
-                &mut sampled,
-            );
-        }
-        let (lights, mut pmfs) = (self.lights(), vec![0.0; self.pmfs.len()]);
-        let push = self.query_push(&self.pmfs);
-        for i in 0..push.count {
-            pmf(
-                UVec3::new(i, 0, 0),
-                &push,
-                nodes,
-                &self.instances,
-                &self.trails,
-                &lights,
-                &self.pmfs,
-                &mut pmfs,
-            );
-        }
-        (sampled, pmfs)
+    pub fn queried<C: Choice<W, Node = N>>(&self, nodes: &[N]) -> (Vec<Sampled>, Vec<f32>) {
+        let (tree, lights) = (self.tree(nodes), self.lights());
+        let sampled = self
+            .samples
+            .iter()
+            .map(|query| sample_query::<C, W>(&tree, query));
+        let pmfs = self
+            .pmfs
+            .iter()
+            .map(|query| pmf_query::<C, W>(&tree, &lights, query));
+        (sampled.collect(), pmfs.collect())
     }
 
     /// The greatest number of nodes on a way down, over both levels.
     #[must_use]
     pub fn depth(&self) -> u32 {
-        fn below(tree: &Tree, node: u32) -> u32 {
-            let node = &tree.nodes[node as usize];
-            let children = (0..WIDTH).map(|slot| match node.kind(slot) {
-                lightbvh::node::kind::INNER => below(tree, node.link(slot)),
-                lightbvh::node::kind::MESH => below(tree, tree.instances[node.link(slot) as usize].root),
-                _ => 0,
-            });
-            1 + children.max().unwrap_or(0)
-        }
-        below(self, self.push.root)
+        self.depth_below(self.push.root)
     }
 
-    /// How many pairs of a sampled point and a node of the tree that the walk starts in are dead: the node's bounds have
-    /// importance there, and none of its children has.
-    #[must_use]
-    pub fn dead(&self, nodes: &[Node]) -> usize {
-        let mut points: Vec<ShadingPoint> = self.samples.iter().map(|query| query.point).collect();
-        points.dedup();
-        let mut dead = 0;
-        for point in &points {
-            let mut open = vec![self.push.root];
-            while let Some(index) = open.pop() {
-                let node = &nodes[index as usize];
-                let (weights, _) = node.weights::<Eq4, _>(point);
-                for (slot, weight) in weights.into_iter().enumerate() {
-                    if weight > 0.0 && node.kind(slot) == lightbvh::node::kind::INNER {
-                        let child = node.link(slot);
-                        let (_, sum) = nodes[child as usize].weights::<Eq4, _>(point);
-                        dead += usize::from(sum == 0.0);
-                        open.push(child);
-                    }
-                }
-            }
-        }
-        dead
+    fn depth_below(&self, node: u32) -> u32 {
+        let node = &self.nodes[node as usize];
+        let children = (0..W).map(|slot| match node.kind(slot) {
+            kind::INNER => self.depth_below(node.link(slot)),
+            kind::MESH => self.depth_below(self.instances[node.link(slot) as usize].root),
+            _ => 0,
+        });
+        1 + children.max().unwrap_or(0)
     }
 }
 
 /// The answers of the CPU.
 #[must_use]
-pub fn answer(file: &File) -> Vec<Answer> {
-    let tree = Tree::read(file);
+pub fn answer<C: Choice<W>, const W: usize>(file: &File) -> Vec<Answer> {
+    let tree = Tree::<C::Node, W>::read(file);
     let (nodes, roots) = tree.refitted();
-    let (sampled, pmfs) = tree.queried(&nodes);
+    let (sampled, pmfs) = tree.queried::<C>(&nodes);
     answers(&nodes, &roots, &sampled, &pmfs)
 }
 
-fn answers(nodes: &[Node], roots: &[BlasRoot], sampled: &[Sampled], pmfs: &[f32]) -> Vec<Answer> {
+fn answers<N: LightNode<W>, const W: usize>(
+    nodes: &[N],
+    roots: &[BlasRoot],
+    sampled: &[Sampled],
+    pmfs: &[f32],
+) -> Vec<Answer> {
     vec![
         Answer::new("nodes", nodes),
         Answer::new("roots", roots),
@@ -245,8 +204,8 @@ fn answers(nodes: &[Node], roots: &[BlasRoot], sampled: &[Sampled], pmfs: &[f32]
 /// # Panics
 /// If the device fails.
 #[must_use]
-pub fn answer_on(device: &Device, file: &File) -> Vec<Answer> {
-    let tree = Tree::read(file);
+pub fn answer_on<C: Choice<W>, const W: usize>(device: &Device, file: &File) -> Vec<Answer> {
+    let tree = Tree::<C::Node, W>::read(file);
     let nodes = device.upload(&tree.nodes).expect("an upload");
     let roots = device.upload(&tree.roots).expect("an upload");
     let triangles = device.upload(&tree.triangles).expect("an upload");
@@ -265,15 +224,14 @@ pub fn answer_on(device: &Device, file: &File) -> Vec<Answer> {
             count: list.len() as u32,
         })
         .collect();
-    let kernel = |name: &str| device.kernel(name).expect("a kernel");
+    let kernel = |name: &str| device.kernel(&format!("{name}{}", C::SUFFIX)).expect("a kernel");
     let refit = Step::NAMES.map(|(name, step)| (step, kernel(&format!("refit_{name}"))));
     let mut pass = Pass::new();
     for (((step, _), list), push) in tree.passes.iter().zip(&lists).zip(&pushes) {
         let bindings = match step {
-            Step::Leaves => vec![list.bind(), triangles.bind(), nodes.bind()],
-            Step::Level => vec![list.bind(), nodes.bind()],
+            Step::Bottom => vec![list.bind(), triangles.bind(), nodes.bind()],
             Step::Roots => vec![list.bind(), nodes.bind(), roots.bind()],
-            Step::Instances => vec![list.bind(), instances.bind(), roots.bind(), nodes.bind()],
+            Step::Top => vec![list.bind(), instances.bind(), roots.bind(), nodes.bind()],
         };
         let (_, kernel) = refit.iter().find(|(of, _)| of == step).expect("every step");
         pass.dispatch(kernel, &bindings, bytes_of(push), push.count);

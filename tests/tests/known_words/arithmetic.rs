@@ -1,8 +1,8 @@
-//! Exact arithmetic, and the bounds and unions that are made of it.
+//! Exact arithmetic, and the summaries and unions that are made of it.
 
 use glam::Vec3;
 use lightbvh::cone::{Cone, normalized};
-use lightbvh::{LightBounds, exact};
+use lightbvh::{LightBounds, LightMoments, Summary, exact};
 use lightbvh_tests::generate::{self, Random, extreme_triangle};
 
 use super::digest::Digest;
@@ -13,12 +13,12 @@ fn bounds_and_unions() {
     let mut digest = Digest::new();
     for _ in 0..20_000 {
         let [a, b] = [0; 2].map(|_| LightBounds::of_triangle(&extreme_triangle(&mut random)));
-        digest.bounds(&a);
+        digest.summary(&a);
         let both = a.merge(&b);
-        digest.bounds(&both);
+        digest.summary(&both);
         let third = LightBounds::of_triangle(&extreme_triangle(&mut random));
-        digest.bounds(&third.merge(&both));
-        digest.bounds(&both.merge(&third));
+        digest.summary(&third.merge(&both));
+        digest.summary(&both.merge(&third));
         let mut cone = || Cone {
             axis: normalized(Vec3::from(random.direction())),
             cos_theta_o: match random.below(4) {
@@ -44,6 +44,33 @@ fn bounds_and_unions() {
         }
     }
     digest.is(0x2a97_3490_f7dc_0e0a, "bounds");
+}
+
+#[test]
+fn moments_and_merges() {
+    let mut random = Random::new(39);
+    let mut digest = Digest::new();
+    for i in 0..5000 {
+        let scale = exact::pow2(random.below(60) as i32 - 30);
+        let children: [LightMoments; 8] = if i % 3 == 0 {
+            std::array::from_fn(|_| LightMoments::of_triangle(&extreme_triangle(&mut random)))
+        } else {
+            let near = generate::small_triangles(8, 8, 4.0, 1.0, i % 2 == 0, i);
+            std::array::from_fn(|slot| {
+                let mut triangle = near[slot];
+                triangle.p = triangle.p.map(|p| p.map(|x| x * scale));
+                triangle.flags = u32::from(slot % 4 == 3);
+                LightMoments::of_triangle(&triangle)
+            })
+        };
+        children.iter().for_each(|child| digest.summary(child));
+        let pairs: [LightMoments; 4] =
+            std::array::from_fn(|k| LightMoments::merged(&[children[2 * k], children[2 * k + 1]]));
+        pairs.iter().for_each(|pair| digest.summary(pair));
+        digest.summary(&LightMoments::merged(&pairs));
+        digest.summary(&LightMoments::merged(&children));
+    }
+    digest.is(0, "moments");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use bytemuck::{Pod, cast_slice};
 use glam::Vec3;
-use lightbvh::LightBounds;
+use lightbvh::Summary;
 
 /// FNV-1a, 64 bits, word by word.
 pub struct Digest(u64);
@@ -33,11 +33,8 @@ impl Digest {
         v.to_array().into_iter().for_each(|x| self.float(x));
     }
 
-    pub fn bounds(&mut self, b: &LightBounds) {
-        [b.min, b.max, b.axis].into_iter().for_each(|v| self.vector(v));
-        [b.cos_theta_o, b.cos_theta_e, b.phi]
-            .into_iter()
-            .for_each(|x| self.float(x));
+    pub fn summary<S: Summary>(&mut self, summary: &S) {
+        summary.to_words().into_iter().for_each(|x| self.float(x));
     }
 
     #[track_caller]

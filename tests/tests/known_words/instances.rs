@@ -1,41 +1,50 @@
-//! Instances: bounds brought into the world, receivers brought into their space, and importances there.
+//! Instances: summaries brought into the world, points brought into the mesh's space, and weights there.
 
-use glam::Vec3;
-use lightbvh::cone::normalized;
-use lightbvh::importance::Cluster;
-use lightbvh::{Eq4, FluxOverDistance, ImportanceModel, Instance, LightBounds, MeshLeaf, Receiver, exact};
+use lightbvh::{
+    CompactNode, Defensive, Eq4, FluxOverDistance, FullNode, ImportanceModel, Instance, LightBounds,
+    LightMoments, LightNode, MomentNode, Moments, Scene, ShadingPoint, Summary, exact,
+};
+use lightbvh_tests::edits::{add_instance, add_mesh};
 use lightbvh_tests::generate::{self, Random, extreme_triangle};
 
 use super::digest::Digest;
 use super::place;
 
-/// Instances of every scale and brightness, and receivers brought into their space.
+/// Instances of every scale and brightness.
+fn instances(random: &mut Random) -> Vec<Instance> {
+    let mut scene = Scene::<CompactNode<2>, 2>::default();
+    let mesh = add_mesh(&mut scene, generate::small_triangles(3, 3, 1.0, 0.3, true, 1));
+    for _ in 0..200 {
+        let mut transform = place(random);
+        let scale = exact::pow2(random.below(90) as i32 - 60);
+        transform.columns = transform.columns.map(|column| column.map(|x| x * scale));
+        add_instance(&mut scene, mesh, transform);
+    }
+    let mut instances = scene.instances().to_vec();
+    for instance in &mut instances {
+        instance.first = random.below(100);
+        instance.first_triangle = random.below(100);
+        instance.flux = generate::log_uniform(random, -100, 98);
+        instance.radiance = [0.0, 1.0, 1e-3, 1e9][random.below(4) as usize];
+    }
+    instances
+}
+
 #[test]
-fn instances() {
+fn instances_of_every_kind() {
     let mut random = Random::new(53);
     let mut digest = Digest::new();
+    let instances = instances(&mut random);
+    digest.words(&instances);
     for i in 0..4000 {
-        let transform = place(&mut random);
-        let scale = exact::pow2(random.below(38) as i32 - 19);
-        let instance = Instance {
-            first: random.below(100),
-            first_triangle: random.below(100),
-            columns: transform.columns.map(|column| column.map(|x| x * scale)),
-            translation: transform.translation,
-            per_scale: 1.0 / scale,
-            flux: generate::log_uniform(&mut random, -100, 98),
-            radiance: [0.0, 1.0, 1e-3, 1e9][random.below(4) as usize],
-            error: [0.0, 1e-6, 1e-3][random.below(3) as usize] * scale,
-            tilt: [1e-5, 1e-3, 0.1][random.below(3) as usize],
-            mirrored: random.below(2),
-            ..Instance::world(1, 2)
-        };
+        let instance = instances[i as usize % instances.len()];
         let triangle = extreme_triangle(&mut random);
         let mut local = LightBounds::of_triangle(&triangle);
         if i % 2 == 0 {
             local.phi = generate::log_uniform(&mut random, -100, 125);
         }
-        digest.bounds(&instance.to_world(&local));
+        digest.summary(&local.to_world(&instance));
+        digest.summary(&LightMoments::of_triangle(&triangle).to_world(&instance));
         let small = generate::small_triangles(1, 1, 2.0, 0.4, false, i)[0];
         digest.words(&[instance.triangle(&small, i)]);
         digest.words(&instance.vertex(triangle.p[0]));
@@ -43,42 +52,49 @@ fn instances() {
         digest.word(instance.triangle_of(i));
         let reach = exact::pow2(random.below(60) as i32 - 20);
         let point = generate::point(&mut random, reach);
-        for receiver in [instance.inside(&point), Instance::outside(&point)] {
-            digest.vector(receiver.position());
-            digest.vector(receiver.normal());
-            [receiver.slack(), receiver.near_squared(), receiver.tilt()]
-                .into_iter()
-                .for_each(|x| digest.float(x));
-            importances(&mut digest, &mut random, &receiver);
-        }
-        importances(&mut digest, &mut random, &point);
+        digest.words(&[instance.to_local(&point), Instance::IDENTITY.to_local(&point)]);
     }
     digest.is(0x9291_451f_2130_4b09, "instances");
 }
 
-/// Of a set of lights about as far from the receiver as it is large.
-fn importances<R: Receiver>(digest: &mut Digest, random: &mut Random, receiver: &R) {
-    let size = generate::log_uniform(random, -30, 30);
-    let distance = size * generate::log_uniform(random, -2, 4);
-    let away = Vec3::from(random.direction()) * distance;
-    let half_sine = [0.0, random.unit(), 1.0][random.below(3) as usize];
-    let extent = Vec3::new(random.unit(), random.unit(), random.unit()) * size;
-    let cluster = Cluster {
-        center: receiver.position() + away,
-        extent,
-        radius_squared: (extent.x * extent.x + extent.y * extent.y) + extent.z * extent.z,
-        axis: normalized(Vec3::from(random.direction())),
-        cos_theta_o: 1.0 - 2.0 * half_sine * half_sine,
-        sin_theta_o: 2.0 * half_sine * exact::sqrt(1.0 - half_sine * half_sine),
-        cos_theta_e: 0.0,
-        phi: [0.0, 1.0, generate::log_uniform(random, -100, 125)][random.below(3) as usize],
-    };
-    for importance in [
-        Eq4::importance(&cluster, receiver),
-        FluxOverDistance::importance(&cluster, receiver),
-    ] {
-        digest.float(importance.significand);
-        digest.word(importance.exponent as u32);
+/// Nodes of lights about as far from the point as they are from each other.
+fn weights<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) {
+    let mut random = Random::new(59);
+    let mut digest = Digest::new();
+    for i in 0..3000 {
+        let scale = exact::pow2(random.below(60) as i32 - 30);
+        let triangles = generate::small_triangles(W as u32, 99, 4.0, 1.0, i % 2 == 0, i);
+        let mut node = N::EMPTY;
+        node.set_summaries(&std::array::from_fn(|slot| {
+            let mut triangle = triangles[slot];
+            triangle.p = triangle.p.map(|p| p.map(|x| x * scale));
+            triangle.flags = u32::from(slot % 4 == 3);
+            if i % 5 == 0 {
+                triangle = extreme_triangle(&mut random);
+            }
+            N::Summary::of_triangle(&triangle)
+        }));
+        digest.words(&[node]);
+        for _ in 0..4 {
+            let size = 4.0 * scale * generate::log_uniform(&mut random, -4, 4);
+            let point = generate::point(&mut random, 1.0);
+            let point = ShadingPoint {
+                p: point.p.map(|x| x * size),
+                ..point
+            };
+            I::weights(&node, &point)
+                .into_iter()
+                .for_each(|weight| digest.float(weight));
+        }
     }
-    digest.word(u32::from(Eq4::reaches(&cluster, receiver)));
+    digest.is(known, &format!("weights on {} {W}", N::NAME));
+}
+
+#[test]
+fn weights_of_every_model() {
+    weights::<CompactNode<4>, Eq4, 4>(0);
+    weights::<FullNode<2>, Eq4, 2>(0);
+    weights::<CompactNode<4>, FluxOverDistance, 4>(0);
+    weights::<MomentNode<8>, Moments, 8>(0);
+    weights::<MomentNode<8>, Defensive<Moments, 6>, 8>(0);
 }

@@ -1,13 +1,13 @@
 //! Scenes of moving lights: plans, refits, rebuilds and picks, frame after frame.
 
 use lightbvh::scene::RebuildParams;
-use lightbvh::{CompactNode, Edit, Eq4, FullNode, LightNode, Scene};
+use lightbvh::{CompactNode, Edit, Eq4, FullNode, ImportanceModel, LightNode, MomentNode, Moments, Scene};
 use lightbvh_tests::generate::{self, Random};
 
 use super::digest::Digest;
 use super::place;
 
-fn scene<N: LightNode<W>, const W: usize>(known: u64) {
+fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) {
     let mut random = Random::new(43);
     let mut digest = Digest::new();
     let mut scene = Scene::<N, W>::default();
@@ -70,11 +70,11 @@ fn scene<N: LightNode<W>, const W: usize>(known: u64) {
             list.iter()
                 .for_each(|range| (digest.word(range.start), digest.word(range.end)).0);
         }
-        for list in [&work.leaves, &work.roots, &work.instances] {
-            digest.words(list);
+        digest.words(&work.roots);
+        for levels in [&work.bottom, &work.top] {
+            digest.words(levels.nodes());
+            levels.ranges().for_each(|range| digest.word(range.end as u32));
         }
-        digest.words(work.levels.nodes());
-        digest.words(work.top.nodes());
         digest.word(work.computed() as u32);
         scene.refit();
         digest.words(scene.nodes());
@@ -98,7 +98,7 @@ fn scene<N: LightNode<W>, const W: usize>(known: u64) {
         .for_each(|word| digest.word(word));
         for _ in 0..30 {
             let point = generate::point(&mut random, 20.0);
-            let sampled = scene.sample::<Eq4>(&point, random.bits());
+            let sampled = scene.sample::<I>(&point, random.bits());
             digest.word(sampled.light);
             digest.float(sampled.pmf);
         }
@@ -111,7 +111,7 @@ fn scene<N: LightNode<W>, const W: usize>(known: u64) {
         for &id in &ids {
             let lights = scene.lights_of(id).expect("it is there");
             let point = generate::point(&mut random, 20.0);
-            digest.float(scene.pmf::<Eq4>(&point, lights.start + frame % 30, id));
+            digest.float(scene.pmf::<I>(&point, lights.start + frame % 30, id));
         }
         if frame % 4 == 3 {
             let rebuilt = scene
@@ -128,6 +128,7 @@ fn scene<N: LightNode<W>, const W: usize>(known: u64) {
 
 #[test]
 fn scenes() {
-    scene::<CompactNode<4>, 4>(0xb4eb_3c23_6173_98b1);
-    scene::<FullNode<2>, 2>(0x95b1_e8e9_65c9_926f);
+    scene::<CompactNode<4>, Eq4, 4>(0xb4eb_3c23_6173_98b1);
+    scene::<FullNode<2>, Eq4, 2>(0x95b1_e8e9_65c9_926f);
+    scene::<MomentNode<8>, Moments, 8>(0);
 }

@@ -1,11 +1,12 @@
 //! Builds, refits and picks of single trees.
 
-use lightbvh::climb::{Plan, parents};
+use lightbvh::build::Effort;
 use lightbvh::{
-    BuildParams, CompactNode, EmissiveTriangle, Eq4, FluxOverDistance, FullNode, Heuristic, ImportanceModel,
-    Instance, LightBvh, LightNode, Lights, MeshLeaf, ShadingPoint, exact,
+    BuildParams, CompactNode, Defensive, EmissiveTriangle, Eq4, FluxOverDistance, FullNode, Heuristic,
+    ImportanceModel, LightBvh, LightNode, Lights, MomentNode, Moments, Random64, SampledLight, ShadingPoint,
+    exact,
 };
-use lightbvh_tests::generate::{self, Random, extreme_triangle, moved};
+use lightbvh_tests::generate::{self, Random, extreme_triangle, moved, split};
 
 use super::digest::Digest;
 
@@ -61,15 +62,17 @@ fn points() -> Vec<ShadingPoint> {
     points
 }
 
-fn tree<N: LightNode<W>, L: MeshLeaf, const W: usize>(digest: &mut Digest, bvh: &LightBvh<N, W, L>) {
+fn tree<N: LightNode<W>, const W: usize>(digest: &mut Digest, bvh: &LightBvh<N, W>) {
     let tree = bvh.tree();
     digest.words(tree.nodes);
-    digest.words(tree.meshes);
+    digest.words(tree.instances);
     digest.words(tree.trails);
     digest.words(bvh.roots());
     [
         tree.root,
         tree.trail_words,
+        tree.live,
+        tree.lights,
         bvh.depth(),
         bvh.bytes() as u32,
         bvh.refit_bytes() as u32,
@@ -80,21 +83,29 @@ fn tree<N: LightNode<W>, L: MeshLeaf, const W: usize>(digest: &mut Digest, bvh: 
         digest.words(levels.nodes());
         levels.ranges().for_each(|range| digest.word(range.end as u32));
     }
-    digest.bounds(&bvh.bounds());
+    digest.summary(&bvh.summary());
 }
 
-fn picks<I: ImportanceModel, N: LightNode<W>, L: MeshLeaf, const W: usize>(
+fn picks<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     digest: &mut Digest,
-    bvh: &LightBvh<N, W, L>,
+    bvh: &LightBvh<N, W>,
     lights: &Lights,
 ) {
     let mut random = Random::new(29);
     for point in points() {
-        for _ in 0..6 {
-            let sampled = bvh.sample::<I>(&point, random.bits());
+        let numbers: [Random64; 6] = std::array::from_fn(|_| Random64 {
+            high: random.bits(),
+            low: random.bits(),
+        });
+        let mut sampled = [SampledLight::NONE; 6];
+        bvh.sample_batch::<I>(&[point; 6], &numbers, &mut sampled);
+        for (number, sampled) in numbers.into_iter().zip(sampled) {
+            assert_eq!(bvh.sample::<I>(&point, number), sampled);
             digest.word(sampled.light);
             digest.float(sampled.pmf);
         }
+        let sampled = bvh.sample::<I>(&point, random.bits());
+        digest.word(sampled.light);
         for _ in 0..6 {
             let light = random.below(lights.triangles().len() as u32);
             digest.float(bvh.pmf::<I>(lights, &point, light));
@@ -102,16 +113,23 @@ fn picks<I: ImportanceModel, N: LightNode<W>, L: MeshLeaf, const W: usize>(
     }
 }
 
-/// Builds, plans of climbing refits, refits and picks: digests of each.
-fn bvh<N: LightNode<W>, const W: usize>(known: [u64; 4]) {
+/// Builds, refits and picks: digests of each.
+fn bvh<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: [u64; 3]) {
     let what = |step| format!("{} of width {W}, {step}", N::NAME);
     let lights = lights();
     let later = moved(&lights, 31);
-    let (mut built, mut planned, mut refitted, mut picked) =
-        (Digest::new(), Digest::new(), Digest::new(), Digest::new());
-    for heuristic in [Heuristic::Sah, Heuristic::Saoh] {
-        for buckets in [2, 16, 32] {
-            let params = BuildParams { heuristic, buckets };
+    let (mut built, mut refitted, mut picked) = (Digest::new(), Digest::new(), Digest::new());
+    for heuristic in [
+        Heuristic::Sah,
+        Heuristic::Saoh,
+        Heuristic::Ward,
+        Heuristic::Morton,
+    ] {
+        for (buckets, effort) in [(2, Effort::Usual), (16, Effort::Usual), (32, Effort::Most)] {
+            let params = BuildParams {
+                effort,
+                ..split(heuristic, buckets)
+            };
             for two in [false, true] {
                 let mut bvh = if two {
                     LightBvh::<N, W>::two_level(&lights, &params)
@@ -122,63 +140,34 @@ fn bvh<N: LightNode<W>, const W: usize>(known: [u64; 4]) {
                 if buckets != 16 {
                     continue;
                 }
-                let mut plan = Plan::default();
-                let all = (0..bvh.nodes().len() as u32).collect();
-                planned.word(plan.add(&parents(bvh.nodes()), all, bvh.bottom_levels().nodes().to_vec()));
-                planned.words(&plan.starts);
-                planned.words(&plan.leaves);
-                planned.words(&plan.steps);
-                picks::<Eq4, N, _, W>(&mut picked, &bvh, &lights);
+                picks::<N, I, W>(&mut picked, &bvh, &lights);
                 bvh.refit(&later);
                 tree(&mut refitted, &bvh);
-                picks::<Eq4, N, _, W>(&mut picked, &bvh, &later);
-                picks::<FluxOverDistance, N, _, W>(&mut picked, &bvh, &later);
-                let leaves = bvh.with_leaves::<Instance>();
-                tree(&mut refitted, &leaves);
-                picks::<Eq4, N, _, W>(&mut picked, &leaves, &later);
+                picks::<N, I, W>(&mut picked, &bvh, &later);
+                picks::<N, FluxOverDistance, W>(&mut picked, &bvh, &later);
             }
         }
     }
     built.is(known[0], &what("built"));
-    planned.is(known[1], &what("planned"));
-    refitted.is(known[2], &what("refitted"));
-    picked.is(known[3], &what("sampled"));
+    refitted.is(known[1], &what("refitted"));
+    picked.is(known[2], &what("sampled"));
 }
 
 #[test]
 fn compact_nodes() {
-    bvh::<CompactNode<2>, 2>([
-        0x18ed_1a96_299d_7d28,
-        0x67c3_c803_f53e_4df6,
-        0x078e_cdb7_04ab_e781,
-        0xf81e_f6a6_3ba6_04ce,
-    ]);
-    bvh::<CompactNode<4>, 4>([
-        0x22c8_f077_1b61_b44a,
-        0xa54c_de62_448d_95e5,
-        0x6b08_9def_174c_1f3f,
-        0xdf2f_f2de_92df_4295,
-    ]);
-    bvh::<CompactNode<16>, 16>([
-        0x3de9_6922_e2da_5205,
-        0xae08_c081_e4b6_eb19,
-        0xeac7_acfb_76a6_8c51,
-        0xc188_9de5_f7a9_e45f,
-    ]);
+    bvh::<CompactNode<2>, Eq4, 2>([0; 3]);
+    bvh::<CompactNode<4>, Eq4, 4>([0; 3]);
+    bvh::<CompactNode<16>, Defensive<Eq4, 5>, 16>([0; 3]);
 }
 
 #[test]
 fn full_nodes() {
-    bvh::<FullNode<2>, 2>([
-        0x9945_4bd5_37a6_75b3,
-        0x67c3_c803_f53e_4df6,
-        0x0791_4c02_d365_6bff,
-        0x9268_de88_94d2_f2a5,
-    ]);
-    bvh::<FullNode<8>, 8>([
-        0xa101_bf00_cb01_8456,
-        0xaaa3_4277_3872_027e,
-        0x5e17_20b0_d419_9ac7,
-        0xe182_c61c_9225_0124,
-    ]);
+    bvh::<FullNode<2>, Eq4, 2>([0; 3]);
+    bvh::<FullNode<8>, Eq4, 8>([0; 3]);
+}
+
+#[test]
+fn moment_nodes() {
+    bvh::<MomentNode<4>, Moments, 4>([0; 3]);
+    bvh::<MomentNode<8>, Defensive<Moments, 6>, 8>([0; 3]);
 }

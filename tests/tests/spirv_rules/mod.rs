@@ -1,6 +1,6 @@
 //! The committed kernels belong to the committed sources and obey the rules; modules that do not are refused.
 
-mod arrivals;
+mod atomics;
 mod module;
 mod operations;
 mod shapes;

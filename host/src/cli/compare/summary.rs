@@ -79,9 +79,10 @@ pub(super) struct Change {
 }
 
 /// Methods that others are held against.
-const BASELINES: [Method; 3] = [
+const BASELINES: [Method; 4] = [
     Method::SingleLevelRefit,
     Method::SingleLevelRebuilt,
+    Method::TwoLevelSaoh,
     Method::Restir,
 ];
 

@@ -1,13 +1,12 @@
 //! Inputs of functions: the ends of each domain, what is special between them, and random numbers.
 
-use lightbvh::node::kind;
-use lightbvh::{CompactNode, Instance, LightBounds, LightNode, ShadingPoint, exact};
+use lightbvh::{Instance, LightBounds, LightMoments, ShadingPoint, exact};
 
 use super::super::Table;
-use super::super::functions::{words_of, words_of_cluster};
+use super::super::functions::words_of;
 use super::trees::instances_of_any_kind;
 use super::words;
-use crate::generate::{Random, any_bounds, extreme_triangle, log_uniform};
+use crate::generate::{Random, any_bounds, extreme_triangle, log_uniform, small_triangles};
 
 /// Random rows of each arithmetic table, beside the special ones.
 const RANDOM: u32 = 64;
@@ -206,34 +205,47 @@ pub fn exact() -> (&'static str, Vec<Table>) {
 }
 
 const BOUNDS: &str = "bounds: min[3] max[3] axis[3] cos_theta_o cos_theta_e phi";
+const MOMENTS: &str = "moments: phi c[3] across along m[3] h[3]";
+/// Words of an instance.
+const INSTANCE: usize = size_of::<Instance>() / 4;
 
-/// Bounds of triangles and of sets, their words in a node, their place in the world.
+/// Summaries of triangles and of sets, their words in nodes, their place in the world.
 pub fn bounds() -> (&'static str, Vec<Table>) {
     let random = &mut Random::new(0x6b6e_6f02);
     let triangles: Vec<_> = (0..64).map(|_| extreme_triangle(random)).collect();
     let any: Vec<LightBounds> = (0..64).map(|_| any_bounds(random)).collect();
-    let mut merges = Vec::new();
-    for i in 0..any.len() {
-        let mut pair = [words_of(&any[i]), words_of(&any[(i * 7 + 3) % any.len()])].concat();
-        match i % 12 {
-            // Either without flux, and both.
-            0 => pair[11] = 0,
-            1 => pair[23] = 0,
-            2 => (pair[11], pair[23]) = (0, 0),
-            _ => {}
-        }
-        merges.extend(pair);
-    }
     let encoded: Vec<u32> = any.iter().chain(&corners()).flat_map(words_of).collect();
-    let mut placed = Vec::new();
-    let mut vertices = Vec::new();
+    // Sets of four and of eight, some of them without flux, some alike.
+    let sets = |random: &mut Random, size: usize, rows: u32, words: &dyn Fn(usize) -> Vec<u32>| -> Vec<u32> {
+        let mut out = Vec::new();
+        for row in 0..rows {
+            for slot in 0..size as u32 {
+                let all_alike = row % 8 == 7;
+                out.extend(words(if all_alike {
+                    row as usize
+                } else {
+                    (row * 7 + slot * 11 + random.below(3)) as usize
+                }));
+            }
+        }
+        out
+    };
+    let bounds_of = |i: usize| {
+        let mut bounds = any[i % 64];
+        if i % 5 == 0 {
+            bounds.phi = 0.0;
+        }
+        words_of(&bounds)
+    };
+    let moments_of = |i: usize| words_of(&LightMoments::of_triangle(&triangles[i % 64]));
+    let (mut placed, mut placed_moments, mut vertices) = (Vec::new(), Vec::new(), Vec::new());
     for (i, instance) in instances_of_any_kind(random).iter().cycle().take(48).enumerate() {
-        let local = LightBounds::of_triangle(&triangles[i]);
-        placed.extend(words(&[*instance]));
-        placed.extend(words_of(&local));
-        vertices.extend(words(&[*instance]));
-        vertices.extend(triangles[i].p[i % 3].map(f32::to_bits));
+        let own = words(&[*instance]);
+        placed.extend([&own[..], &words_of(&LightBounds::of_triangle(&triangles[i]))].concat());
+        placed_moments.extend([&own[..], &moments_of(i)].concat());
+        vertices.extend([&own[..], &triangles[i].p[i % 3].map(f32::to_bits)].concat());
     }
+    let instance = "instance (33 words, see tree_instances.txt)";
     let tables = vec![
         Table::new(
             "triangle_bounds",
@@ -242,9 +254,29 @@ pub fn bounds() -> (&'static str, Vec<Table>) {
             12,
             &words(&triangles),
         ),
-        Table::new("merge", "bounds, bounds -> bounds of both", 24, 12, &merges),
         Table::new(
-            "encode",
+            "triangle_moments",
+            &format!("the same ->\n{MOMENTS}"),
+            14,
+            12,
+            &words(&triangles),
+        ),
+        Table::new(
+            "merge_bounds",
+            "bounds of four sets -> bounds of all",
+            48,
+            12,
+            &sets(random, 4, 48, &bounds_of),
+        ),
+        Table::new(
+            "merge_moments",
+            "moments of eight sets -> moments of all",
+            96,
+            12,
+            &sets(random, 8, 40, &moments_of),
+        ),
+        Table::new(
+            "encode_bounds",
             "bounds -> the seven words of a slot of CompactNode (center_x center_y center_z extent axis_kind phi_cone link; \
              kind 2, link 7),\nthe bounds they decode to,\nand what importance sees: center[3] extent[3] r^2 axis[3] \
              cos_theta_o sin_theta_o cos_theta_e phi",
@@ -253,16 +285,36 @@ pub fn bounds() -> (&'static str, Vec<Table>) {
             &encoded,
         ),
         Table::new(
-            "to_world",
-            "instance (24 words, see tree_instances.txt), bounds -> bounds",
-            36,
+            "encode_moments",
+            "moments of eight children -> the words of a MomentNode (kinds 2, links 0 to 7), and the moments they decode to",
+            96,
+            48 + 96,
+            &sets(random, 8, 24, &moments_of),
+        ),
+        Table::new(
+            "bounds_to_world",
+            &format!("{instance}, bounds -> bounds"),
+            INSTANCE + 12,
             12,
             &placed,
         ),
-        Table::new("vertex", "instance, p[3] -> p[3] in the world", 27, 3, &vertices),
+        Table::new(
+            "moments_to_world",
+            &format!("{instance}, moments -> moments"),
+            INSTANCE + 12,
+            12,
+            &placed_moments,
+        ),
+        Table::new(
+            "vertex",
+            &format!("{instance}, p[3] -> p[3] in the world"),
+            INSTANCE + 3,
+            3,
+            &vertices,
+        ),
     ];
     (
-        "Bounds of lights: crate `lightbvh`, modules `bounds`, `node`, `instance`.",
+        "Summaries of lights: crate `lightbvh`, modules `bounds`, `moments`, `node`, `instance`.",
         tables,
     )
 }
@@ -293,70 +345,90 @@ fn corners() -> Vec<LightBounds> {
     out
 }
 
-/// Importance of a child at points, in the world and in the space of an instance.
+/// A point from inside a box to far off it, at its centre too; a volume now and then.
+fn about(random: &mut Random, bounds: &LightBounds, i: usize) -> ShadingPoint {
+    let (c, size) = ((bounds.min + bounds.max) * 0.5, bounds.max - bounds.min);
+    let r = size.length().max(exact::pow2(-50));
+    let distance = [0.0, 0.25, 0.5, 1.0, 10.0, 1e6][random.below(6) as usize];
+    let (d, far) = (random.direction(), exact::pow2(40));
+    ShadingPoint {
+        p: std::array::from_fn(|k| (c[k] + d[k] * distance * r).clamp(-far, far)),
+        n: if i.is_multiple_of(8) {
+            [0.0; 3]
+        } else {
+            random.direction()
+        },
+    }
+}
+
+/// Weights of nodes at points, and points brought into the space of an instance.
 pub fn importance() -> (&'static str, Vec<Table>) {
     let random = &mut Random::new(0x6b6e_6f03);
     let instances = instances_of_any_kind(random);
-    let (mut rows, mut inside, mut local) = (Vec::new(), Vec::new(), Vec::new());
-    for i in 0..160_u32 {
-        let bounds = if i < 36 {
-            corners()[i as usize]
+    let (mut of_bounds, mut of_moments, mut local) = (Vec::new(), Vec::new(), Vec::new());
+    for i in 0..60 {
+        // Siblings of about one size, unless they are of any.
+        let alike = small_triangles(8, 8, 4.0, 1.0, i % 2 == 0, random.bits());
+        let triangles: Vec<_> = if i % 3 == 0 {
+            (0..8).map(|_| extreme_triangle(random)).collect()
         } else {
-            any_bounds(random)
+            alike
         };
-        let mut node = <CompactNode<4> as LightNode<4>>::EMPTY;
-        node.set_child(0, kind::LIGHT, 0);
-        node.set_bounds(0, &bounds);
-        let cluster = node.cluster(0);
-        let (c, r) = (
-            cluster.center,
-            exact::sqrt(cluster.radius_squared).max(exact::pow2(-50)),
-        );
-        // From inside the box to far off, and at its centre; a volume now and then.
-        let distance = [0.0, 0.5, 1.0, 2.0, 20.0, 1e6][random.below(6) as usize];
-        let d = random.direction();
-        let far = exact::pow2(40);
-        let c = [c.x, c.y, c.z];
-        let p = std::array::from_fn(|k| (c[k] + d[k] * distance * r).clamp(-far, far));
-        let n = if i % 8 == 0 { [0.0; 3] } else { random.direction() };
-        let point = ShadingPoint { p, n };
-        let instance: Instance = instances[i as usize % instances.len()];
-        rows.extend(words_of_cluster(&cluster));
-        rows.extend(words(&[point]));
-        if i % 3 == 0 {
-            inside.extend(words(&[instance]));
-            inside.extend(words(&[point]));
-            local.extend(words_of_cluster(&cluster));
-            local.extend(words(&[instance]));
-            local.extend(words(&[point]));
+        let mut children: Vec<LightBounds> = triangles[..4].iter().map(LightBounds::of_triangle).collect();
+        if i < 36 {
+            children[1] = corners()[i];
         }
+        if i % 4 == 1 {
+            children[2] = any_bounds(random);
+            children[3].phi = 0.0;
+        }
+        let point = about(random, &children[i % 4], i);
+        of_bounds.extend(children.iter().flat_map(words_of));
+        of_bounds.extend(words(&[point]));
+        let bounds = LightBounds::of_triangle(&triangles[i % 8]);
+        let point = about(random, &bounds, i);
+        of_moments.extend(
+            triangles
+                .iter()
+                .map(LightMoments::of_triangle)
+                .flat_map(|own| words_of(&own)),
+        );
+        of_moments.extend(words(&[point]));
+        local.extend(words(&[instances[i % instances.len()]]));
+        local.extend(words(&[point]));
     }
-    let results = "importance of Eq4 (significand, exponent as i32), of FluxOverDistance (the same)";
     let tables = vec![
         Table::new(
-            "importance",
-            &format!("cluster (14 words, see bounds.txt, encode), p[3] n[3] -> {results}"),
-            20,
+            "eq4",
+            "bounds of four children (see bounds.txt), p[3] n[3] -> weights by Eq4 on CompactNode",
+            54,
             4,
-            &rows,
+            &of_bounds,
         ),
         Table::new(
-            "inside",
-            "instance (24 words, see tree_instances.txt), p[3] n[3] -> in the mesh's space: p[3] n[3] slack near^2 tilt",
-            30,
-            9,
-            &inside,
+            "flux_over_distance",
+            "the same -> weights by FluxOverDistance",
+            54,
+            4,
+            &of_bounds,
         ),
         Table::new(
-            "importance_inside",
-            &format!("cluster, instance, p[3] n[3] -> {results}"),
-            44,
-            4,
+            "moments",
+            "moments of eight children (see bounds.txt), p[3] n[3] -> weights by Moments on MomentNode",
+            102,
+            8,
+            &of_moments,
+        ),
+        Table::new(
+            "to_local",
+            "instance (33 words, see tree_instances.txt), p[3] n[3] -> p[3] n[3] in the mesh's space",
+            INSTANCE + 6,
+            6,
             &local,
         ),
     ];
     (
-        "Importance: crate `lightbvh`, modules `importance` and `instance`.",
+        "Weights: crate `lightbvh`, modules `importance` and `instance`.",
         tables,
     )
 }

@@ -1,10 +1,8 @@
 //! Inputs of the image: a room with a box in it, lit by three meshes of small lights.
 
-use lightbvh::{BuildParams, EmissiveTriangle, Lights};
-use lightbvh_host::backend::Sampler;
+use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights};
 use lightbvh_host::render::{RayBvh, View, camera};
-use lightbvh_host::workload::build;
-use lightbvh_kernels::bvh::TreePush;
+use lightbvh_kernels::bvh::{Node, TreePush, WIDTH};
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
@@ -86,7 +84,7 @@ pub fn image() -> (&'static str, Vec<Table>) {
         forward: [0.0, -0.2, -0.98],
         yfov: 0.9,
     };
-    let bvh = build(&lights, Sampler::TwoLevel, &BuildParams::default());
+    let bvh = LightBvh::<Node, WIDTH>::two_level(&lights, &BuildParams::default());
     let tree = bvh.tree();
     let params = RenderParams {
         width: SIZE,
@@ -96,11 +94,7 @@ pub fn image() -> (&'static str, Vec<Table>) {
         jitter: 7,
         background: [0.02, 0.03, 0.05],
     };
-    let push = TreePush {
-        root: tree.root,
-        trail_words: tree.trail_words,
-        two_level: 1,
-    };
+    let push = TreePush::of(&tree);
     let mut pixels = Table::new(
         "pixels",
         "pixel by pixel from the upper left: radiance, linear RGB",
@@ -117,7 +111,7 @@ pub fn image() -> (&'static str, Vec<Table>) {
         ),
         array(
             "tree",
-            "root node, words per trail, 1 where there are two levels",
+            "root node, words per trail, instances in use, triangles of a single level, depth",
             &[push],
         ),
         array(
@@ -135,13 +129,13 @@ pub fn image() -> (&'static str, Vec<Table>) {
         ),
         array(
             "nodes",
-            "CompactNode<4>, refitted; see tree_two_levels.txt",
+            "of the default layout, refitted; see tree_two_levels.txt",
             tree.nodes,
         ),
         array(
             "instances",
             "leaves of the top level; see tree_instances.txt",
-            tree.meshes,
+            tree.instances,
         ),
         array(
             "trails",

@@ -1,8 +1,6 @@
-//! Trees that the builders make: the domain's ends, dead branches, meshes in the world.
+//! Trees that the builders make: the domain's ends, meshes in the world.
 
-use lightbvh::{BuildParams, EmissiveTriangle, LightBounds, Lights, exact};
-use lightbvh_host::backend::Sampler;
-use lightbvh_host::workload::build;
+use lightbvh::{BuildParams, EmissiveTriangle, LightBounds, LightBvh, LightNode, Lights, exact};
 
 use super::links::of_bvh;
 use crate::generate::{Random, extreme_triangle, log_uniform, small_triangles};
@@ -12,7 +10,7 @@ pub(super) fn checked(triangles: Vec<EmissiveTriangle>) -> Lights {
     Lights::new(triangles).expect("within the domain")
 }
 
-pub(super) fn extremes(random: &mut Random) -> Tree {
+pub(super) fn extremes<N: LightNode<W>, const W: usize>(random: &mut Random) -> Tree<N, W> {
     // A few without area or flux among those with it.
     let mut triangles: Vec<_> = (0..6).map(|_| extreme_triangle(random)).collect();
     while triangles.len() < 40 {
@@ -37,22 +35,10 @@ pub(super) fn extremes(random: &mut Random) -> Tree {
     triangles[2].p = [[0.0; 3], [edge, 0.0, 0.0], [0.0, 0.0, edge]];
     triangles[2].radiance = [exact::pow2(100); 3];
     let lights = checked(triangles);
-    of_bvh(
-        &build(&lights, Sampler::SingleLevel, &BuildParams::default()),
-        &lights,
-    )
+    of_bvh(&LightBvh::single_level(&lights, &BuildParams::default()), &lights)
 }
 
-pub(super) fn dead_branches(random: &mut Random) -> Tree {
-    // Pairs back to back or at right angles, apart by more than their size, so that a box is seen where neither faces.
-    let lights = checked(small_triangles(72, 72, 4.0, 0.3, false, random.bits()));
-    of_bvh(
-        &build(&lights, Sampler::SingleLevel, &BuildParams::default()),
-        &lights,
-    )
-}
-
-pub(super) fn two_levels(random: &mut Random) -> Tree {
+pub(super) fn two_levels<N: LightNode<W>, const W: usize>(random: &mut Random) -> Tree<N, W> {
     let mut triangles = small_triangles(60, 6, 10.0, 0.5, true, random.bits());
     for (i, triangle) in triangles.iter_mut().enumerate() {
         triangle.flags = u32::from(i % 5 == 0);
@@ -60,8 +46,5 @@ pub(super) fn two_levels(random: &mut Random) -> Tree {
         triangle.radiance = triangle.radiance.map(|x| x * factor);
     }
     let lights = checked(triangles);
-    of_bvh(
-        &build(&lights, Sampler::TwoLevel, &BuildParams::default()),
-        &lights,
-    )
+    of_bvh(&LightBvh::two_level(&lights, &BuildParams::default()), &lights)
 }

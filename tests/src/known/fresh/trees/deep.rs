@@ -4,8 +4,8 @@ use bytemuck::Zeroable;
 use lightbvh::node::kind;
 use lightbvh::refit::BlasRoot;
 use lightbvh::trail::{BitTrail, max_levels};
-use lightbvh::{EmissiveTriangle, Instance, LightNode, MeshLeaf, exact};
-use lightbvh_kernels::bvh::{Node, TreePush, WIDTH};
+use lightbvh::{EmissiveTriangle, Instance, LightNode, exact};
+use lightbvh_kernels::bvh::TreePush;
 
 use super::built::checked;
 use super::passes::passes_of;
@@ -13,31 +13,31 @@ use crate::known::tree::Tree;
 
 /// A chain of nodes from node `first` on: children `0..children` of `kind` on the way, the last two in the last node. Gives the
 /// trails of the children.
-fn chain(nodes: &mut Vec<Node>, of: u32, first_child: u32) -> Vec<BitTrail> {
-    let levels = max_levels(WIDTH);
+fn chain<N: LightNode<W>, const W: usize>(nodes: &mut Vec<N>, of: u32, first_child: u32) -> Vec<BitTrail> {
+    let (levels, width) = (max_levels(W), W as u32);
     let first = nodes.len() as u32;
     let mut trails = Vec::new();
     let mut way = BitTrail::default();
     for level in 0..levels {
-        let mut node = <Node as LightNode<WIDTH>>::EMPTY;
-        let (own, next) = (level % 4, (level * 3 + 1) % 4);
-        let next = if next == own { (own + 1) % 4 } else { next };
+        let mut node = N::EMPTY;
+        let (own, next) = (level % width, (level * 3 + 1) % width);
+        let next = if next == own { (own + 1) % width } else { next };
         node.set_child(own as usize, of, first_child + level);
-        trails.push(way.with::<WIDTH>(level, own));
+        trails.push(way.with::<W>(level, own));
         if level + 1 == levels {
             node.set_child(next as usize, of, first_child + levels);
-            trails.push(way.with::<WIDTH>(level, next));
+            trails.push(way.with::<W>(level, next));
         } else {
             node.set_child(next as usize, kind::INNER, first + level + 1);
-            way = way.with::<WIDTH>(level, next);
+            way = way.with::<W>(level, next);
         }
         nodes.push(node);
     }
     trails
 }
 
-pub(super) fn deep() -> Tree {
-    let levels = max_levels(WIDTH);
+pub(super) fn deep<N: LightNode<W>, const W: usize>() -> Tree<N, W> {
+    let levels = max_levels(W);
     // Lights at halving distances along x, all of the same flux but for rounding; those of the last mesh along y.
     let light = |x: f32, y: f32, size: f32, mesh: u32| EmissiveTriangle {
         p: [[x, y, 0.0], [x, y + size, 0.0], [x, y, size]],
@@ -45,13 +45,13 @@ pub(super) fn deep() -> Tree {
         mesh,
         flags: 1,
     };
-    let (mut nodes, mut triangles, mut roots) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut nodes, mut triangles, mut roots) = (Vec::<N>::new(), Vec::new(), Vec::new());
     let mut trails = Vec::new();
     for mesh in 0..levels {
         let x = exact::pow2(30 - mesh as i32);
-        let mut node = <Node as LightNode<WIDTH>>::EMPTY;
-        node.set_child(mesh as usize % WIDTH, kind::LIGHT, triangles.len() as u32);
-        trails.push(BitTrail::default().with::<WIDTH>(0, mesh % WIDTH as u32));
+        let mut node = N::EMPTY;
+        node.set_child(mesh as usize % W, kind::LIGHT, triangles.len() as u32);
+        trails.push(BitTrail::default().with::<W>(0, mesh % W as u32));
         roots.push(nodes.len() as u32);
         nodes.push(node);
         triangles.push(light(x, 0.0, x * 0.125, mesh));
@@ -66,7 +66,17 @@ pub(super) fn deep() -> Tree {
     let top_trails = chain(&mut nodes, kind::MESH, 0);
     let instances: Vec<Instance> = (0..=levels)
         .map(|mesh| {
-            let mut leaf = Instance::world(roots[mesh as usize], mesh);
+            let own = |light: &&EmissiveTriangle| light.mesh == mesh;
+            let mut leaf = Instance {
+                root: roots[mesh as usize],
+                blas: mesh,
+                // Lights stand by mesh, one in each but the last.
+                first: mesh,
+                first_triangle: mesh,
+                count: triangles.iter().filter(own).count() as u32,
+                listed: mesh,
+                ..Instance::IDENTITY
+            };
             leaf.set_trail(top_trails[mesh as usize]);
             leaf
         })
@@ -78,6 +88,7 @@ pub(super) fn deep() -> Tree {
             ..BlasRoot::zeroed()
         })
         .collect();
+    let triangles_count = triangles.len() as u32;
     let lights = checked(triangles);
     Tree {
         passes: passes_of(&nodes, &roots, root, true),
@@ -90,7 +101,9 @@ pub(super) fn deep() -> Tree {
         push: TreePush {
             root,
             trail_words: 2,
-            two_level: 1,
+            live: levels + 1,
+            lights: triangles_count,
+            depth: 2 * levels,
         },
         samples: Vec::new(),
         pmfs: Vec::new(),

@@ -1,48 +1,45 @@
-//! The arrays of a built tree, without the bounds that a refit computes.
+//! The arrays of a built tree, without the summaries that a refit computes.
 
 use bytemuck::Zeroable;
 use lightbvh::refit::BlasRoot;
-use lightbvh::{LightNode, Lights};
-use lightbvh_host::backend::Bvh;
-use lightbvh_kernels::bvh::{Node, TreePush, WIDTH};
+use lightbvh::{LightBvh, LightNode, Lights};
+use lightbvh_kernels::bvh::TreePush;
 
 use super::passes::passes_of;
 use crate::known::tree::Tree;
 
-/// The arrays of a built tree, without bounds.
-pub(super) fn of_bvh(bvh: &Bvh, lights: &Lights) -> Tree {
+/// The arrays of a built tree, without summaries.
+pub(super) fn of_bvh<N: LightNode<W>, const W: usize>(bvh: &LightBvh<N, W>, lights: &Lights) -> Tree<N, W> {
     let tree = bvh.tree();
-    let roots = without_root_bounds(bvh.roots());
+    let roots = links_of_roots(bvh.roots());
     Tree {
-        nodes: without_bounds(tree.nodes),
+        nodes: links_of_nodes(tree.nodes),
         triangles: lights.triangles().to_vec(),
         meshes_of_lights: lights.triangles().iter().map(|t| t.mesh).collect(),
-        instances: tree.meshes.to_vec(),
+        instances: tree.instances.to_vec(),
         passes: passes_of(tree.nodes, &roots, tree.root, bvh.is_two_level()),
         roots,
         trails: tree.trails.to_vec(),
-        push: TreePush {
-            root: tree.root,
-            trail_words: tree.trail_words,
-            two_level: u32::from(bvh.is_two_level()),
-        },
+        push: TreePush::of(&tree),
         samples: Vec::new(),
         pmfs: Vec::new(),
     }
 }
 
 /// The nodes with kinds and links alone.
-pub(super) fn without_bounds(nodes: &[Node]) -> Vec<Node> {
-    let mut out = nodes.to_vec();
-    for node in &mut out {
-        for slot in 0..WIDTH {
-            node.set_child(slot, node.kind(slot), node.link(slot));
+pub(super) fn links_of_nodes<N: LightNode<W>, const W: usize>(nodes: &[N]) -> Vec<N> {
+    let links = |node: &N| {
+        let mut out = N::EMPTY;
+        for slot in 0..W {
+            out.set_child(slot, node.kind(slot), node.link(slot));
         }
-    }
-    out
+        out
+    };
+    nodes.iter().map(links).collect()
 }
 
-pub(super) fn without_root_bounds(roots: &[BlasRoot]) -> Vec<BlasRoot> {
+/// The roots with their nodes alone.
+pub(super) fn links_of_roots(roots: &[BlasRoot]) -> Vec<BlasRoot> {
     let without = |root: &BlasRoot| BlasRoot {
         node: root.node,
         ..BlasRoot::zeroed()

@@ -1,4 +1,5 @@
-//! Inputs of trees: the domain's ends, dead branches, two levels, ways as long as trails, instances of every kind.
+//! Inputs of trees: the domain's ends, two levels, ways as long as trails, instances of every kind, for each importance that the
+//! kernels know.
 
 mod built;
 mod deep;
@@ -7,7 +8,8 @@ mod moving;
 mod passes;
 mod queries;
 
-use lightbvh::exact;
+use lightbvh::{LightNode, exact};
+use lightbvh_kernels::bvh::{Choice, Paper, Standard, WIDTH};
 
 use super::super::Table;
 use super::super::tree::{Step, Tree};
@@ -22,35 +24,51 @@ pub use moving::instances_of_any_kind;
 /// If there is none.
 pub fn tree(name: &str) -> (&'static str, Vec<Table>) {
     let random = &mut Random::new(exact::hash(name.len() as u32));
-    let (note, mut tree) = match name {
-        "tree_extremes" => (
+    match name {
+        "tree_extremes" => asked::<Standard, WIDTH>(
             "A tree of one level over triangles of every size and flux of the domain.",
             built::extremes(random),
+            random,
         ),
-        "tree_dead_branches" => (
-            "A tree of one level over triangles that face anywhere: children's bounds seem to shine where no light does.",
-            built::dead_branches(random),
-        ),
-        "tree_two_levels" => (
+        "tree_two_levels" => asked::<Standard, WIDTH>(
             "A tree of two levels over meshes in the world.",
             built::two_levels(random),
+            random,
         ),
-        "tree_deep" => ("Both levels as deep as bit trails are long.", deep::deep()),
-        "tree_instances" => (
+        "tree_deep" => asked::<Standard, WIDTH>(
+            "Both levels as deep as bit trails are long.",
+            deep::deep(),
+            random,
+        ),
+        "tree_instances" => asked::<Standard, WIDTH>(
             "Moving lights: meshes in spaces of their own, turned, scaled, mirrored, sheared, flattened, dimmed, turned off.",
             moving::instances(random),
+            random,
+        ),
+        "tree_eq4" => asked::<Paper, 4>(
+            "Moving lights by the paper's layout and importance.",
+            moving::instances(random),
+            random,
         ),
         _ => panic!("no tree `{name}`"),
-    };
-    queries::ask(&mut tree, random);
+    }
+}
+
+fn asked<C: Choice<W>, const W: usize>(
+    note: &'static str,
+    mut tree: Tree<C::Node, W>,
+    random: &mut Random,
+) -> (&'static str, Vec<Table>) {
+    queries::ask::<C, W>(&mut tree, random);
     (note, tables(&tree))
 }
 
-fn tables(tree: &Tree) -> Vec<Table> {
+fn tables<N: LightNode<W>, const W: usize>(tree: &Tree<N, W>) -> Vec<Table> {
+    let words_of_node = size_of::<N>() / 4;
     let mut out = vec![
         array(
             "tree",
-            "root node, words per trail, 1 where there are two levels",
+            "root node, words per trail, instances in use, triangles of a single level, depth",
             &[tree.push],
         ),
         array(
@@ -65,8 +83,8 @@ fn tables(tree: &Tree) -> Vec<Table> {
         ),
         array(
             "instances",
-            "leaves of the top level: root trail[2] blas first first_triangle columns[9] translation[3] per_scale flux \
-             radiance error tilt mirrored",
+            "leaves of the top level: root trail[2] blas first first_triangle count listed columns[9] translation[3] inverse[9] \
+             per_inverse flux radiance mirrored",
             &tree.instances,
         ),
         array(
@@ -87,20 +105,28 @@ fn tables(tree: &Tree) -> Vec<Table> {
     out.extend([
         Table::new(
             "nodes",
-            "CompactNode<4>, each field for four children: center_x center_y center_z extent axis_kind phi_cone link;\n\
-             without bounds -> refitted",
-            28,
-            28,
+            &format!(
+                "nodes of layout {} for {W} children, field by field; without summaries -> refitted",
+                N::NAME
+            ),
+            words_of_node,
+            words_of_node,
             &words(&tree.nodes),
         ),
         Table::new(
             "roots",
-            "roots of the bottom levels: node min[3] max[3] axis[3] cos_theta_o cos_theta_e phi; without bounds -> refitted",
+            "roots of the bottom levels: node, twelve words of their summary; without it -> refitted",
             13,
             13,
             &words(&tree.roots),
         ),
-        Table::new("sample", "p[3] n[3] random -> light (ffffffff for none), pmf", 7, 2, &words(&tree.samples)),
+        Table::new(
+            "sample",
+            "p[3] n[3] random -> light (ffffffff for none), pmf",
+            7,
+            2,
+            &words(&tree.samples),
+        ),
         Table::new("pmf", "p[3] n[3] light -> pmf", 7, 1, &words(&tree.pmfs)),
     ]);
     out

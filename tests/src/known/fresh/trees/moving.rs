@@ -1,18 +1,17 @@
 //! Moving lights: instances of every kind of transform and brightness.
 
-use lightbvh::{Edit, Instance, MeshLeaf, Scene, exact};
-use lightbvh_host::backend::LightScene;
+use lightbvh::{CompactNode, Edit, Instance, LightNode, Scene, exact};
 use lightbvh_kernels::bvh::TreePush;
 
-use super::links::{without_bounds, without_root_bounds};
+use super::links::{links_of_nodes, links_of_roots};
 use super::passes::passes_of;
 use crate::generate::{Random, small_triangles};
 use crate::known::tree::Tree;
 use crate::placing::{Kind, transform};
 
 /// A scene of four meshes and instances of every kind of transform and brightness.
-fn moving(random: &mut Random) -> LightScene {
-    let mut scene: LightScene = Scene::default();
+fn moving<N: LightNode<W>, const W: usize>(random: &mut Random) -> Scene<N, W> {
+    let mut scene = Scene::default();
     let add = |random: &mut Random, count: u32| {
         let mut triangles = small_triangles(count, count, 2.0, 0.4, false, random.bits());
         for (i, triangle) in triangles.iter_mut().enumerate() {
@@ -27,15 +26,15 @@ fn moving(random: &mut Random) -> LightScene {
     let kinds = [
         Kind::Rigid,
         Kind::Similar,
-        Kind::Similar,
+        Kind::Singular,
         Kind::Affine,
         Kind::Flat,
     ];
     for i in 0..14 {
         let mut placed = transform(random, kinds[i % 5], 8.0);
         if i == 5 || i == 6 {
-            // The ends of the scales that share a mesh's bottom level.
-            let scale = exact::pow2(if i == 5 { 19 } else { -19 });
+            // Far from the scale of the others, and mirrored.
+            let scale = exact::pow2(if i == 5 { 19 } else { -55 });
             placed.columns = [[scale, 0.0, 0.0], [0.0, 0.0, scale], [0.0, scale, 0.0]];
         }
         if i == 4 {
@@ -57,24 +56,20 @@ fn moving(random: &mut Random) -> LightScene {
     scene
 }
 
-pub(super) fn instances(random: &mut Random) -> Tree {
-    let mut scene = moving(random);
+pub(super) fn instances<N: LightNode<W>, const W: usize>(random: &mut Random) -> Tree<N, W> {
+    let mut scene = moving::<N, W>(random);
     scene.refit();
     let tree = scene.tree();
-    let roots = without_root_bounds(scene.roots());
+    let roots = links_of_roots(scene.roots());
     Tree {
-        nodes: without_bounds(tree.nodes),
+        nodes: links_of_nodes(tree.nodes),
         triangles: scene.triangles().to_vec(),
         meshes_of_lights: scene.world_lights().iter().map(|light| light.mesh).collect(),
-        instances: tree.meshes.to_vec(),
+        instances: tree.instances.to_vec(),
         passes: passes_of(tree.nodes, &roots, tree.root, true),
         roots,
         trails: tree.trails.to_vec(),
-        push: TreePush {
-            root: tree.root,
-            trail_words: tree.trail_words,
-            two_level: 1,
-        },
+        push: TreePush::of(&tree),
         samples: Vec::new(),
         pmfs: Vec::new(),
     }
@@ -82,8 +77,8 @@ pub(super) fn instances(random: &mut Random) -> Tree {
 
 /// Leaves of a top level of every kind, those in the world's own space too.
 pub fn instances_of_any_kind(random: &mut Random) -> Vec<Instance> {
-    let scene = moving(random);
+    let scene = moving::<CompactNode<4>, 4>(random);
     let mut out = scene.instances().to_vec();
-    out.push(Instance::world(3, 1));
+    out.push(Instance::IDENTITY);
     out
 }

@@ -1,7 +1,7 @@
 //! What is asked of a tree: points, random numbers, lights.
 
-use lightbvh::{LightNode, ShadingPoint, exact};
-use lightbvh_host::stability::random::adversarial;
+use lightbvh::{LightNode, ShadingPoint, Summary, exact};
+use lightbvh_kernels::bvh::Choice;
 use lightbvh_kernels::query::Query;
 
 use crate::generate::{Random, log_uniform};
@@ -10,10 +10,22 @@ use crate::known::tree::{Tree, light_of};
 /// Random numbers at each point.
 const NUMBERS: usize = 5;
 
+/// Numbers at the ends of their range, of its halves, and of the share of uniform choice.
+const ENDS: [u32; 8] = [
+    0,
+    1,
+    u32::MAX,
+    u32::MAX - 1,
+    1 << 31,
+    (1 << 31) - 1,
+    1 << 26,
+    (1 << 26) - 1,
+];
+
 /// Points around the lights and at the ends of the domain; of each the numbers that choose lights, and lights to evaluate.
-pub(super) fn ask(tree: &mut Tree, random: &mut Random) {
+pub(super) fn ask<C: Choice<W>, const W: usize>(tree: &mut Tree<C::Node, W>, random: &mut Random) {
     let (nodes, _) = tree.refitted();
-    let all = nodes[tree.push.root as usize].merged();
+    let all = nodes[tree.push.root as usize].merged().bounds();
     let size = (all.max - all.min)
         .max_element()
         .min(exact::pow2(39))
@@ -63,11 +75,10 @@ pub(super) fn ask(tree: &mut Tree, random: &mut Random) {
             n,
         });
     }
-    let hard = adversarial(4);
     for &point in &points {
         for k in 0..NUMBERS {
             let number = if k < 2 {
-                hard[random.below(hard.len() as u32) as usize]
+                ENDS[random.below(ENDS.len() as u32) as usize]
             } else {
                 random.bits()
             };
@@ -77,7 +88,7 @@ pub(super) fn ask(tree: &mut Tree, random: &mut Random) {
             });
         }
     }
-    let (sampled, _) = tree.queried(&nodes);
+    let (sampled, _) = tree.queried::<C>(&nodes);
     let lights = tree.meshes_of_lights.len() as u32;
     for (i, (query, sampled)) in tree.samples.iter().zip(&sampled).enumerate() {
         // Every light that was drawn, but for repetitions, and others.

@@ -1,0 +1,157 @@
+//! The CPU's parallel refit against the shared functions that it calls: every word, whatever the inputs, the order and the number
+//! of threads.
+
+use lightbvh::refit::{self, BlasRoot};
+use lightbvh::{
+    CompactNode, Edit, EmissiveTriangle, Eq4, ImportanceModel, Instance, LightNode, Scene, Summary, sweep,
+};
+use lightbvh_tests::each_layout;
+use lightbvh_tests::edits::add_mesh;
+use lightbvh_tests::generate::{self, Random, extreme_triangle};
+use lightbvh_tests::placing;
+use proptest::prelude::*;
+
+/// Nodes with any children, summaries of the whole domain, and links a little beyond `links`.
+fn nodes<N: LightNode<W>, const W: usize>(random: &mut Random, count: u32, links: u32) -> Vec<N> {
+    // Triangles take long to draw; all nodes choose from these.
+    let drawn: Vec<N::Summary> = (0..256)
+        .map(|_| N::Summary::of_triangle(&extreme_triangle(random)))
+        .collect();
+    (0..count)
+        .map(|_| {
+            let mut node = N::EMPTY;
+            for slot in 0..W {
+                node.set_child(slot, random.below(4), random.below(links + links / 16 + 1));
+            }
+            node.set_summaries(&std::array::from_fn(|_| drawn[random.below(256) as usize]));
+            node
+        })
+        .collect()
+}
+
+/// Any order of some of the nodes.
+fn list(random: &mut Random, count: u32) -> Vec<u32> {
+    let mut list: Vec<u32> = (0..count).filter(|_| random.below(8) > 0).collect();
+    for i in (1..list.len()).rev() {
+        list.swap(i, random.below(i as u32 + 1) as usize);
+    }
+    list
+}
+
+fn one_by_one<N: LightNode<W>, const W: usize>(
+    nodes: &[N],
+    list: &[u32],
+    node: impl Fn(&[N], u32) -> N,
+) -> Vec<u32> {
+    let mut out = nodes.to_vec();
+    for &i in list {
+        out[i as usize] = node(nodes, i);
+    }
+    bytemuck::cast_slice(&out).to_vec()
+}
+
+fn words<N: LightNode<W>, const W: usize>(nodes: &[N], pass: impl Fn(&mut [N])) -> Vec<u32> {
+    let mut out = nodes.to_vec();
+    pass(&mut out);
+    bytemuck::cast_slice(&out).to_vec()
+}
+
+/// Instances as a scene places them, and ones that lead nowhere.
+fn instances(random: &mut Random) -> Vec<Instance> {
+    let mut scene = Scene::<CompactNode<2>, 2>::default();
+    let triangles = generate::small_triangles(4, 4, 1.0, 0.3, true, random.bits());
+    let mesh = add_mesh(&mut scene, triangles);
+    let add = (0..64)
+        .map(|_| {
+            let exponent = random.below(30) as i32 - 5;
+            let kind = placing::kind(random);
+            let transform = placing::transform(random, kind, lightbvh::exact::pow2(exponent));
+            let radiance = if random.below(8) == 0 {
+                0.0
+            } else {
+                generate::log_uniform(random, -50, 50)
+            };
+            Edit::AddInstance {
+                mesh,
+                transform,
+                radiance,
+            }
+        })
+        .collect();
+    scene.update(add).expect("instances");
+    let mut instances = scene.instances().to_vec();
+    for instance in &mut instances {
+        instance.blas = random.below(70);
+    }
+    instances
+}
+
+fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32, count: u32) {
+    let random = &mut Random::new(seed);
+    let triangles: Vec<EmissiveTriangle> = (0..200).map(|_| extreme_triangle(random)).collect();
+    // The children are other nodes than those of the list, as in a tree.
+    let apart = |random: &mut Random, links: u32| {
+        let mut all: Vec<N> = nodes(random, 2 * count, links);
+        for node in &mut all[..count as usize] {
+            for slot in 0..W {
+                if node.kind(slot) == lightbvh::node::kind::INNER {
+                    node.relink(slot, count + random.below(count + count / 16 + 1));
+                }
+            }
+        }
+        all
+    };
+    let bottom = apart(random, 200);
+    let list = list(random, count);
+    let expected = one_by_one(&bottom, &list, |nodes, i| refit::bottom(nodes, &triangles, i));
+    let found = words(&bottom, |nodes| sweep::bottom(nodes, &triangles, &list));
+    assert!(expected == found, "{} {W}: bottom", N::NAME);
+
+    let roots: Vec<BlasRoot> = (0..64)
+        .map(|i| BlasRoot::new(i, &N::Summary::of_triangle(&extreme_triangle(random))))
+        .collect();
+    let instances = instances(random);
+    let top = apart(random, instances.len() as u32);
+    let expected = one_by_one(&top, &list, |nodes, i| refit::top(nodes, &instances, &roots, i));
+    let found = words(&top, |nodes| sweep::top(nodes, &instances, &roots, &list));
+    assert!(expected == found, "{} {W}: top", N::NAME);
+
+    // A whole tree whose children stand behind their parents, from the last node to the first.
+    let mut whole: Vec<N> = nodes(random, count, 200);
+    for (i, node) in (0..).zip(&mut whole) {
+        for slot in 0..W {
+            if node.kind(slot) == lightbvh::node::kind::INNER {
+                node.relink(slot, i + 1 + random.below(count - i));
+            }
+        }
+    }
+    let swept = words(&whole, |nodes| sweep::bottom_sweep(nodes, &triangles, 0..count));
+    let mut expected = whole;
+    for i in (0..count).rev() {
+        expected[i as usize] = refit::bottom(&expected, &triangles, i);
+    }
+    assert!(
+        bytemuck::cast_slice::<N, u32>(&expected) == swept,
+        "{} {W}: sweep",
+        N::NAME
+    );
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn sweeps_are_the_shared_functions(seed: u32, count in 1..90u32) {
+        each_layout!(check(seed, count));
+    }
+}
+
+/// Enough nodes that they are shared out, and not a multiple of any block.
+#[test]
+fn threads_do_not_show() {
+    for threads in [1, 2, 3, 8] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.expect("threads")
+            .install(|| check::<CompactNode<4>, Eq4, 4>(7, 40_001));
+    }
+}
