@@ -3,30 +3,44 @@
 //! Every function takes the nodes as they are and returns one node anew, so that the CPU and the kernels run the same
 //! body and each node is written by one invocation. The order of passes: [`bottom`] from the deepest level of the bottom
 //! levels to their roots; [`root`] for each bottom level; [`top`] from the deepest level of the top level to its root.
-//! Children are merged in slot order, so no order of execution shows in the bits.
+//! Children are merged in an order of the slots, so no order of execution shows in the bits.
 
 use bytemuck::{Pod, Zeroable};
 
 use crate::instance::Instance;
 use crate::light::EmissiveTriangle;
 use crate::node::{LightNode, kind};
-use crate::summary::{SUMMARY_WORDS, Summary};
+use crate::summary::{Lanes, SUMMARY_WORDS, Summary, Triangles};
 
 /// Node `index` of a bottom level with the summaries of its triangles and of the nodes below it.
 #[inline]
 #[must_use]
 pub fn bottom<N: LightNode<W>, const W: usize>(nodes: &[N], triangles: &[EmissiveTriangle], index: u32) -> N {
     let mut node = nodes[index as usize];
-    let mut children = [N::Summary::EMPTY; W];
+    // Steps over all slots, for processors compute several triangles and several codes at a time.
+    let mut gathered = Triangles::EMPTY;
+    let mut lights = false;
     for slot in 0..W {
-        let (to, link) = (node.kind(slot), node.link(slot));
-        if to == kind::LIGHT && link < triangles.len() as u32 {
-            children[slot] = N::Summary::of_triangle(&triangles[link as usize]);
-        } else if to == kind::INNER && link < nodes.len() as u32 {
-            children[slot] = nodes[link as usize].merged();
+        let link = node.link(slot);
+        if node.kind(slot) == kind::LIGHT && link < triangles.len() as u32 {
+            gathered.set(slot, &triangles[link as usize]);
+            lights = true;
         }
     }
-    node.set_summaries(&children);
+    let mut children = if lights {
+        N::Summary::of_triangles(&gathered)
+    } else {
+        Lanes::<W>::all(&N::Summary::EMPTY)
+    };
+    for slot in 0..W {
+        let (to, link) = (node.kind(slot), node.link(slot));
+        if to == kind::INNER && link < nodes.len() as u32 {
+            children.set(slot, &nodes[link as usize].merged());
+        } else if to != kind::LIGHT || link >= triangles.len() as u32 {
+            children.set(slot, &N::Summary::EMPTY);
+        }
+    }
+    node.set_lanes(&children);
     node
 }
 
@@ -50,20 +64,20 @@ pub fn top<N: LightNode<W>, const W: usize>(
     index: u32,
 ) -> N {
     let mut node = nodes[index as usize];
-    let mut children = [N::Summary::EMPTY; W];
+    let mut children = Lanes::<W>::all(&N::Summary::EMPTY);
     for slot in 0..W {
         let (to, link) = (node.kind(slot), node.link(slot));
         if to == kind::MESH && link < instances.len() as u32 {
             let blas = instances[link as usize].blas;
             if blas < roots.len() as u32 {
                 let local = roots[blas as usize].summary::<N::Summary>();
-                children[slot] = local.to_world(&instances[link as usize]);
+                children.set(slot, &local.to_world(&instances[link as usize]));
             }
         } else if to == kind::INNER && link < nodes.len() as u32 {
-            children[slot] = nodes[link as usize].merged();
+            children.set(slot, &nodes[link as usize].merged());
         }
     }
-    node.set_summaries(&children);
+    node.set_lanes(&children);
     node
 }
 
