@@ -198,12 +198,14 @@ impl Summary for LightBounds {
     }
 
     #[inline(always)]
-    fn of_triangles<const W: usize>(triangles: &Triangles<W>) -> Lanes<W> {
-        let mut lanes = Lanes::all(&Self::EMPTY);
+    fn of_triangles<const W: usize>(triangles: &Triangles<W>, summaries: &mut Lanes<W>) {
         for slot in 0..W {
-            lanes.set(slot, &Self::of_triangle(&triangles.get(slot)));
+            if triangles.present(slot) != 0 {
+                summaries.set(slot, &Self::of_triangle(&triangles.get(slot)));
+            } else {
+                summaries.set(slot, &Self::EMPTY);
+            }
         }
-        lanes
     }
 
     /// In slot order: the cone around cones depends on the order.

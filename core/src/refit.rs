@@ -17,31 +17,61 @@ use crate::summary::{Lanes, SUMMARY_WORDS, Summary, Triangles};
 #[must_use]
 pub fn bottom<N: LightNode<W>, const W: usize>(nodes: &[N], triangles: &[EmissiveTriangle], index: u32) -> N {
     let mut node = nodes[index as usize];
-    // Steps over all slots, for processors compute several triangles and several codes at a time.
-    let mut gathered = Triangles::EMPTY;
-    let mut lights = false;
-    for slot in 0..W {
-        let link = node.link(slot);
-        if node.kind(slot) == kind::LIGHT && link < triangles.len() as u32 {
-            gathered.set(slot, &triangles[link as usize]);
-            lights = true;
+    let mut room = Room::new();
+    below(nodes, triangles, &node, &mut room);
+    node.set_lanes(&room.children);
+    node
+}
+
+/// Room for what a node's refit computes; a sweep takes the same for all nodes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Room<const W: usize> {
+    triangles: Triangles<W>,
+    pub children: Lanes<W>,
+}
+
+impl<const W: usize> Room<W> {
+    #[inline(always)]
+    pub fn new() -> Self {
+        Self {
+            triangles: Triangles::NONE,
+            children: Lanes([[0.0; W]; SUMMARY_WORDS]),
         }
     }
-    let mut children = if lights {
-        N::Summary::of_triangles(&gathered)
-    } else {
-        Lanes::<W>::all(&N::Summary::EMPTY)
-    };
+}
+
+/// The summaries of the children of a bottom level's `node`, put into `room`, whatever that holds.
+#[inline(always)]
+pub(crate) fn below<N: LightNode<W>, const W: usize>(
+    nodes: &[N],
+    triangles: &[EmissiveTriangle],
+    node: &N,
+    room: &mut Room<W>,
+) {
+    // Steps over all slots, for processors compute several triangles and several codes at a time.
+    let (mut lights, mut inner) = (0, 0);
     for slot in 0..W {
         let (to, link) = (node.kind(slot), node.link(slot));
-        if to == kind::INNER && link < nodes.len() as u32 {
-            children.set(slot, &nodes[link as usize].merged());
-        } else if to != kind::LIGHT || link >= triangles.len() as u32 {
-            children.set(slot, &N::Summary::EMPTY);
+        room.triangles.remove(slot);
+        if to == kind::LIGHT && link < triangles.len() as u32 {
+            room.triangles.set(slot, &triangles[link as usize]);
+            lights = 1;
+        }
+        inner |= u32::from(to == kind::INNER);
+    }
+    if lights != 0 {
+        N::Summary::of_triangles(&room.triangles, &mut room.children);
+    } else {
+        room.children.fill(&N::Summary::EMPTY);
+    }
+    if inner != 0 {
+        for slot in 0..W {
+            let link = node.link(slot);
+            if node.kind(slot) == kind::INNER && link < nodes.len() as u32 {
+                room.children.set(slot, &nodes[link as usize].merged());
+            }
         }
     }
-    node.set_lanes(&children);
-    node
 }
 
 /// What is known of the bottom level whose root is node `root`, in its own space; kept apart from the nodes so that

@@ -21,8 +21,9 @@ pub trait Summary: Copy + PartialEq + Debug + Send + Sync + 'static {
 
     /// Of one emissive triangle.
     fn of_triangle(triangle: &EmissiveTriangle) -> Self;
-    /// Of the triangles of a node's slots; what it gives for a slot without one means nothing.
-    fn of_triangles<const W: usize>(triangles: &Triangles<W>) -> Lanes<W>;
+    /// Of the triangles of a node's slots. A slot without one gets [`EMPTY`](Self::EMPTY), or numbers without flux that mean
+    /// nothing.
+    fn of_triangles<const W: usize>(triangles: &Triangles<W>, summaries: &mut Lanes<W>);
     /// Of all the children of a node; the order of the slots is part of the result's bits.
     fn merged<const W: usize>(children: &Lanes<W>) -> Self;
     /// Of the lights of a bottom level that `instance` puts into the world.
@@ -56,14 +57,20 @@ impl<const W: usize> Lanes<W> {
     #[inline(always)]
     #[must_use]
     pub fn all<S: Summary>(summary: &S) -> Self {
+        let mut lanes = Self([[0.0; W]; SUMMARY_WORDS]);
+        lanes.fill(summary);
+        lanes
+    }
+
+    /// Puts `summary` into all slots.
+    #[inline(always)]
+    pub fn fill<S: Summary>(&mut self, summary: &S) {
         let words = summary.to_words();
-        let mut lanes = [[0.0; W]; SUMMARY_WORDS];
         for k in 0..SUMMARY_WORDS {
             for slot in 0..W {
-                lanes[k][slot] = words[k];
+                self.0[k][slot] = words[k];
             }
         }
-        Self(lanes)
     }
 
     /// These summaries.
@@ -104,13 +111,16 @@ pub struct Triangles<const W: usize> {
     /// The vertices, then the radiance.
     words: [[f32; W]; 12],
     flags: [u32; W],
+    /// All ones in a slot with a triangle, else zero.
+    present: [u32; W],
 }
 
 impl<const W: usize> Triangles<W> {
-    /// Triangles without area.
-    pub const EMPTY: Self = Self {
+    /// No triangle.
+    pub const NONE: Self = Self {
         words: [[0.0; W]; 12],
         flags: [0; W],
+        present: [0; W],
     };
 
     /// Puts `triangle` into `slot`.
@@ -123,9 +133,23 @@ impl<const W: usize> Triangles<W> {
             self.words[9 + k][slot] = triangle.radiance[k];
         }
         self.flags[slot] = triangle.flags;
+        self.present[slot] = u32::MAX;
     }
 
-    /// The triangle in `slot`, of mesh 0.
+    /// Leaves no triangle in `slot`: its words stay, and mean nothing.
+    #[inline(always)]
+    pub fn remove(&mut self, slot: usize) {
+        self.present[slot] = 0;
+    }
+
+    /// All ones where there is a triangle in `slot`, else zero.
+    #[inline(always)]
+    #[must_use]
+    pub fn present(&self, slot: usize) -> u32 {
+        self.present[slot]
+    }
+
+    /// The triangle in `slot`, of mesh 0; any other where there is none.
     #[inline(always)]
     #[must_use]
     pub fn get(&self, slot: usize) -> EmissiveTriangle {

@@ -3,13 +3,14 @@
 //! The shared functions of [`refit`](crate::refit) are the definition, and give every word. Neither the order nor the threads
 //! show in any bit.
 
+#[cfg(feature = "rayon")]
 use alloc::vec::Vec;
 use core::ops::Range;
 
 use crate::instance::Instance;
 use crate::light::EmissiveTriangle;
 use crate::node::LightNode;
-use crate::refit::{self, BlasRoot};
+use crate::refit::{self, BlasRoot, Room};
 
 /// Shorter lists run on one thread.
 #[cfg(feature = "rayon")]
@@ -49,8 +50,10 @@ pub fn bottom_sweep<N: LightNode<W>, const W: usize>(
     triangles: &[EmissiveTriangle],
     range: Range<u32>,
 ) {
+    let mut room = Room::new();
     for index in range.rev() {
-        nodes[index as usize] = refit::bottom(nodes, triangles, index);
+        refit::below(nodes, triangles, &nodes[index as usize], &mut room);
+        nodes[index as usize].set_lanes(&room.children);
     }
 }
 

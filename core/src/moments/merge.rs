@@ -19,7 +19,13 @@ const LEAST_SHARE: f32 = pow2(-40);
 const LEAST_SQUARE: f32 = pow2(-60);
 /// Squared length of a mean normal below which it has no direction: 2^-6.
 const LEAST_NORMAL: f32 = pow2(-6);
-/// Constants of their own: rust-gpu does not fold an expression of literals.
+/// The unit of the words, its inverse, and its square.
+const WORD_UNIT: f32 = pow2(-31);
+const PER_WORD_UNIT: f32 = pow2(31);
+const SQUARE_UNIT: f32 = pow2(-62);
+/// [`LEAST_NORMAL`] in units of the words.
+const LEAST_OWN: f32 = pow2(56);
+/// A constant of its own: rust-gpu does not fold an expression of literals.
 const THIRD: f32 = 1.0 / 3.0;
 
 /// What sets are given in relation to.
@@ -32,8 +38,9 @@ pub(crate) struct Frame {
     pub phi_exponent: i32,
 }
 
-/// Sets in a frame. No length is above 2^6 units; of those with flux the brightest has 1/2 to 2 units of it, and the least
-/// 2^-64.
+/// Sets in a frame. Their lengths and mean normals are in units of 2^-31 of the frame's unit and of 1, as the words of packed
+/// nodes give them. No length is above 2^6 of the frame's units; of those with flux the brightest has 1/2 to 2 units of it,
+/// and the least 2^-64.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Framed<const W: usize> {
     pub frame: Frame,
@@ -64,21 +71,25 @@ pub(super) fn framed<const W: usize>(sets: &Lanes<W>) -> Framed<W> {
         reach[i] = exact::masked(exact::mask_of(s[row::PHI][i] > 0.0), exact::max(far, wide));
     }
     let size = exponent(greatest(&reach));
-    let size = if size > LEAST_EXPONENT { size } else { LEAST_EXPONENT };
+    let size = if size > LEAST_EXPONENT {
+        size
+    } else {
+        LEAST_EXPONENT
+    };
     // One more, so that sums of a centre's offset and an extent stay below 2.
     let frame = Frame {
         origin,
         unit_exponent: size + 1,
         phi_exponent: exponent(brightest),
     };
-    let to_one = pow2(-frame.unit_exponent);
+    let to_words = pow2(31 - frame.unit_exponent);
     // In two steps: from 2^126 to 2^-100 is more than one power of two.
     let half = frame.phi_exponent / 2;
     let (first, second) = (pow2(-half), pow2(half - frame.phi_exponent));
     let mut rows = [[0.0; W]; SUMMARY_WORDS];
     for i in 0..W {
         let shines = exact::mask_of(s[row::PHI][i] > 0.0);
-        let scaled = |x: f32| exact::masked(shines, x * to_one);
+        let scaled = |x: f32| exact::masked(shines, x * to_words);
         let share = exact::masked(shines, (s[row::PHI][i] * first) * second);
         rows[row::PHI][i] = exact::max(share, exact::masked(shines, LEAST_SHARE));
         rows[row::C][i] = scaled(s[row::C][i] - origin.x);
@@ -86,9 +97,9 @@ pub(super) fn framed<const W: usize>(sets: &Lanes<W>) -> Framed<W> {
         rows[row::C + 2][i] = scaled(s[row::C + 2][i] - origin.z);
         rows[row::ACROSS][i] = scaled(s[row::ACROSS][i]);
         rows[row::ALONG][i] = scaled(s[row::ALONG][i]);
-        rows[row::M][i] = exact::masked(shines, s[row::M][i]);
-        rows[row::M + 1][i] = exact::masked(shines, s[row::M + 1][i]);
-        rows[row::M + 2][i] = exact::masked(shines, s[row::M + 2][i]);
+        rows[row::M][i] = exact::masked(shines, s[row::M][i] * PER_WORD_UNIT);
+        rows[row::M + 1][i] = exact::masked(shines, s[row::M + 1][i] * PER_WORD_UNIT);
+        rows[row::M + 2][i] = exact::masked(shines, s[row::M + 2][i] * PER_WORD_UNIT);
         rows[row::H][i] = scaled(s[row::H][i]);
         rows[row::H + 1][i] = scaled(s[row::H + 1][i]);
         rows[row::H + 2][i] = scaled(s[row::H + 2][i]);
@@ -123,7 +134,8 @@ impl<const W: usize> Framed<W> {
         let shines = flux > 0.0;
         let per_flux = exact::div(1.0, if shines { flux } else { 1.0 });
         let center = Vec3::new(sum(&weighted[0]), sum(&weighted[1]), sum(&weighted[2])) * per_flux;
-        let normal = Vec3::new(sum(&weighted[3]), sum(&weighted[4]), sum(&weighted[5])) * per_flux;
+        let normal =
+            Vec3::new(sum(&weighted[3]), sum(&weighted[4]), sum(&weighted[5])) * per_flux * WORD_UNIT;
         let mean = flush3(normal, LEAST_SQUARE);
         let length_squared = dot(mean, mean);
         let directed = length_squared > LEAST_NORMAL;
@@ -142,8 +154,8 @@ impl<const W: usize> Framed<W> {
             let own = dot(m, m);
             let cosine = dot(m, axis);
             // The child's covariance is axially symmetric about its own normal; none has no axis to turn.
-            let squared = cosine * cosine * exact::recip(exact::max(own, LEAST_NORMAL));
-            let turn = exact::masked(exact::mask_of(own > LEAST_NORMAL), squared);
+            let squared = cosine * cosine * exact::recip(exact::max(own, LEAST_OWN));
+            let turn = exact::masked(exact::mask_of(own > LEAST_OWN), squared);
             let off = dot(d, axis);
             total[i] = f * ((va + va + vn) + dot(d, d));
             along[i] = f * ((va + (vn - va) * turn) + off * off);
@@ -153,11 +165,19 @@ impl<const W: usize> Framed<W> {
             h[1][i] = exact::masked(some, reach.y);
             h[2][i] = exact::masked(some, reach.z);
         }
-        let total = exact::flush(sum(&total) * per_flux, LEAST_SQUARE);
-        let along = exact::flush(exact::max(sum(&along) * per_flux, 0.0), LEAST_SQUARE);
-        let along = if directed { exact::min(along, total) } else { total * THIRD };
+        let total = exact::flush((sum(&total) * per_flux) * SQUARE_UNIT, LEAST_SQUARE);
+        let along = exact::flush(
+            exact::max((sum(&along) * per_flux) * SQUARE_UNIT, 0.0),
+            LEAST_SQUARE,
+        );
+        let along = if directed {
+            exact::min(along, total)
+        } else {
+            total * THIRD
+        };
         let across = exact::flush((total - along) * 0.5, LEAST_SQUARE);
-        let h = Vec3::new(greatest(&h[0]), greatest(&h[1]), greatest(&h[2]));
+        let h = Vec3::new(greatest(&h[0]), greatest(&h[1]), greatest(&h[2])) * WORD_UNIT;
+        let center = center * WORD_UNIT;
         let unit = pow2(self.frame.unit_exponent);
         // Sums stop at the greatest flux.
         let e = self.frame.phi_exponent;

@@ -89,15 +89,12 @@ impl Summary for LightMoments {
     }
 
     #[inline(always)]
-    fn of_triangles<const W: usize>(triangles: &Triangles<W>) -> Lanes<W> {
-        let mut lanes = Lanes([[0.0; W]; SUMMARY_WORDS]);
+    fn of_triangles<const W: usize>(triangles: &Triangles<W>, summaries: &mut Lanes<W>) {
         for slot in 0..W {
-            let words = Self::of_triangle(&triangles.get(slot)).to_words();
-            for k in 0..SUMMARY_WORDS {
-                lanes.0[k][slot] = words[k];
-            }
+            let mut moments = Self::of_triangle(&triangles.get(slot));
+            moments.phi = exact::masked(triangles.present(slot), moments.phi);
+            summaries.set(slot, &moments);
         }
-        lanes
     }
 
     #[inline(always)]

@@ -15,7 +15,7 @@ const LEAST_CROSS: i32 = -60;
 impl LightMoments {
     /// Moments of one triangle; its flux is that of [`LightBounds::of_triangle`](crate::LightBounds::of_triangle).
     ///
-    /// There is no branch in it, so that processors compute several triangles at a time.
+    /// Without flux the other numbers mean nothing. There is no branch in it, so that processors compute several triangles at a time.
     #[inline(always)]
     #[must_use]
     pub fn of_triangle(triangle: &EmissiveTriangle) -> Self {
@@ -27,26 +27,20 @@ impl LightMoments {
         let (to_one, unit) = (exact::power(-e), exact::power(e));
         let (a, b) = (e1 * to_one, e2 * to_one);
         let emission = flux(a, b, e, triangle);
-        let shines = exact::mask_of(emission.phi > 0.0);
-        let shining = |x: f32| exact::masked(shines, x);
-
         let mean = (a + b) * THIRD;
         let (da, db) = (a - mean, b - mean);
         // The variance of a triangle is the sum of its vertices' squares over 12, of all axes; it has two.
         let sum = (dot(mean, mean) + dot(da, da)) + dot(db, db);
         let across = exact::sqrt(sum * TWENTY_FOURTH) * unit;
         let directed = !triangle.is_two_sided() & (emission.exponent >= LEAST_CROSS);
-        let directed = exact::mask_of(directed) & shines;
-        let m = emission.normal * exact::masked(directed, exact::rsqrt(emission.squared));
-        let c = p0 + mean * unit;
-        let h = max3(abs3(mean), max3(abs3(da), abs3(db))) * shining(unit);
+        let directed = exact::mask_of(directed);
         Self {
             phi: emission.phi,
-            c: glam::Vec3::new(shining(c.x), shining(c.y), shining(c.z)),
-            across: shining(across),
-            along: exact::masked(shines & !directed, across),
-            m,
-            h,
+            c: p0 + mean * unit,
+            across,
+            along: exact::masked(!directed, across),
+            m: emission.normal * exact::masked(directed, exact::rsqrt(emission.squared)),
+            h: max3(abs3(mean), max3(abs3(da), abs3(db))) * unit,
         }
     }
 }

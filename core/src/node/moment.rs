@@ -5,7 +5,8 @@ use glam::Vec3;
 
 use super::codes::{
     BREADTH_MASK, BREADTH_SHIFT, EXTENT_RANGE, PER_EXTENT_RANGE, PHI_MASK, PHI_SHIFT, SPREAD_UNIT, SQRT_2,
-    SQRT_HALF, WORD_UNIT, breadth_code, breadth_value, field, fraction, frame_of, phi_code, phi_value, spread_code,
+    SQRT_HALF, WORD_UNIT, breadth_code, breadth_value, field, fraction, frame_of, phi_code, phi_value,
+    spread_code,
 };
 use super::{LightNode, MomentLayout};
 use crate::exact::{self, pow2};
@@ -20,6 +21,10 @@ const WORD_1: usize = 2;
 const WORD_2: usize = 3;
 const WORD_3: usize = 4;
 const LINK: usize = 5;
+
+/// √2 breadths as a deviation, and the range of half extents, in units of the words.
+const PER_SQRT_2: f32 = SQRT_HALF * pow2(31);
+const WORD_RANGE: f32 = EXTENT_RANGE * pow2(31);
 
 /// A node of 24 bytes per child; `W` is at least 4.
 ///
@@ -55,15 +60,14 @@ impl<const W: usize> MomentNode<W> {
         ((self.0[0][3] >> 8) & 255) as i32 - 127
     }
 
-    /// The node of these children; slots of kind 0 are empty.
+    /// Packs the children; slots of kind 0 are empty.
     #[inline(always)]
-    fn pack(sets: &Lanes<W>, kinds: &[u32; W], links: &[u32; W]) -> Self {
-        let mut node = Self::EMPTY;
+    fn pack(&mut self, sets: &Lanes<W>) {
         let frame = frame_of(sets);
-        node.0[0][0] = frame.origin.x.to_bits();
-        node.0[0][1] = frame.origin.y.to_bits();
-        node.0[0][2] = frame.origin.z.to_bits();
-        node.0[0][3] = (frame.unit_exponent + 127) as u32 | (((frame.phi_exponent + 127) as u32) << 8);
+        self.0[0][0] = frame.origin.x.to_bits();
+        self.0[0][1] = frame.origin.y.to_bits();
+        self.0[0][2] = frame.origin.z.to_bits();
+        self.0[0][3] = (frame.unit_exponent + 127) as u32 | (((frame.phi_exponent + 127) as u32) << 8);
         let per_unit = pow2(-frame.unit_exponent);
         for i in 0..W {
             let s: LightMoments = sets.get(i);
@@ -75,7 +79,7 @@ impl<const W: usize> MomentNode<W> {
             let ratio = exact::min(s.along, s.across + s.across) * (per_unit * SQRT_2) * per_breadth;
             let w1 = field(ratio - 1.0, 15, 6, phi);
             let w1 = field(c.z, 0, 15, w1);
-            let kind = kinds[i] & 3;
+            let kind = self.0[WORD_0][i] & 3;
             let w0 = field(c.y, 15, 15, kind);
             let w0 = field(c.x, 0, 15, w0);
             let w2 = field(s.m.z, 16, 8, spread_code(s.m));
@@ -86,13 +90,11 @@ impl<const W: usize> MomentNode<W> {
             let w3 = field((s.h.y * per_unit) * per_extent - 1.0, 8, 8, w3);
             let w3 = field((s.h.x * per_unit) * per_extent - 1.0, 0, 8, w3);
             let used = exact::mask(kind) & exact::mask_of(s.phi > 0.0);
-            node.0[WORD_0][i] = exact::masked_u32(used, w0, kind);
-            node.0[WORD_1][i] = w1 & used;
-            node.0[WORD_2][i] = w2 & used;
-            node.0[WORD_3][i] = w3 & used;
-            node.0[LINK][i] = links[i];
+            self.0[WORD_0][i] = exact::masked_u32(used, w0, kind);
+            self.0[WORD_1][i] = w1 & used;
+            self.0[WORD_2][i] = w2 & used;
+            self.0[WORD_3][i] = w3 & used;
         }
-        node
     }
 
     /// The children as they are stored, in the node's own frame: the words are nearly that.
@@ -108,20 +110,21 @@ impl<const W: usize> MomentNode<W> {
             );
             let used = exact::mask(w0 & 3);
             rows[row::PHI][i] = f32::from_bits(((w1 & PHI_MASK) << PHI_SHIFT) & used);
-            rows[row::C][i] = fraction(w0, 0) * WORD_UNIT;
-            rows[row::C + 1][i] = fraction(w0, 15) * WORD_UNIT;
-            rows[row::C + 2][i] = fraction(w1, 0) * WORD_UNIT;
+            rows[row::C][i] = fraction(w0, 0);
+            rows[row::C + 1][i] = fraction(w0, 15);
+            rows[row::C + 2][i] = fraction(w1, 0);
             let breadth = breadth_value(w3 & 255);
-            let across = breadth * SQRT_HALF;
+            let across = breadth * PER_SQRT_2;
             rows[row::ACROSS][i] = across;
             rows[row::ALONG][i] = across * (fraction(w1, 15) * WORD_UNIT + 1.0);
-            rows[row::M][i] = fraction(w2, 0) * WORD_UNIT;
-            rows[row::M + 1][i] = fraction(w2, 8) * WORD_UNIT;
-            rows[row::M + 2][i] = fraction(w2, 16) * WORD_UNIT;
-            let range = breadth * EXTENT_RANGE;
-            rows[row::H][i] = (fraction(w3, 0) * WORD_UNIT + 1.0) * range;
-            rows[row::H + 1][i] = (fraction(w3, 8) * WORD_UNIT + 1.0) * range;
-            rows[row::H + 2][i] = (fraction(w3, 16) * WORD_UNIT + 1.0) * range;
+            rows[row::M][i] = fraction(w2, 0);
+            rows[row::M + 1][i] = fraction(w2, 8);
+            rows[row::M + 2][i] = fraction(w2, 16);
+            let per_word = breadth * EXTENT_RANGE;
+            let range = breadth * WORD_RANGE;
+            rows[row::H][i] = fraction(w3, 0) * per_word + range;
+            rows[row::H + 1][i] = fraction(w3, 8) * per_word + range;
+            rows[row::H + 2][i] = fraction(w3, 16) * per_word + range;
         }
         Framed {
             frame: Frame {
@@ -194,12 +197,7 @@ impl<const W: usize> LightNode<W> for MomentNode<W> {
 
     #[inline(always)]
     fn set_lanes(&mut self, summaries: &Lanes<W>) {
-        let (mut kinds, mut links) = ([0; W], [0; W]);
-        for slot in 0..W {
-            kinds[slot] = self.kind(slot);
-            links[slot] = self.link(slot);
-        }
-        *self = Self::pack(summaries, &kinds, &links);
+        self.pack(summaries);
     }
 }
 
