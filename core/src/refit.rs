@@ -18,7 +18,7 @@ use crate::summary::{Lanes, SUMMARY_WORDS, Summary, Triangles};
 pub fn bottom<N: LightNode<W>, const W: usize>(nodes: &[N], triangles: &[EmissiveTriangle], index: u32) -> N {
     let mut node = nodes[index as usize];
     let mut room = Room::new();
-    below(nodes, triangles, &node, &mut room);
+    below(nodes, 0, triangles, &node, &mut room);
     node.set_lanes(&room.children);
     node
 }
@@ -40,10 +40,12 @@ impl<const W: usize> Room<W> {
     }
 }
 
-/// The summaries of the children of a bottom level's `node`, put into `room`, whatever that holds.
+/// The summaries of the children of a bottom level's `node`, put into `room`, whatever that holds. Node `first` and those after
+/// it stand in `nodes`.
 #[inline(always)]
 pub(crate) fn below<N: LightNode<W>, const W: usize>(
     nodes: &[N],
+    first: u32,
     triangles: &[EmissiveTriangle],
     node: &N,
     room: &mut Room<W>,
@@ -66,7 +68,7 @@ pub(crate) fn below<N: LightNode<W>, const W: usize>(
     }
     if inner != 0 {
         for slot in 0..W {
-            let link = node.link(slot);
+            let link = node.link(slot).wrapping_sub(first);
             if node.kind(slot) == kind::INNER && link < nodes.len() as u32 {
                 room.children.set(slot, &nodes[link as usize].merged());
             }
