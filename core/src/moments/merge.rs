@@ -8,7 +8,7 @@ use glam::Vec3;
 use super::{LEAST_EXPONENT, LightMoments, row};
 use crate::bounds::MAX_SUM_EXPONENT;
 use crate::exact::{self, exponent, pow2};
-use crate::halves::{greatest, sum};
+use crate::halves::{maxima, sums};
 use crate::summary::{Lanes, SUMMARY_WORDS};
 use crate::vector::{abs3, dot, flush3};
 
@@ -62,15 +62,16 @@ pub(super) fn framed<const W: usize>(sets: &Lanes<W>) -> Framed<W> {
         origin.y = if brighter { s[row::C + 1][i] } else { origin.y };
         origin.z = if brighter { s[row::C + 2][i] } else { origin.z };
     }
-    let mut reach = [0.0; W];
+    let mut reach = [[0.0; W]];
     for i in 0..W {
         let away = abs3(vector(s, row::C, i) - origin) + vector(s, row::H, i);
         let far = exact::max(exact::max(away.x, away.y), away.z);
         let wide = exact::max(s[row::ACROSS][i], s[row::ALONG][i]);
         // Numbers of a set without flux mean nothing.
-        reach[i] = exact::masked(exact::mask_of(s[row::PHI][i] > 0.0), exact::max(far, wide));
+        reach[0][i] = exact::masked(exact::mask_of(s[row::PHI][i] > 0.0), exact::max(far, wide));
     }
-    let size = exponent(greatest(&reach));
+    maxima(&mut reach);
+    let size = exponent(reach[0][0]);
     let size = if size > LEAST_EXPONENT {
         size
     } else {
@@ -120,9 +121,10 @@ impl<const W: usize> Framed<W> {
     #[inline(always)]
     pub fn merged(&self) -> LightMoments {
         let s = &self.sets.0;
-        let mut weighted = [[0.0; W]; 6];
+        let mut weighted = [[0.0; W]; 7];
         for i in 0..W {
             let f = s[row::PHI][i];
+            weighted[6][i] = f;
             weighted[0][i] = s[row::C][i] * f;
             weighted[1][i] = s[row::C + 1][i] * f;
             weighted[2][i] = s[row::C + 2][i] * f;
@@ -130,20 +132,19 @@ impl<const W: usize> Framed<W> {
             weighted[4][i] = s[row::M + 1][i] * f;
             weighted[5][i] = s[row::M + 2][i] * f;
         }
-        let flux = sum(&s[row::PHI]);
+        sums(&mut weighted);
+        let flux = weighted[6][0];
         let shines = flux > 0.0;
         let per_flux = exact::div(1.0, if shines { flux } else { 1.0 });
-        let center = Vec3::new(sum(&weighted[0]), sum(&weighted[1]), sum(&weighted[2])) * per_flux;
-        let normal =
-            Vec3::new(sum(&weighted[3]), sum(&weighted[4]), sum(&weighted[5])) * per_flux * WORD_UNIT;
+        let center = Vec3::new(weighted[0][0], weighted[1][0], weighted[2][0]) * per_flux;
+        let normal = Vec3::new(weighted[3][0], weighted[4][0], weighted[5][0]) * per_flux * WORD_UNIT;
         let mean = flush3(normal, LEAST_SQUARE);
         let length_squared = dot(mean, mean);
         let directed = length_squared > LEAST_NORMAL;
         let per_length = exact::rsqrt(exact::max(length_squared, LEAST_NORMAL));
         let axis = mean * exact::masked(exact::mask_of(directed), per_length);
 
-        let mut total = [0.0; W];
-        let mut along = [0.0; W];
+        let mut squares = [[0.0; W]; 2];
         let mut h = [[0.0; W]; 3];
         for i in 0..W {
             let f = s[row::PHI][i];
@@ -157,17 +158,19 @@ impl<const W: usize> Framed<W> {
             let squared = cosine * cosine * exact::recip(exact::max(own, LEAST_OWN));
             let turn = exact::masked(exact::mask_of(own > LEAST_OWN), squared);
             let off = dot(d, axis);
-            total[i] = f * ((va + va + vn) + dot(d, d));
-            along[i] = f * ((va + (vn - va) * turn) + off * off);
+            squares[0][i] = f * ((va + va + vn) + dot(d, d));
+            squares[1][i] = f * ((va + (vn - va) * turn) + off * off);
             let reach = abs3(d) + vector(s, row::H, i);
             let some = exact::mask_of(f > 0.0);
             h[0][i] = exact::masked(some, reach.x);
             h[1][i] = exact::masked(some, reach.y);
             h[2][i] = exact::masked(some, reach.z);
         }
-        let total = exact::flush((sum(&total) * per_flux) * SQUARE_UNIT, LEAST_SQUARE);
+        sums(&mut squares);
+        maxima(&mut h);
+        let total = exact::flush((squares[0][0] * per_flux) * SQUARE_UNIT, LEAST_SQUARE);
         let along = exact::flush(
-            exact::max((sum(&along) * per_flux) * SQUARE_UNIT, 0.0),
+            exact::max((squares[1][0] * per_flux) * SQUARE_UNIT, 0.0),
             LEAST_SQUARE,
         );
         let along = if directed {
@@ -176,7 +179,7 @@ impl<const W: usize> Framed<W> {
             total * THIRD
         };
         let across = exact::flush((total - along) * 0.5, LEAST_SQUARE);
-        let h = Vec3::new(greatest(&h[0]), greatest(&h[1]), greatest(&h[2])) * WORD_UNIT;
+        let h = Vec3::new(h[0][0], h[1][0], h[2][0]) * WORD_UNIT;
         let center = center * WORD_UNIT;
         let unit = pow2(self.frame.unit_exponent);
         // Sums stop at the greatest flux.

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use crate::bounds::{MAX_SUM, MIN_PHI};
 use crate::exact::{self, exponent, pow2};
-use crate::halves::{greatest, least};
+use crate::halves::maxima;
 use crate::light::MIN_COORDINATE;
 use crate::moments::{Frame, LEAST_EXPONENT, row};
 use crate::summary::Lanes;
@@ -69,40 +69,43 @@ pub(super) fn field(x: f32, shift: u32, bits: u32, low: u32) -> u32 {
 #[inline(always)]
 pub(super) fn frame_of<const W: usize>(sets: &Lanes<W>) -> Frame {
     let s = &sets.0;
-    let mut low = [[0.0; W]; 3];
-    let mut high = [[0.0; W]; 3];
+    // The greatest coordinates, the least ones as the greatest of opposite sign, and the greatest flux.
+    let mut ends = [[0.0; W]; 7];
     for i in 0..W {
         let shines = exact::mask_of(s[row::PHI][i] > 0.0);
         // The numbers of a set without flux mean nothing.
-        let or = |c: f32, end: f32| f32::from_bits(exact::masked_u32(shines, c.to_bits(), end.to_bits()));
-        low[0][i] = or(s[row::C][i], f32::MAX);
-        low[1][i] = or(s[row::C + 1][i], f32::MAX);
-        low[2][i] = or(s[row::C + 2][i], f32::MAX);
-        high[0][i] = or(s[row::C][i], f32::MIN);
-        high[1][i] = or(s[row::C + 1][i], f32::MIN);
-        high[2][i] = or(s[row::C + 2][i], f32::MIN);
+        let shining = |c: f32| f32::from_bits(exact::masked_u32(shines, c.to_bits(), f32::MIN.to_bits()));
+        ends[0][i] = shining(s[row::C][i]);
+        ends[1][i] = shining(s[row::C + 1][i]);
+        ends[2][i] = shining(s[row::C + 2][i]);
+        ends[3][i] = shining(-s[row::C][i]);
+        ends[4][i] = shining(-s[row::C + 1][i]);
+        ends[5][i] = shining(-s[row::C + 2][i]);
+        ends[6][i] = s[row::PHI][i];
     }
+    maxima(&mut ends);
     let middle = Vec3::new(
-        least(&low[0]) + greatest(&high[0]),
-        least(&low[1]) + greatest(&high[1]),
-        least(&low[2]) + greatest(&high[2]),
+        ends[0][0] - ends[3][0],
+        ends[1][0] - ends[4][0],
+        ends[2][0] - ends[5][0],
     ) * 0.5;
     let origin = flush3(middle, MIN_COORDINATE);
     // The unit is above every offset, and the greatest deviation that fits is nearly twice the unit.
-    let mut needed = [0.0; W];
+    let mut needed = [[0.0; W]];
     for i in 0..W {
         let x = exact::abs(s[row::C][i] - origin.x);
         let y = exact::abs(s[row::C + 1][i] - origin.y);
         let z = exact::abs(s[row::C + 2][i] - origin.z);
         let offset = exact::max(exact::max(x, y), z);
         let size = exact::max(exact::max(offset + offset, s[row::ACROSS][i]), LEAST_UNIT);
-        needed[i] = exact::masked(exact::mask_of(s[row::PHI][i] > 0.0), size);
+        needed[0][i] = exact::masked(exact::mask_of(s[row::PHI][i] > 0.0), size);
     }
-    let e = exponent(greatest(&needed));
+    maxima(&mut needed);
+    let e = exponent(needed[0][0]);
     Frame {
         origin,
         unit_exponent: if e > LEAST_EXPONENT { e } else { LEAST_EXPONENT },
-        phi_exponent: exponent(exact::max(greatest(&s[row::PHI]), MIN_PHI)),
+        phi_exponent: exponent(exact::max(ends[6][0], MIN_PHI)),
     }
 }
 
