@@ -6,15 +6,17 @@ use crate::cone::{Cone, normalized};
 use crate::exact::{self, exponent, pow2, significand};
 use crate::instance::Instance;
 use crate::light::EmissiveTriangle;
-use crate::summary::{SUMMARY_WORDS, Summary};
-use crate::vector::{cross, dot, length_squared, max3, min3};
+use crate::summary::{Lanes, SUMMARY_WORDS, Summary, Triangles};
+use crate::vector::{cross, dot, greatest_exponent, length_squared, max3, min3};
 
 /// Smallest flux that is not zero, W: smaller ones count as this much.
 pub const MIN_PHI: f32 = pow2(-100);
 /// Largest flux of one light, W; larger ones count as this much.
 pub const MAX_PHI: f32 = pow2(100);
 /// Largest flux of a set of lights, W: 2^126. Sums stop there.
-pub(crate) const MAX_SUM: f32 = pow2(126);
+pub(crate) const MAX_SUM: f32 = pow2(MAX_SUM_EXPONENT);
+/// Exponent of [`MAX_SUM`].
+pub(crate) const MAX_SUM_EXPONENT: i32 = 126;
 
 /// A constant of its own: rust-gpu does not fold an expression of literals.
 const TWELFTH: f32 = 1.0 / 12.0;
@@ -61,18 +63,11 @@ impl LightBounds {
         let (e1, e2) = (p1 - p0, p2 - p0);
 
         // Scale the edges, then their cross product, to about 1 by powers of two, so that no product leaves the range.
-        let (e1_scale, e2_scale) = (max_exponent(e1, -127), max_exponent(e2, -127));
+        let (e1_scale, e2_scale) = (greatest_exponent(e1, -127), greatest_exponent(e2, -127));
         let edge_scale = if e1_scale > e2_scale { e1_scale } else { e2_scale };
         let to_one = pow2(-edge_scale);
-        let across = cross(e1 * to_one, e2 * to_one);
-        let across_scale = max_exponent(across, -127);
-        let has_area = across_scale >= -100 && edge_scale > -127;
-        let n = if has_area {
-            across * pow2(-across_scale)
-        } else {
-            Vec3::new(0.0, 0.0, 1.0)
-        };
-        let length = exact::sqrt(dot(n, n));
+        let emission = flux(e1 * to_one, e2 * to_one, edge_scale, triangle);
+        let (n, across_scale) = (emission.normal, emission.exponent);
 
         // Rounding turns the normal by up to 2^-21 |e1||e2| / |e1 × e2| rad: 2^-24 for each edge, as much again for
         // products and difference, and some for safety. In a needle that may be any angle, so its cone is opened.
@@ -82,28 +77,13 @@ impl LightBounds {
         let turn_squared = dot(a, a) * dot(b, b) * exact::recip(dot(n, n)) * pow2(bounded + bounded - 42);
         let any_normal = triangle.is_two_sided() || turn_squared > 0.015_625;
 
-        // Φ = significand · 2^exponent, put together once, within the stated range.
-        let luminance = triangle.luminance();
-        let faces = if triangle.is_two_sided() { 2.0 } else { 1.0 };
-        let shine = significand(luminance) * length * (core::f32::consts::FRAC_PI_2 * faces);
-        let shine_scale = exponent(luminance) + across_scale + edge_scale + edge_scale;
-        let scale = if shine_scale < -110 {
-            -110
-        } else if shine_scale > 110 {
-            110
-        } else {
-            shine_scale
-        };
-        let phi = exact::clamp(shine * pow2(scale), MIN_PHI, MAX_PHI);
-        let emits = has_area && luminance > 0.0;
-
         Self {
             min: min3(p0, min3(p1, p2)),
             max: max3(p0, max3(p1, p2)),
             axis: normalized(n),
             cos_theta_o: if any_normal { -1.0 } else { 1.0 - turn_squared },
             cos_theta_e: 0.0,
-            phi: if emits { phi } else { 0.0 },
+            phi: emission.phi,
         }
     }
 
@@ -147,6 +127,54 @@ impl LightBounds {
     }
 }
 
+/// What a triangle emits, and its normal.
+pub(crate) struct Emission {
+    /// Radiant flux, W; zero, or in [`MIN_PHI`]`..=`[`MAX_PHI`].
+    pub phi: f32,
+    /// The cross product of its edges by a power of two, so that its greatest component is in [1, 2); z without area.
+    pub normal: Vec3,
+    /// Squared length of `normal`.
+    pub squared: f32,
+    /// The exponent of that power, the edges as they are given.
+    pub exponent: i32,
+}
+
+/// The emission of `triangle`, whose edges are `a` and `b` by 2^`edge_exponent`: together of about 1. Without a branch, for
+/// processors that compute several at a time.
+#[inline(always)]
+pub(crate) fn flux(a: Vec3, b: Vec3, edge_exponent: i32, triangle: &EmissiveTriangle) -> Emission {
+    let across = cross(a, b);
+    let across_exponent = greatest_exponent(across, -127);
+    let has_area = (across_exponent >= -100) & (edge_exponent > -127);
+    let scaled = across * pow2(-across_exponent);
+    let area = exact::mask_of(has_area);
+    let normal = Vec3::new(
+        exact::masked(area, scaled.x),
+        exact::masked(area, scaled.y),
+        f32::from_bits(exact::masked_u32(area, scaled.z.to_bits(), 1.0_f32.to_bits())),
+    );
+    let squared = dot(normal, normal);
+
+    // Φ = significand · 2^exponent, put together once, within the stated range.
+    let luminance = triangle.luminance();
+    let faces = if triangle.is_two_sided() {
+        core::f32::consts::PI
+    } else {
+        core::f32::consts::FRAC_PI_2
+    };
+    let shine = significand(luminance) * exact::sqrt(squared) * faces;
+    let exponent = exponent(luminance) + across_exponent + edge_exponent + edge_exponent;
+    let low = if exponent < -110 { -110 } else { exponent };
+    let bounded = if low > 110 { 110 } else { low };
+    let phi = exact::max(exact::min(shine * exact::power(bounded), MAX_PHI), MIN_PHI);
+    Emission {
+        phi: exact::masked(area & exact::mask_of(luminance > 0.0), phi),
+        normal,
+        squared,
+        exponent: across_exponent,
+    }
+}
+
 impl Summary for LightBounds {
     const EMPTY: Self = Self::EMPTY;
     const NAMES: [&'static str; SUMMARY_WORDS] = [
@@ -170,10 +198,22 @@ impl Summary for LightBounds {
     }
 
     #[inline(always)]
-    fn merged<const W: usize>(children: &[Self; W]) -> Self {
+    fn of_triangles<const W: usize>(triangles: &Triangles<W>, summaries: &mut Lanes<W>) {
+        for slot in 0..W {
+            if triangles.present(slot) != 0 {
+                summaries.set(slot, &Self::of_triangle(&triangles.get(slot)));
+            } else {
+                summaries.set(slot, &Self::EMPTY);
+            }
+        }
+    }
+
+    /// In slot order: the cone around cones depends on the order.
+    #[inline(always)]
+    fn merged<const W: usize>(children: &Lanes<W>) -> Self {
         let mut merged = Self::EMPTY;
         for slot in 0..W {
-            merged = merged.merge(&children[slot]);
+            merged = merged.merge(&children.get(slot));
         }
         merged
     }
@@ -267,16 +307,4 @@ fn select3(first: bool, a: Vec3, b: Vec3) -> Vec3 {
         if first { a.y } else { b.y },
         if first { a.z } else { b.z },
     )
-}
-
-/// The greatest exponent among the components of `v` and `floor`; −127 stands for zero.
-#[inline(always)]
-fn max_exponent(v: Vec3, floor: i32) -> i32 {
-    let x = if exponent(v.x) > floor {
-        exponent(v.x)
-    } else {
-        floor
-    };
-    let y = if exponent(v.y) > x { exponent(v.y) } else { x };
-    if exponent(v.z) > y { exponent(v.z) } else { y }
 }

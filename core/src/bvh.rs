@@ -53,15 +53,13 @@ impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
         } else {
             self.nodes.len() as u32
         };
-        #[cfg(feature = "rayon")]
-        if rayon::current_num_threads() > 1 {
-            for range in self.bottom.ranges() {
-                sweep::bottom(&mut self.nodes, lights.triangles(), &self.bottom.nodes[range]);
-            }
-            self.refit_top();
-            return;
+        let nodes = &mut self.nodes[..bottom_end as usize];
+        if self.roots.is_empty() {
+            sweep::bottom_sweep(nodes, 0, lights.triangles(), &[self.root]);
+        } else {
+            let roots: Vec<u32> = self.roots.iter().map(|root| root.node).collect();
+            sweep::bottom_sweep(nodes, 0, lights.triangles(), &roots);
         }
-        sweep::bottom_sweep(&mut self.nodes, lights.triangles(), 0..bottom_end);
         self.refit_top();
     }
 

@@ -78,6 +78,7 @@ extern crate std;
 pub mod bounds;
 pub mod cone;
 pub mod exact;
+mod halves;
 pub mod importance;
 pub mod instance;
 pub mod light;

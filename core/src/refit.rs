@@ -3,31 +3,77 @@
 //! Every function takes the nodes as they are and returns one node anew, so that the CPU and the kernels run the same
 //! body and each node is written by one invocation. The order of passes: [`bottom`] from the deepest level of the bottom
 //! levels to their roots; [`root`] for each bottom level; [`top`] from the deepest level of the top level to its root.
-//! Children are merged in slot order, so no order of execution shows in the bits.
+//! Children are merged in an order of the slots, so no order of execution shows in the bits.
 
 use bytemuck::{Pod, Zeroable};
 
 use crate::instance::Instance;
 use crate::light::EmissiveTriangle;
 use crate::node::{LightNode, kind};
-use crate::summary::{SUMMARY_WORDS, Summary};
+use crate::summary::{Lanes, SUMMARY_WORDS, Summary, Triangles};
 
 /// Node `index` of a bottom level with the summaries of its triangles and of the nodes below it.
 #[inline]
 #[must_use]
 pub fn bottom<N: LightNode<W>, const W: usize>(nodes: &[N], triangles: &[EmissiveTriangle], index: u32) -> N {
     let mut node = nodes[index as usize];
-    let mut children = [N::Summary::EMPTY; W];
-    for slot in 0..W {
-        let (to, link) = (node.kind(slot), node.link(slot));
-        if to == kind::LIGHT && link < triangles.len() as u32 {
-            children[slot] = N::Summary::of_triangle(&triangles[link as usize]);
-        } else if to == kind::INNER && link < nodes.len() as u32 {
-            children[slot] = nodes[link as usize].merged();
+    let mut room = Room::new();
+    below(nodes, 0, triangles, &node, &mut room);
+    node.set_lanes(&room.children);
+    node
+}
+
+/// Room for what a node's refit computes; a sweep takes the same for all nodes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Room<const W: usize> {
+    triangles: Triangles<W>,
+    pub children: Lanes<W>,
+}
+
+impl<const W: usize> Room<W> {
+    #[inline(always)]
+    pub fn new() -> Self {
+        Self {
+            triangles: Triangles::NONE,
+            children: Lanes([[0.0; W]; SUMMARY_WORDS]),
         }
     }
-    node.set_summaries(&children);
-    node
+}
+
+/// The summaries of the children of a bottom level's `node`, put into `room`, whatever that holds. Node `first` and those after
+/// it stand in `nodes`.
+#[inline(always)]
+pub(crate) fn below<N: LightNode<W>, const W: usize>(
+    nodes: &[N],
+    first: u32,
+    triangles: &[EmissiveTriangle],
+    node: &N,
+    room: &mut Room<W>,
+) {
+    // Steps over all slots, for processors compute several triangles and several codes at a time.
+    let (mut lights, mut inner) = (0, 0);
+    for slot in 0..W {
+        let (to, link) = (node.kind(slot), node.link(slot));
+        room.triangles.remove(slot);
+        if to == kind::LIGHT && link < triangles.len() as u32 {
+            room.triangles.set(slot, &triangles[link as usize]);
+            lights = 1;
+        }
+        inner |= u32::from(to == kind::INNER);
+    }
+    if lights != 0 {
+        N::Summary::of_triangles(&room.triangles, &mut room.children);
+    } else {
+        room.children.fill(&N::Summary::EMPTY);
+    }
+    if inner != 0 {
+        for slot in 0..W {
+            let link = node.link(slot).wrapping_sub(first);
+            if node.kind(slot) == kind::INNER && link < nodes.len() as u32 {
+                room.children.set(slot, &nodes[link as usize].merged());
+            }
+        }
+    }
 }
 
 /// What is known of the bottom level whose root is node `root`, in its own space; kept apart from the nodes so that
@@ -50,20 +96,20 @@ pub fn top<N: LightNode<W>, const W: usize>(
     index: u32,
 ) -> N {
     let mut node = nodes[index as usize];
-    let mut children = [N::Summary::EMPTY; W];
+    let mut children = Lanes::<W>::all(&N::Summary::EMPTY);
     for slot in 0..W {
         let (to, link) = (node.kind(slot), node.link(slot));
         if to == kind::MESH && link < instances.len() as u32 {
             let blas = instances[link as usize].blas;
             if blas < roots.len() as u32 {
                 let local = roots[blas as usize].summary::<N::Summary>();
-                children[slot] = local.to_world(&instances[link as usize]);
+                children.set(slot, &local.to_world(&instances[link as usize]));
             }
         } else if to == kind::INNER && link < nodes.len() as u32 {
-            children[slot] = nodes[link as usize].merged();
+            children.set(slot, &nodes[link as usize].merged());
         }
     }
-    node.set_summaries(&children);
+    node.set_lanes(&children);
     node
 }
 

@@ -21,8 +21,11 @@ pub trait Summary: Copy + PartialEq + Debug + Send + Sync + 'static {
 
     /// Of one emissive triangle.
     fn of_triangle(triangle: &EmissiveTriangle) -> Self;
+    /// Of the triangles of a node's slots. A slot without one gets [`EMPTY`](Self::EMPTY), or numbers without flux that mean
+    /// nothing.
+    fn of_triangles<const W: usize>(triangles: &Triangles<W>, summaries: &mut Lanes<W>);
     /// Of all the children of a node; the order of the slots is part of the result's bits.
-    fn merged<const W: usize>(children: &[Self; W]) -> Self;
+    fn merged<const W: usize>(children: &Lanes<W>) -> Self;
     /// Of the lights of a bottom level that `instance` puts into the world.
     fn to_world(&self, instance: &Instance) -> Self;
 
@@ -42,4 +45,124 @@ pub trait Summary: Copy + PartialEq + Debug + Send + Sync + 'static {
     fn to_words(&self) -> [f32; SUMMARY_WORDS];
     /// The summary of these numbers.
     fn from_words(words: &[f32; SUMMARY_WORDS]) -> Self;
+}
+
+/// The summaries of a node's children word by word, each an array over the slots: so processors compute several children at a
+/// time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lanes<const W: usize>(pub(crate) [[f32; W]; SUMMARY_WORDS]);
+
+impl<const W: usize> Lanes<W> {
+    /// The same summary in all slots.
+    #[inline(always)]
+    #[must_use]
+    pub fn all<S: Summary>(summary: &S) -> Self {
+        let mut lanes = Self([[0.0; W]; SUMMARY_WORDS]);
+        lanes.fill(summary);
+        lanes
+    }
+
+    /// Puts `summary` into all slots.
+    #[inline(always)]
+    pub fn fill<S: Summary>(&mut self, summary: &S) {
+        let words = summary.to_words();
+        for k in 0..SUMMARY_WORDS {
+            for slot in 0..W {
+                self.0[k][slot] = words[k];
+            }
+        }
+    }
+
+    /// These summaries.
+    #[inline(always)]
+    #[must_use]
+    pub fn of<S: Summary>(summaries: &[S; W]) -> Self {
+        let mut lanes = Self([[0.0; W]; SUMMARY_WORDS]);
+        for slot in 0..W {
+            lanes.set(slot, &summaries[slot]);
+        }
+        lanes
+    }
+
+    /// The summary in `slot`.
+    #[inline(always)]
+    #[must_use]
+    pub fn get<S: Summary>(&self, slot: usize) -> S {
+        let mut words = [0.0; SUMMARY_WORDS];
+        for k in 0..SUMMARY_WORDS {
+            words[k] = self.0[k][slot];
+        }
+        S::from_words(&words)
+    }
+
+    /// Puts `summary` into `slot`.
+    #[inline(always)]
+    pub fn set<S: Summary>(&mut self, slot: usize, summary: &S) {
+        let words = summary.to_words();
+        for k in 0..SUMMARY_WORDS {
+            self.0[k][slot] = words[k];
+        }
+    }
+}
+
+/// The triangles of a node's slots word by word, as [`Lanes`].
+#[derive(Clone, Copy, Debug)]
+pub struct Triangles<const W: usize> {
+    /// The vertices, then the radiance.
+    words: [[f32; W]; 12],
+    flags: [u32; W],
+    /// All ones in a slot with a triangle, else zero.
+    present: [u32; W],
+}
+
+impl<const W: usize> Triangles<W> {
+    /// No triangle.
+    pub const NONE: Self = Self {
+        words: [[0.0; W]; 12],
+        flags: [0; W],
+        present: [0; W],
+    };
+
+    /// Puts `triangle` into `slot`.
+    #[inline(always)]
+    pub fn set(&mut self, slot: usize, triangle: &EmissiveTriangle) {
+        for k in 0..3 {
+            self.words[k][slot] = triangle.p[0][k];
+            self.words[3 + k][slot] = triangle.p[1][k];
+            self.words[6 + k][slot] = triangle.p[2][k];
+            self.words[9 + k][slot] = triangle.radiance[k];
+        }
+        self.flags[slot] = triangle.flags;
+        self.present[slot] = u32::MAX;
+    }
+
+    /// Leaves no triangle in `slot`: its words stay, and mean nothing.
+    #[inline(always)]
+    pub fn remove(&mut self, slot: usize) {
+        self.present[slot] = 0;
+    }
+
+    /// All ones where there is a triangle in `slot`, else zero.
+    #[inline(always)]
+    #[must_use]
+    pub fn present(&self, slot: usize) -> u32 {
+        self.present[slot]
+    }
+
+    /// The triangle in `slot`, of mesh 0; any other where there is none.
+    #[inline(always)]
+    #[must_use]
+    pub fn get(&self, slot: usize) -> EmissiveTriangle {
+        let w = &self.words;
+        EmissiveTriangle {
+            p: [
+                [w[0][slot], w[1][slot], w[2][slot]],
+                [w[3][slot], w[4][slot], w[5][slot]],
+                [w[6][slot], w[7][slot], w[8][slot]],
+            ],
+            radiance: [w[9][slot], w[10][slot], w[11][slot]],
+            mesh: 0,
+            flags: self.flags[slot],
+        }
+    }
 }

@@ -3,13 +3,15 @@
 //! The shared functions of [`refit`](crate::refit) are the definition, and give every word. Neither the order nor the threads
 //! show in any bit.
 
+#[cfg(feature = "rayon")]
 use alloc::vec::Vec;
-use core::ops::Range;
 
 use crate::instance::Instance;
 use crate::light::EmissiveTriangle;
 use crate::node::LightNode;
-use crate::refit::{self, BlasRoot};
+#[cfg(feature = "rayon")]
+use crate::node::kind;
+use crate::refit::{self, BlasRoot, Room};
 
 /// Shorter lists run on one thread.
 #[cfg(feature = "rayon")]
@@ -42,15 +44,70 @@ pub fn top<N: LightNode<W>, const W: usize>(
     });
 }
 
-/// [`refit::bottom`] over all nodes of a bottom level that stand in depth-first order: children before parents, from the last
-/// to the first, so that memory is read in one direction.
+/// [`refit::bottom`] over all `nodes`, bottom levels that stand in depth-first order one after another, the trees of `roots`, from node
+/// `first` on:
+/// children before parents, from the last to the first, so that memory is read in one direction. Subtrees go to several threads.
 pub fn bottom_sweep<N: LightNode<W>, const W: usize>(
     nodes: &mut [N],
+    first: u32,
     triangles: &[EmissiveTriangle],
-    range: Range<u32>,
+    roots: &[u32],
 ) {
-    for index in range.rev() {
-        nodes[index as usize] = refit::bottom(nodes, triangles, index);
+    #[cfg(feature = "rayon")]
+    if nodes.len() >= PARALLEL && rayon::current_num_threads() > 1 {
+        return subtrees(nodes, first, triangles, roots.to_vec());
+    }
+    let _ = roots;
+    one_by_one(nodes, first, triangles);
+}
+
+/// All nodes from the last to the first; node `first` stands first.
+fn one_by_one<N: LightNode<W>, const W: usize>(nodes: &mut [N], first: u32, triangles: &[EmissiveTriangle]) {
+    let mut room = Room::new();
+    for index in (0..nodes.len()).rev() {
+        refit::below(nodes, first, triangles, &nodes[index], &mut room);
+        nodes[index].set_lanes(&room.children);
+    }
+}
+
+/// The subtrees that begin at nodes `starts` on several threads, then the nodes before them.
+#[cfg(feature = "rayon")]
+fn subtrees<N: LightNode<W>, const W: usize>(
+    nodes: &mut [N],
+    first: u32,
+    triangles: &[EmissiveTriangle],
+    mut starts: Vec<u32>,
+) {
+    use rayon::prelude::*;
+
+    let end = first + nodes.len() as u32;
+    starts.retain(|&start| first <= start && start < end);
+    starts.sort_unstable();
+    starts.dedup();
+    let own = starts
+        .first()
+        .map_or(nodes.len(), |&start| (start - first) as usize);
+    let mut rest = &mut nodes[own..];
+    let mut pieces = Vec::with_capacity(starts.len());
+    for (k, &start) in starts.iter().enumerate() {
+        let next = starts.get(k + 1).map_or(end, |&next| next);
+        let (piece, after) = rest.split_at_mut((next - start) as usize);
+        pieces.push((start, piece));
+        rest = after;
+    }
+    pieces.into_par_iter().for_each(|(start, piece)| {
+        if piece.len() < PARALLEL {
+            return one_by_one(piece, start, triangles);
+        }
+        let root = piece[0];
+        let links = (0..W).filter(|&slot| root.kind(slot) == kind::INNER);
+        let links = links.map(|slot| root.link(slot)).filter(|&link| link > start);
+        subtrees(piece, start, triangles, links.collect());
+    });
+    let mut room = Room::new();
+    for index in (0..own).rev() {
+        refit::below(nodes, first, triangles, &nodes[index], &mut room);
+        nodes[index].set_lanes(&room.children);
     }
 }
 

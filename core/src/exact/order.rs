@@ -45,6 +45,20 @@ pub(crate) fn masked_u32(mask: u32, a: u32, b: u32) -> u32 {
     b ^ ((a ^ b) & mask)
 }
 
+/// All ones for true, zero for false.
+#[inline(always)]
+#[must_use]
+pub(crate) fn mask_of(holds: bool) -> u32 {
+    u32::from(holds).wrapping_neg()
+}
+
+/// `x` where `mask` is all ones, +0 where it is zero.
+#[inline(always)]
+#[must_use]
+pub(crate) fn masked(mask: u32, x: f32) -> f32 {
+    f32::from_bits(x.to_bits() & mask)
+}
+
 /// `|x|`, by its sign bit: unlike SPIR-V's `FAbs` this never flushes.
 #[inline]
 #[must_use]

@@ -22,3 +22,10 @@ pub const fn pow2(e: i32) -> f32 {
     let high = if low > 127 { 127 } else { low };
     f32::from_bits(((high + 127) as u32) << 23)
 }
+
+/// [`pow2`] of an `e` that is known to lie in −126..=127.
+#[inline(always)]
+#[must_use]
+pub(crate) fn power(e: i32) -> f32 {
+    f32::from_bits(((e + 127) as u32) << 23)
+}

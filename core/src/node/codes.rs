@@ -4,9 +4,11 @@ use glam::Vec3;
 
 use crate::bounds::{MAX_SUM, MIN_PHI};
 use crate::exact::{self, exponent, pow2};
+use crate::halves::maxima;
 use crate::light::MIN_COORDINATE;
-use crate::moments::{LEAST_EXPONENT, LightMoments};
-use crate::vector::{abs3, dot, flush3, greatest_exponent, max3};
+use crate::moments::{Frame, LEAST_EXPONENT, row};
+use crate::summary::Lanes;
+use crate::vector::{dot, flush3};
 
 /// The bits of 1.
 const ONE_BITS: u32 = 0x3f80_0000;
@@ -40,64 +42,75 @@ pub(super) fn spread(m: Vec3) -> f32 {
     exact::min(exact::sqrt(exact::flush(exact::max(rest, 0.0), pow2(-18))), 1.0)
 }
 
+/// The code of a spread of normals.
+#[inline(always)]
+pub(super) fn spread_code(m: Vec3) -> u32 {
+    (spread(m) * 255.0 + COUNTS).to_bits() & 255
+}
+
+/// Added to a number below 2^22 in magnitude, 3 · 2^22 rounds it to the nearest integer, and the last bits of the sum's word
+/// are that integer's, negative ones as two's complements. Processors do it several numbers at a time.
+const COUNTS: f32 = 12_582_912.0;
+
 /// Puts the signed fraction `x` into the `bits` bits that start `shift` bits below the top, above what `low` holds: the code
 /// whose reading, `low` included, comes nearest.
 #[inline(always)]
 pub(super) fn field(x: f32, shift: u32, bits: u32, low: u32) -> u32 {
-    let half_range = 1_i32 << (bits - 1);
+    let half_range = pow2(bits as i32 - 1);
     // `low` as the reading sees it, in units of the code: below 1.
-    let noise = (low << shift) as i32 as f32 * (pow2(bits as i32 - 1) * WORD_UNIT);
-    let bounded = exact::clamp(x, -1.0, 1.0);
-    // A positive number below 2^22, of which the floor is taken.
-    let code = exact::floor_small(exact::max(
-        bounded * pow2(bits as i32 - 1) - noise + pow2(bits as i32 - 1) + 0.5,
-        0.0,
-    )) as i32;
-    let top = 2 * half_range - 1;
-    let code = (if code > top { top } else { code }) - half_range;
+    let noise = fraction(low, shift) * (half_range * WORD_UNIT);
+    let nearest = exact::min(exact::max(x * half_range - noise, -half_range), half_range - 1.0);
     let mask = (1_u32 << bits) - 1;
-    low | (((code as u32) & mask) << (32 - bits - shift))
+    low | (((nearest + COUNTS).to_bits() & mask) << (32 - bits - shift))
 }
 
-/// What the children of a node are stored in relation to.
-pub(super) struct Header {
-    pub origin: Vec3,
-    pub unit_exponent: i32,
-    pub phi_exponent: i32,
-}
-
+/// The frame that the children of a node are stored in: about the middle of their centres, of the exponent of the greatest
+/// flux.
 #[inline(always)]
-pub(super) fn header<const W: usize>(sets: &[LightMoments; W]) -> Header {
-    let mut greatest = 0.0;
-    let mut low = Vec3::new(0.0, 0.0, 0.0);
-    let mut high = Vec3::new(0.0, 0.0, 0.0);
+pub(super) fn frame_of<const W: usize>(sets: &Lanes<W>) -> Frame {
+    let s = &sets.0;
+    // The greatest coordinates, the least ones as the greatest of opposite sign, and the greatest flux.
+    let mut ends = [[0.0; W]; 7];
     for i in 0..W {
-        let s = &sets[i];
-        let first = greatest == 0.0;
-        let shines = s.phi > 0.0;
-        let l = if first { s.c } else { -max3(-low, -s.c) };
-        let h = if first { s.c } else { max3(high, s.c) };
-        low = if shines { l } else { low };
-        high = if shines { h } else { high };
-        greatest = exact::max(s.phi, greatest);
+        let shines = exact::mask_of(s[row::PHI][i] > 0.0);
+        // The numbers of a set without flux mean nothing.
+        let shining = |c: f32| f32::from_bits(exact::masked_u32(shines, c.to_bits(), f32::MIN.to_bits()));
+        ends[0][i] = shining(s[row::C][i]);
+        ends[1][i] = shining(s[row::C + 1][i]);
+        ends[2][i] = shining(s[row::C + 2][i]);
+        ends[3][i] = shining(-s[row::C][i]);
+        ends[4][i] = shining(-s[row::C + 1][i]);
+        ends[5][i] = shining(-s[row::C + 2][i]);
+        ends[6][i] = s[row::PHI][i];
     }
-    let origin = flush3((low + high) * 0.5, MIN_COORDINATE);
+    maxima(&mut ends);
+    let middle = Vec3::new(
+        ends[0][0] - ends[3][0],
+        ends[1][0] - ends[4][0],
+        ends[2][0] - ends[5][0],
+    ) * 0.5;
+    let origin = flush3(middle, MIN_COORDINATE);
     // The unit is above every offset, and the greatest deviation that fits is nearly twice the unit.
-    let mut e = LEAST_EXPONENT;
+    let mut needed = [[0.0; W]];
     for i in 0..W {
-        let s = &sets[i];
-        let offset = greatest_exponent(abs3(s.c - origin), LEAST_EXPONENT) + 1;
-        let size = greatest_exponent(Vec3::new(s.across, 0.0, 0.0), LEAST_EXPONENT);
-        let needed = if offset > size { offset } else { size };
-        e = if (s.phi > 0.0) & (needed > e) { needed } else { e };
+        let x = exact::abs(s[row::C][i] - origin.x);
+        let y = exact::abs(s[row::C + 1][i] - origin.y);
+        let z = exact::abs(s[row::C + 2][i] - origin.z);
+        let offset = exact::max(exact::max(x, y), z);
+        let size = exact::max(exact::max(offset + offset, s[row::ACROSS][i]), LEAST_UNIT);
+        needed[0][i] = exact::masked(exact::mask_of(s[row::PHI][i] > 0.0), size);
     }
-    let phi_exponent = exponent(exact::max(greatest, MIN_PHI));
-    Header {
+    maxima(&mut needed);
+    let e = exponent(needed[0][0]);
+    Frame {
         origin,
-        unit_exponent: e,
-        phi_exponent,
+        unit_exponent: if e > LEAST_EXPONENT { e } else { LEAST_EXPONENT },
+        phi_exponent: exponent(exact::max(ends[6][0], MIN_PHI)),
     }
 }
+
+/// The least unit of a frame with lights in it.
+const LEAST_UNIT: f32 = pow2(LEAST_EXPONENT + 1);
 
 /// √2, and its half.
 pub(crate) const SQRT_2: f32 = core::f32::consts::SQRT_2;
@@ -108,13 +121,9 @@ pub(crate) const SQRT_HALF: f32 = core::f32::consts::FRAC_1_SQRT_2;
 #[inline(always)]
 pub(super) fn phi_code(phi: f32, greatest: i32) -> u32 {
     let rounded = phi.to_bits().wrapping_add(1 << (PHI_SHIFT - 1));
-    let octave = (rounded >> 23) as i32 - 127 - greatest + 126;
-    let code = if octave < 64 {
-        64 << 4
-    } else {
-        ((octave as u32) << 4) | ((rounded >> PHI_SHIFT) & 15)
-    };
-    if phi > 0.0 { code } else { 0 }
+    let code = (rounded >> PHI_SHIFT) as i32 - ((greatest + 1) << 4);
+    let code = if code < 64 << 4 { 64 << 4 } else { code };
+    code as u32 & exact::mask_of(phi > 0.0)
 }
 
 /// The flux that a code stands for.
@@ -130,19 +139,17 @@ pub(super) fn phi_value(code: u32, greatest: i32) -> f32 {
     }
 }
 
-/// Code of the breadth √2·`deviation` in units of the frame.
+/// The breadths of the first and the last code.
+const LEAST_BREADTH: f32 = pow2(-30);
+const MOST_BREADTH: f32 = 3.75;
+
+/// Code of the breadth √2·`deviation`, in units of the frame, one of which has 1/`per_unit` of the deviation's.
 #[inline(always)]
-pub(super) fn breadth_code(deviation: f32, unit_exponent: i32) -> u32 {
-    let breadth = (deviation * pow2(-unit_exponent)) * SQRT_2;
-    let rounded = breadth.to_bits().wrapping_add(1 << (BREADTH_SHIFT - 1));
-    let octave = (rounded >> 23) as i32 - BREADTH_BIAS;
-    if octave < 0 {
-        0
-    } else if octave > 31 {
-        255
-    } else {
-        ((octave as u32) << 3) | ((rounded >> BREADTH_SHIFT) & 7)
-    }
+pub(super) fn breadth_code(deviation: f32, per_unit: f32) -> u32 {
+    let breadth = (deviation * per_unit) * SQRT_2;
+    let bounded = exact::min(exact::max(breadth, LEAST_BREADTH), MOST_BREADTH);
+    let rounded = bounded.to_bits().wrapping_add(1 << (BREADTH_SHIFT - 1));
+    (rounded >> BREADTH_SHIFT).wrapping_sub((BREADTH_BIAS as u32) << 3)
 }
 
 /// The breadth that a code stands for, in units of the frame.

@@ -8,6 +8,7 @@ use crate::bounds::LightBounds;
 use crate::cone::{normalized, widened};
 use crate::exact::{self, exponent, pow2};
 use crate::importance::Cluster;
+use crate::summary::Lanes;
 use crate::vector::length_squared;
 
 // Words of a child; each is an array over the slots.
@@ -143,9 +144,9 @@ impl<const W: usize> LightNode<W> for CompactNode<W> {
     }
 
     #[inline(always)]
-    fn set_summaries(&mut self, summaries: &[LightBounds; W]) {
+    fn set_lanes(&mut self, summaries: &Lanes<W>) {
         for slot in 0..W {
-            let bounds = summaries[slot];
+            let bounds: LightBounds = summaries.get(slot);
             let (center, extent) = pack_box(bounds.min, bounds.max);
             self.0[CENTER_X][slot] = center.x.to_bits();
             self.0[CENTER_Y][slot] = center.y.to_bits();

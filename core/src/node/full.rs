@@ -7,6 +7,7 @@ use super::{BoundsNode, LightNode};
 use crate::bounds::LightBounds;
 use crate::exact;
 use crate::importance::Cluster;
+use crate::summary::Lanes;
 use crate::vector::length_squared;
 
 // Words of a child; each is an array over the slots.
@@ -90,9 +91,9 @@ impl<const W: usize> LightNode<W> for FullNode<W> {
     }
 
     #[inline(always)]
-    fn set_summaries(&mut self, summaries: &[LightBounds; W]) {
+    fn set_lanes(&mut self, summaries: &Lanes<W>) {
         for slot in 0..W {
-            let bounds = summaries[slot];
+            let bounds: LightBounds = summaries.get(slot);
             self.set_vector(MIN, slot, bounds.min);
             self.set_vector(MAX, slot, bounds.max);
             self.set_vector(AXIS, slot, bounds.axis);

@@ -23,7 +23,7 @@ use glam::Vec3;
 use crate::bounds::LightBounds;
 use crate::importance::Cluster;
 use crate::moments::LightMoments;
-use crate::summary::Summary;
+use crate::summary::{Lanes, Summary};
 
 /// Version of the node layouts' words; raised whenever a layout changes.
 pub const NODE_FORMAT: u32 = 2;
@@ -62,15 +62,21 @@ pub trait LightNode<const W: usize>: Pod + Send + Sync {
     fn relink(&mut self, slot: usize, link: u32);
     /// Sets the summaries of all children, since they may share a frame; kinds and links stay. Empty slots take
     /// [`Summary::EMPTY`].
-    fn set_summaries(&mut self, summaries: &[Self::Summary; W]);
+    fn set_lanes(&mut self, summaries: &Lanes<W>);
+
+    /// [`set_lanes`](Self::set_lanes), child by child.
+    #[inline(always)]
+    fn set_summaries(&mut self, summaries: &[Self::Summary; W]) {
+        self.set_lanes(&Lanes::of(summaries));
+    }
 
     /// What is known of all children together.
     #[inline(always)]
     fn merged(&self) -> Self::Summary {
-        let mut children = [Self::Summary::EMPTY; W];
+        let mut children = Lanes::<W>::all(&Self::Summary::EMPTY);
         for slot in 0..W {
             if self.kind(slot) != kind::EMPTY {
-                children[slot] = self.summary(slot);
+                children.set(slot, &self.summary(slot));
             }
         }
         Self::Summary::merged(&children)

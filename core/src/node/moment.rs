@@ -5,12 +5,14 @@ use glam::Vec3;
 
 use super::codes::{
     BREADTH_MASK, BREADTH_SHIFT, EXTENT_RANGE, PER_EXTENT_RANGE, PHI_MASK, PHI_SHIFT, SPREAD_UNIT, SQRT_2,
-    SQRT_HALF, WORD_UNIT, breadth_code, breadth_value, field, fraction, header, phi_code, phi_value, spread,
+    SQRT_HALF, WORD_UNIT, breadth_code, breadth_value, field, fraction, frame_of, phi_code, phi_value,
+    spread_code,
 };
 use super::{LightNode, MomentLayout};
 use crate::exact::{self, pow2};
 use crate::importance::{Lobe, frame, side, weight};
-use crate::moments::LightMoments;
+use crate::moments::{Frame, Framed, LightMoments, row};
+use crate::summary::{Lanes, SUMMARY_WORDS};
 use crate::vector::abs3;
 
 /// Words of a node: row 0 is the header (origin x, y, z, exponents), the others hold a word of each child.
@@ -19,6 +21,10 @@ const WORD_1: usize = 2;
 const WORD_2: usize = 3;
 const WORD_3: usize = 4;
 const LINK: usize = 5;
+
+/// √2 breadths as a deviation, and the range of half extents, in units of the words.
+const PER_SQRT_2: f32 = SQRT_HALF * pow2(31);
+const WORD_RANGE: f32 = EXTENT_RANGE * pow2(31);
 
 /// A node of 24 bytes per child; `W` is at least 4.
 ///
@@ -54,45 +60,81 @@ impl<const W: usize> MomentNode<W> {
         ((self.0[0][3] >> 8) & 255) as i32 - 127
     }
 
-    /// The node of these children; slots of kind 0 are empty.
+    /// Packs the children; slots of kind 0 are empty.
     #[inline(always)]
-    fn pack(sets: &[LightMoments; W], kinds: &[u32; W], links: &[u32; W]) -> Self {
-        let mut node = Self::EMPTY;
-        let header = header(sets);
-        node.0[0][0] = header.origin.x.to_bits();
-        node.0[0][1] = header.origin.y.to_bits();
-        node.0[0][2] = header.origin.z.to_bits();
-        node.0[0][3] = (header.unit_exponent + 127) as u32 | (((header.phi_exponent + 127) as u32) << 8);
+    fn pack(&mut self, sets: &Lanes<W>) {
+        let frame = frame_of(sets);
+        self.0[0][0] = frame.origin.x.to_bits();
+        self.0[0][1] = frame.origin.y.to_bits();
+        self.0[0][2] = frame.origin.z.to_bits();
+        self.0[0][3] = (frame.unit_exponent + 127) as u32 | (((frame.phi_exponent + 127) as u32) << 8);
+        let per_unit = pow2(-frame.unit_exponent);
         for i in 0..W {
-            let s = &sets[i];
-            let c = (s.c - header.origin) * pow2(-header.unit_exponent);
-            let phi = phi_code(s.phi, header.phi_exponent);
-            let breadth = breadth_code(s.across, header.unit_exponent);
+            let s: LightMoments = sets.get(i);
+            let c = (s.c - frame.origin) * per_unit;
+            let phi = phi_code(s.phi, frame.phi_exponent);
+            let breadth = breadth_code(s.across, per_unit);
             let per_breadth = exact::recip(breadth_value(breadth));
             // From the low fields up: each knows what lies below it.
-            let ratio =
-                exact::min(s.along, s.across * 2.0) * (pow2(-header.unit_exponent) * SQRT_2) * per_breadth;
+            let ratio = exact::min(s.along, s.across + s.across) * (per_unit * SQRT_2) * per_breadth;
             let w1 = field(ratio - 1.0, 15, 6, phi);
             let w1 = field(c.z, 0, 15, w1);
-            let w0 = field(c.y, 15, 15, kinds[i] & 3);
+            let kind = self.0[WORD_0][i] & 3;
+            let w0 = field(c.y, 15, 15, kind);
             let w0 = field(c.x, 0, 15, w0);
-            let w2 = exact::floor_small(spread(s.m) * 255.0 + 0.5);
-            let w2 = field(s.m.z, 16, 8, w2);
+            let w2 = field(s.m.z, 16, 8, spread_code(s.m));
             let w2 = field(s.m.y, 8, 8, w2);
             let w2 = field(s.m.x, 0, 8, w2);
-            let h = s.h * pow2(-header.unit_exponent) * (per_breadth * PER_EXTENT_RANGE)
-                - Vec3::new(1.0, 1.0, 1.0);
-            let w3 = field(h.z, 16, 8, breadth);
-            let w3 = field(h.y, 8, 8, w3);
-            let w3 = field(h.x, 0, 8, w3);
-            let used = (kinds[i] & 3 != 0) & (s.phi > 0.0);
-            node.0[WORD_0][i] = if used { w0 } else { kinds[i] & 3 };
-            node.0[WORD_1][i] = if used { w1 } else { 0 };
-            node.0[WORD_2][i] = if used { w2 } else { 0 };
-            node.0[WORD_3][i] = if used { w3 } else { 0 };
-            node.0[LINK][i] = links[i];
+            let per_extent = per_breadth * PER_EXTENT_RANGE;
+            let w3 = field((s.h.z * per_unit) * per_extent - 1.0, 16, 8, breadth);
+            let w3 = field((s.h.y * per_unit) * per_extent - 1.0, 8, 8, w3);
+            let w3 = field((s.h.x * per_unit) * per_extent - 1.0, 0, 8, w3);
+            let used = exact::mask(kind) & exact::mask_of(s.phi > 0.0);
+            self.0[WORD_0][i] = exact::masked_u32(used, w0, kind);
+            self.0[WORD_1][i] = w1 & used;
+            self.0[WORD_2][i] = w2 & used;
+            self.0[WORD_3][i] = w3 & used;
         }
-        node
+    }
+
+    /// The children as they are stored, in the node's own frame: the words are nearly that.
+    #[inline(always)]
+    fn framed(&self) -> Framed<W> {
+        let mut rows = [[0.0; W]; SUMMARY_WORDS];
+        for i in 0..W {
+            let (w0, w1, w2, w3) = (
+                self.0[WORD_0][i],
+                self.0[WORD_1][i],
+                self.0[WORD_2][i],
+                self.0[WORD_3][i],
+            );
+            let used = exact::mask(w0 & 3);
+            rows[row::PHI][i] = f32::from_bits(((w1 & PHI_MASK) << PHI_SHIFT) & used);
+            rows[row::C][i] = fraction(w0, 0);
+            rows[row::C + 1][i] = fraction(w0, 15);
+            rows[row::C + 2][i] = fraction(w1, 0);
+            let breadth = breadth_value(w3 & 255);
+            let across = breadth * PER_SQRT_2;
+            rows[row::ACROSS][i] = across;
+            rows[row::ALONG][i] = across * (fraction(w1, 15) * WORD_UNIT + 1.0);
+            rows[row::M][i] = fraction(w2, 0);
+            rows[row::M + 1][i] = fraction(w2, 8);
+            rows[row::M + 2][i] = fraction(w2, 16);
+            let per_word = breadth * EXTENT_RANGE;
+            let range = breadth * WORD_RANGE;
+            rows[row::H][i] = fraction(w3, 0) * per_word + range;
+            rows[row::H + 1][i] = fraction(w3, 8) * per_word + range;
+            rows[row::H + 2][i] = fraction(w3, 16) * per_word + range;
+        }
+        Framed {
+            frame: Frame {
+                origin: self.origin(),
+                unit_exponent: self.unit_exponent(),
+                // Codes are flux in units of twice that power: the greatest is 1/2 to 1.
+                phi_exponent: self.phi_exponent() + 1,
+            },
+            sets: Lanes(rows),
+        }
     }
 }
 
@@ -136,6 +178,11 @@ impl<const W: usize> LightNode<W> for MomentNode<W> {
         }
     }
 
+    #[inline(always)]
+    fn merged(&self) -> LightMoments {
+        self.framed().merged()
+    }
+
     fn set_child(&mut self, slot: usize, kind: u32, link: u32) {
         for row in 1..6 {
             self.0[row][slot] = 0;
@@ -149,13 +196,8 @@ impl<const W: usize> LightNode<W> for MomentNode<W> {
     }
 
     #[inline(always)]
-    fn set_summaries(&mut self, summaries: &[LightMoments; W]) {
-        let (mut kinds, mut links) = ([0; W], [0; W]);
-        for slot in 0..W {
-            kinds[slot] = self.kind(slot);
-            links[slot] = self.link(slot);
-        }
-        *self = Self::pack(summaries, &kinds, &links);
+    fn set_lanes(&mut self, summaries: &Lanes<W>) {
+        self.pack(summaries);
     }
 }
 

@@ -8,6 +8,7 @@ use super::{LightNode, MomentLayout};
 use crate::exact::{self, exponent, pow2};
 use crate::importance::{Lobe, recip_positive, side, weight};
 use crate::moments::{LEAST_EXPONENT, LightMoments};
+use crate::summary::Lanes;
 use crate::vector::abs3;
 
 /// A node in full `f32`: 60 bytes per child and no header, for refit in place and as the measure of the packed one.
@@ -29,10 +30,10 @@ impl<const W: usize> FullMomentNode<W> {
 
     /// The node of these children; slots of kind 0 are empty.
     #[inline(always)]
-    fn pack(sets: &[LightMoments; W], kinds: &[u32; W], links: &[u32; W]) -> Self {
+    fn pack(sets: &Lanes<W>, kinds: &[u32; W], links: &[u32; W]) -> Self {
         let mut node = Self::EMPTY;
         for i in 0..W {
-            let s = &sets[i];
+            let s: LightMoments = sets.get(i);
             let shines = (kinds[i] & 3 != 0) & (s.phi > 0.0);
             // A ratio, of numbers of about the same size: scaled, so that neither is too small to divide by.
             let e = exponent(s.across);
@@ -121,7 +122,7 @@ impl<const W: usize> LightNode<W> for FullMomentNode<W> {
     }
 
     #[inline(always)]
-    fn set_summaries(&mut self, summaries: &[LightMoments; W]) {
+    fn set_lanes(&mut self, summaries: &Lanes<W>) {
         let (mut kinds, mut links) = ([0; W], [0; W]);
         for slot in 0..W {
             kinds[slot] = self.kind(slot);

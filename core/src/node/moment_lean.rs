@@ -1,16 +1,17 @@
-//! Moments without box and with one deviation, 16 bytes per child and a header.
+//! Moments without box and with one deviation, 16 bytes per child and a frame.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::codes::{
     EXTENT_RANGE, PHI_MASK, PHI_SHIFT, SPREAD_UNIT, SQRT_HALF, WORD_UNIT, breadth_code, breadth_value, field,
-    fraction, header, phi_code, phi_value, spread,
+    fraction, frame_of, phi_code, phi_value, spread_code,
 };
 use super::{LightNode, MomentLayout};
-use crate::exact::{self, pow2};
+use crate::exact::pow2;
 use crate::importance::{Lobe, frame, side, weight};
 use crate::moments::LightMoments;
+use crate::summary::Lanes;
 
 const WORD_0: usize = 1;
 const WORD_1: usize = 2;
@@ -44,25 +45,24 @@ impl<const W: usize> LeanMomentNode<W> {
 
     /// The node of these children; slots of kind 0 are empty.
     #[inline(always)]
-    fn pack(sets: &[LightMoments; W], kinds: &[u32; W], links: &[u32; W]) -> Self {
+    fn pack(sets: &Lanes<W>, kinds: &[u32; W], links: &[u32; W]) -> Self {
         let mut node = Self::EMPTY;
-        let header = header(sets);
-        node.0[0][0] = header.origin.x.to_bits();
-        node.0[0][1] = header.origin.y.to_bits();
-        node.0[0][2] = header.origin.z.to_bits();
-        node.0[0][3] = (header.unit_exponent + 127) as u32 | (((header.phi_exponent + 127) as u32) << 8);
+        let frame = frame_of(sets);
+        node.0[0][0] = frame.origin.x.to_bits();
+        node.0[0][1] = frame.origin.y.to_bits();
+        node.0[0][2] = frame.origin.z.to_bits();
+        node.0[0][3] = (frame.unit_exponent + 127) as u32 | (((frame.phi_exponent + 127) as u32) << 8);
         for i in 0..W {
-            let s = &sets[i];
-            let c = (s.c - header.origin) * pow2(-header.unit_exponent);
+            let s: LightMoments = sets.get(i);
+            let c = (s.c - frame.origin) * pow2(-frame.unit_exponent);
             // Of the eight bits of a breadth the last is rounded away.
-            let fine = breadth_code(lean_deviation(s), header.unit_exponent) + 1;
+            let fine = breadth_code(lean_deviation(&s), pow2(-frame.unit_exponent)) + 1;
             let code = if fine > 255 { 127 } else { fine >> 1 };
-            let w1 = phi_code(s.phi, header.phi_exponent) | (code << 11);
+            let w1 = phi_code(s.phi, frame.phi_exponent) | (code << 11);
             let w1 = field(c.z, 0, 14, w1);
             let w0 = field(c.y, 15, 15, kinds[i] & 3);
             let w0 = field(c.x, 0, 15, w0);
-            let w2 = exact::floor_small(spread(s.m) * 255.0 + 0.5);
-            let w2 = field(s.m.z, 16, 8, w2);
+            let w2 = field(s.m.z, 16, 8, spread_code(s.m));
             let w2 = field(s.m.y, 8, 8, w2);
             let w2 = field(s.m.x, 0, 8, w2);
             let used = (kinds[i] & 3 != 0) & (s.phi > 0.0);
@@ -121,7 +121,7 @@ impl<const W: usize> LightNode<W> for LeanMomentNode<W> {
     }
 
     #[inline(always)]
-    fn set_summaries(&mut self, summaries: &[LightMoments; W]) {
+    fn set_lanes(&mut self, summaries: &Lanes<W>) {
         let (mut kinds, mut links) = ([0; W], [0; W]);
         for slot in 0..W {
             kinds[slot] = self.kind(slot);

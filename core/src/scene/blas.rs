@@ -123,7 +123,13 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         blas.born = born;
         self.roots[index as usize].node = nodes.start;
 
-        sweep::bottom_sweep(&mut self.nodes, &self.triangles, nodes.clone());
+        let range = nodes.start as usize..nodes.end as usize;
+        sweep::bottom_sweep(
+            &mut self.nodes[range],
+            nodes.start,
+            &self.triangles,
+            &[nodes.start],
+        );
         self.roots[index as usize] = refit::root(&self.nodes, nodes.start);
         let placed = &self.nodes[nodes.start as usize..nodes.end as usize];
         self.blases[index as usize].cost = drift(

@@ -1,0 +1,271 @@
+//! Moments against the same sums in `f64`.
+
+mod reference;
+
+use glam::Vec3;
+
+use reference::{Exact, Wide, merged};
+
+use super::LightMoments;
+use crate::exact::{hash, pow2, unit_f32};
+use crate::light::{EmissiveTriangle, TWO_SIDED};
+use crate::node::{FullMomentNode, LightNode, MomentNode, kind};
+use crate::summary::Summary;
+
+struct Random(u32);
+
+impl Random {
+    fn unit(&mut self) -> f32 {
+        self.0 = self.0.wrapping_add(1);
+        unit_f32(hash(self.0))
+    }
+
+    fn signed(&mut self) -> f32 {
+        2.0 * self.unit() - 1.0
+    }
+
+    fn vector(&mut self) -> Vec3 {
+        Vec3::new(self.signed(), self.signed(), self.signed())
+    }
+
+    /// A set with flux, of lengths of about `scale`.
+    fn set(&mut self, scale: f32, flux: f32) -> LightMoments {
+        let m = self.vector() * if self.unit() < 0.2 { 0.02 } else { 0.57 };
+        LightMoments {
+            phi: (0.1 + self.unit()) * flux,
+            c: self.vector() * scale,
+            across: self.unit() * 0.2 * scale,
+            along: self.unit() * 0.2 * scale,
+            m,
+            h: Vec3::new(self.unit(), self.unit(), self.unit()) * (0.5 * scale),
+        }
+    }
+}
+
+#[track_caller]
+fn near(found: f32, expected: f64, bound: f64, what: &str) {
+    let off = (f64::from(found) - expected).abs();
+    assert!(
+        off <= bound,
+        "{what}: {found:e}, expected {expected:e}, off by {off:e}"
+    );
+}
+
+#[track_caller]
+fn alike(found: &LightMoments, expected: &Exact, size: f64) {
+    near(found.phi, expected.phi, 1e-5 * expected.phi, "flux");
+    near(found.across, expected.across, 1e-5 * size, "across");
+    near(found.along, expected.along, 1e-5 * size, "along");
+    for k in 0..3 {
+        near(found.c[k], expected.c[k], 1e-5 * size, "centre");
+        near(found.m[k], expected.m[k], 1e-5, "normal");
+        near(found.h[k], expected.h[k], 1e-5 * size, "half extent");
+    }
+}
+
+#[test]
+fn merges_are_the_sums() {
+    let mut random = Random(1);
+    for _ in 0..2000 {
+        let mut sets = [LightMoments::EMPTY; 8];
+        for set in &mut sets {
+            if random.unit() < 0.8 {
+                *set = random.set(1.0, 1.0);
+            }
+        }
+        if sets.iter().any(|s| s.phi > 0.0) {
+            alike(&LightMoments::merge(&sets), &merged(&sets), 1.0);
+        }
+    }
+}
+
+#[test]
+fn merges_at_the_ends_of_the_domain_are_the_sums() {
+    let mut random = Random(2);
+    for scale in [-95, -60, 0, 40] {
+        for flux in [-96, -40, 0, 99] {
+            let sets = [0; 8].map(|_| random.set(pow2(scale), pow2(flux)));
+            alike(
+                &LightMoments::merge(&sets),
+                &merged(&sets),
+                f64::from(pow2(scale)),
+            );
+        }
+    }
+}
+
+#[test]
+fn powers_of_two_change_no_bit() {
+    let mut random = Random(3);
+    for e in [-50, -7, 1, 30] {
+        let sets = [0; 8].map(|_| random.set(1.0, 1.0));
+        let by = pow2(e);
+        let grown = sets.map(|s| LightMoments {
+            phi: s.phi * by,
+            c: s.c * by,
+            across: s.across * by,
+            along: s.along * by,
+            m: s.m,
+            h: s.h * by,
+        });
+        let (a, b) = (LightMoments::merge(&sets), LightMoments::merge(&grown));
+        assert_eq!((a.phi * by, a.c * by, a.m), (b.phi, b.c, b.m));
+        assert_eq!((a.across * by, a.along * by, a.h * by), (b.across, b.along, b.h));
+    }
+}
+
+/// Whatever the numbers of a set without flux are.
+#[test]
+fn sets_without_flux_are_ignored() {
+    let mut random = Random(4);
+    let mut sets = [0; 8].map(|_| random.set(1.0, 1.0));
+    for i in [0, 3, 7] {
+        sets[i] = LightMoments::EMPTY;
+    }
+    let expected = LightMoments::merge(&sets);
+    for i in [0, 3, 7] {
+        sets[i] = random.set(1e20, 0.0);
+    }
+    assert_eq!(LightMoments::merge(&sets), expected);
+    assert_eq!(
+        LightMoments::merge(&[random.set(1.0, 0.0); 8]),
+        LightMoments::EMPTY
+    );
+}
+
+#[test]
+fn one_set_alone_stays_as_it_is() {
+    let mut random = Random(5);
+    for slot in 0..8 {
+        let mut sets = [LightMoments::EMPTY; 8];
+        // Where the normal has no direction, the deviations become one.
+        sets[slot] = LightMoments {
+            m: Vec3::new(0.6, -0.5, 0.3),
+            ..random.set(1.0, 1.0)
+        };
+        alike(&LightMoments::merge(&sets), &merged(&sets), 1.0);
+        assert_eq!(LightMoments::merge(&sets).c, sets[slot].c);
+        assert!((LightMoments::merge(&sets).along - sets[slot].along).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn moments_of_triangles_are_the_integrals() {
+    let mut random = Random(6);
+    for i in 0..2000 {
+        let size = pow2([0, 0, -40, 30][i % 4]);
+        let at = random.vector() * size;
+        let [b, c] = [0; 2].map(|_| at + random.vector() * size);
+        let (flags, radiance) = (i as u32 / 7 % 2 * TWO_SIDED, [random.unit(), 2.0, random.unit()]);
+        let p = [at, b, c].map(|v| v.to_array());
+        let triangle = EmissiveTriangle {
+            p,
+            radiance,
+            mesh: 0,
+            flags,
+        };
+        let (p0, a, b) = (Wide::of(at), Wide::of(b - at), Wide::of(c - at));
+        let (cross, mean) = (a.cross(b), (a + b) / 3.0);
+        let longest = a.dot(a).max(b.dot(b));
+        let squares = mean.dot(mean) + (a - mean).dot(a - mean) + (b - mean).dot(b - mean);
+        let deviation = (squares / 24.0).sqrt();
+        let luminance = 0.2126 * f64::from(radiance[0]) + 0.7152 * 2.0 + 0.0722 * f64::from(radiance[2]);
+        let sides = if flags == 0 { 1.0 } else { 2.0 };
+        let expected = Exact {
+            phi: core::f64::consts::FRAC_PI_2 * cross.length() * luminance * sides,
+            c: p0 + mean,
+            across: deviation,
+            along: if flags == 0 { 0.0 } else { deviation },
+            m: if flags == 0 { cross.normalize() } else { Wide::ZERO },
+            h: mean.abs().max((a - mean).abs()).max((b - mean).abs()),
+        };
+        // Rounding turns the normals of needles.
+        if cross.length() > 0.1 * longest {
+            alike(&LightMoments::of_triangle(&triangle), &expected, f64::from(size));
+        }
+    }
+}
+
+fn node<N: LightNode<8, Summary = LightMoments>>(sets: &[LightMoments; 8]) -> N {
+    let mut node = N::EMPTY;
+    for slot in 0..8 {
+        node.set_child(slot, kind::LIGHT, slot as u32);
+    }
+    node.set_summaries(sets);
+    node
+}
+
+#[test]
+fn packed_moments_are_within_half_a_code() {
+    let mut random = Random(7);
+    for scale in [-90, 0, 39] {
+        for _ in 0..500 {
+            let scale = pow2(scale);
+            let sets = [0; 8].map(|_| random.set(scale, 1.0));
+            let node: MomentNode<8> = node(&sets);
+            let mut low = sets[0].c;
+            let mut high = sets[0].c;
+            for s in &sets {
+                (low, high) = (low.min(s.c), high.max(s.c));
+            }
+            // The unit is at most twice the greatest offset from the middle.
+            let unit = f64::from((high - low).max_element());
+            for (slot, s) in sets.iter().enumerate() {
+                let found = node.summary(slot);
+                let (size, breadth) = (f64::from(scale), f64::from(found.across) * 2.0_f64.sqrt());
+                near(found.phi, s.phi.into(), f64::from(s.phi) / 32.0, "flux");
+                near(
+                    found.across,
+                    s.across.into(),
+                    f64::from(s.across) / 16.0 + 1e-6 * size,
+                    "across",
+                );
+                for k in 0..3 {
+                    near(
+                        found.c[k],
+                        s.c[k].into(),
+                        unit * 2.0_f64.powi(-15) + 1e-6 * size,
+                        "centre",
+                    );
+                    near(found.m[k], s.m[k].into(), 2.0_f64.powi(-8) * 1.001, "normal");
+                    let stored = f64::from(s.h[k]).min(breadth * (16.0 - 1.0 / 16.0));
+                    near(found.h[k], stored, breadth / 16.0 + breadth / 32.0, "half extent");
+                }
+                let along = f64::from(s.along.min(2.0 * s.across)).min(f64::from(found.across) * 63.0 / 32.0);
+                near(
+                    found.along,
+                    along,
+                    f64::from(found.across) / 20.0 + f64::from(s.across) / 16.0,
+                    "along",
+                );
+            }
+        }
+    }
+}
+
+/// What a packed node says of all its children is what they say as they are read.
+#[test]
+fn packed_nodes_merge_what_they_store() {
+    let mut random = Random(8);
+    for _ in 0..500 {
+        let sets = [0; 8].map(|_| random.set(1.0, 1.0));
+        let node: MomentNode<8> = node(&sets);
+        let mut stored = sets;
+        for slot in 0..8 {
+            stored[slot] = node.summary(slot);
+        }
+        alike(&node.merged(), &merged(&stored), 2.0);
+    }
+}
+
+#[test]
+fn full_nodes_merge_what_they_store() {
+    let mut random = Random(9);
+    let sets = [0; 8].map(|_| random.set(1.0, 1.0));
+    let node: FullMomentNode<8> = node(&sets);
+    let stored = [0, 1, 2, 3, 4, 5, 6, 7].map(|slot| node.summary(slot));
+    assert_eq!(
+        node.merged(),
+        <LightMoments as Summary>::merged(&crate::summary::Lanes::of(&stored))
+    );
+}
