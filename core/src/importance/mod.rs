@@ -50,22 +50,6 @@ impl<N, I: ImportanceModel<N, W>, const HALVINGS: u32, const W: usize> Importanc
     }
 }
 
-/// The sum of up to 16 numbers: halves of the array are added slot by slot, as registers of several numbers do it.
-#[inline(always)]
-pub(crate) fn halving_sum<const W: usize>(numbers: &[f32; W]) -> f32 {
-    let mut sums = *numbers;
-    let mut stride = 8;
-    for _ in 0..4 {
-        for slot in 0..W {
-            if slot < stride && slot + stride < W {
-                sums[slot] += sums[slot + stride];
-            }
-        }
-        stride /= 2;
-    }
-    sums[0]
-}
-
 /// A weight `significand · 2^exponent`. The exponent is kept apart because Φ/d² of the accepted domain spans 2^±300.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Scaled {

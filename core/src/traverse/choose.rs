@@ -116,7 +116,7 @@ impl Rows {
         Self([row(0), row(4), row(8), row(12)])
     }
 
-    /// The sum, by halves as [`halving_sum`](crate::importance::halving_sum).
+    /// The sum, its halves added slot by slot, as registers do it.
     #[inline(always)]
     fn sum<const W: usize>(&self) -> f32 {
         let [a, b, c, d] = self.0;
