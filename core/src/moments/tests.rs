@@ -7,10 +7,11 @@ use glam::Vec3;
 use reference::{Exact, Wide, merged};
 
 use super::LightMoments;
-use crate::exact::{hash, pow2, unit_f32};
+use crate::exact::{self, hash, pow2, unit_f32};
 use crate::light::{EmissiveTriangle, TWO_SIDED};
 use crate::node::{FullMomentNode, LightNode, MomentNode, kind};
 use crate::summary::Summary;
+use crate::vector::{max3, min3};
 
 struct Random(u32);
 
@@ -145,7 +146,7 @@ fn one_set_alone_stays_as_it_is() {
         };
         alike(&LightMoments::merge(&sets), &merged(&sets), 1.0);
         assert_eq!(LightMoments::merge(&sets).c, sets[slot].c);
-        assert!((LightMoments::merge(&sets).along - sets[slot].along).abs() < 1e-5);
+        assert!(exact::abs(LightMoments::merge(&sets).along - sets[slot].along) < 1e-5);
     }
 }
 
@@ -206,7 +207,7 @@ fn packed_moments_are_within_half_a_code() {
             let mut low = sets[0].c;
             let mut high = sets[0].c;
             for s in &sets {
-                (low, high) = (low.min(s.c), high.max(s.c));
+                (low, high) = (min3(low, s.c), max3(high, s.c));
             }
             // The unit is at most twice the greatest offset from the middle.
             let unit = f64::from((high - low).max_element());
@@ -231,7 +232,8 @@ fn packed_moments_are_within_half_a_code() {
                     let stored = f64::from(s.h[k]).min(breadth * (16.0 - 1.0 / 16.0));
                     near(found.h[k], stored, breadth / 16.0 + breadth / 32.0, "half extent");
                 }
-                let along = f64::from(s.along.min(2.0 * s.across)).min(f64::from(found.across) * 63.0 / 32.0);
+                let along =
+                    f64::from(exact::min(s.along, 2.0 * s.across)).min(f64::from(found.across) * 63.0 / 32.0);
                 near(
                     found.along,
                     along,

@@ -13,7 +13,8 @@ use crate::tree::{INVALID, LightTree};
 /// A light and the probability with which it was chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SampledLight {
-    /// Index of the emissive triangle; [`INVALID`] when no light has flux.
+    /// Index of the emissive triangle; [`INVALID`] when no light has flux. (A share of uniform choice may return a light
+    /// without flux, with the probability that it has.)
     pub light: u32,
     /// Probability of this light at this point, in (0, 1]; 0 with [`INVALID`].
     pub pmf: f32,

@@ -88,7 +88,7 @@ fn signs() -> Vec<EmissiveTriangle> {
     let mut lamps = Vec::new();
     for sign in 0..128u32 {
         let center: [f32; 3] = std::array::from_fn(|k| 60.0 * draw(sign, k as u32));
-        let angle = 6.283 * draw(sign, 7);
+        let angle = std::f32::consts::TAU * draw(sign, 7);
         let (along, up) = (
             [angle.cos(), 0.0, angle.sin()],
             [0.2 * angle.sin(), 0.98, -0.2 * angle.cos()],
@@ -104,7 +104,7 @@ fn signs() -> Vec<EmissiveTriangle> {
 }
 
 fn beside_signs(r: u32) -> ShadingPoint {
-    let angle = 6.283 * draw(r, 4);
+    let angle = std::f32::consts::TAU * draw(r, 4);
     ShadingPoint {
         p: std::array::from_fn(|k| 62.0 * draw(r, k as u32)),
         n: [angle.cos(), 0.0, angle.sin()],
@@ -116,7 +116,7 @@ fn shells() -> Vec<EmissiveTriangle> {
     (0..200_000u32)
         .map(|i| {
             let (shell, at) = (1.0 + (i % 8) as f32, i / 8);
-            let (z, angle) = (2.0 * draw(at, 0) - 1.0, 6.283 * draw(at, 1));
+            let (z, angle) = (2.0 * draw(at, 0) - 1.0, std::f32::consts::TAU * draw(at, 1));
             let ring = (1.0 - z * z).max(0.0).sqrt();
             let n = [ring * angle.cos(), ring * angle.sin(), z];
             let a = [-angle.sin(), angle.cos(), 0.0];
