@@ -44,9 +44,9 @@ pub fn top<N: LightNode<W>, const W: usize>(
     });
 }
 
-/// [`refit::bottom`] over all `nodes`, bottom levels that stand in depth-first order one after another, the trees of `roots`, from node
-/// `first` on:
-/// children before parents, from the last to the first, so that memory is read in one direction. Subtrees go to several threads.
+/// [`refit::bottom`] over all `nodes`, which begin with node `first`: the trees of `roots`, each in depth-first order, one after
+/// another. Children come before parents, from the last node to the first, so that memory is read in one direction; subtrees go
+/// to several threads.
 pub fn bottom_sweep<N: LightNode<W>, const W: usize>(
     nodes: &mut [N],
     first: u32,

@@ -10,7 +10,7 @@ pub(crate) use extent::Extent;
 use crate::exact;
 use crate::instance::Instance;
 use crate::light::{MAX_COORDINATE, MIN_COORDINATE};
-use vector::{cross, dot, greatest, magnitude, square_root};
+use vector::{cross, dot, greatest, magnitude};
 
 /// Entries of the maps below this count as zero: 2^-60.
 const TINY_ENTRY: f32 = exact::pow2(-60);
@@ -104,18 +104,19 @@ impl Transform {
             FLAT
         };
         // Rows of the inverse are the cofactors' columns over the determinant.
+        let per_divisor = per_entry / divisor;
         let mut inverse = [[0.0f32; 3]; 3];
         for (row, cofactor) in cofactors.iter().enumerate() {
             for (column, &x) in cofactor.iter().enumerate() {
-                let exact_entry = x / divisor * per_entry;
-                let bounded = -greatest(-greatest(exact_entry, -MOST_ENTRY), -MOST_ENTRY);
+                let bounded = -greatest(-greatest(x * per_divisor, -MOST_ENTRY), -MOST_ENTRY);
                 inverse[column][row] = exact::flush(bounded as f32, TINY_ENTRY);
             }
         }
         let squares = |m: &[[f64; 3]; 3]| dot(m[0], m[0]) + dot(m[1], m[1]) + dot(m[2], m[2]);
-        let norm = square_root(squares(&inverse.map(|column| column.map(f64::from))));
-        let per_inverse = if norm > 0.0 { SQRT_3 / norm } else { 0.0 };
-        let area = square_root(squares(&cofactors)) / SQRT_3 * (entry * entry);
+        // Roots of numbers from 2^-120 to 2^124.
+        let norm = exact::sqrt(squares(&inverse.map(|column| column.map(f64::from))) as f32);
+        let per_inverse = if norm > 0.0 { SQRT_3 / f64::from(norm) } else { 0.0 };
+        let area = f64::from(exact::sqrt(squares(&cofactors) as f32)) / SQRT_3 * (entry * entry);
         let flux = (area * f64::from(radiance)) as f32;
         Instance {
             columns: self

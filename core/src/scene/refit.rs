@@ -73,6 +73,9 @@ pub struct Work {
     pub written_instances: Vec<Range<u32>>,
     /// Nodes of bottom levels whose triangles changed.
     pub bottom: Levels,
+    /// The same nodes by bottom level, each range in depth-first order: swept from its last node to its first, it reads memory in
+    /// one direction.
+    pub trees: Vec<Range<u32>>,
     /// Bottom levels whose root changed: another node, or another summary. A mirror takes the node from [`Scene::roots`].
     pub roots: Vec<u32>,
     /// Nodes of the top level with instances that changed, and those above them.
@@ -104,8 +107,13 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         self.planned = false;
         let work = core::mem::take(&mut self.work);
         self.refits += u64::from(work.computed() > 0);
-        for range in work.bottom.ranges() {
-            sweep::bottom(&mut self.nodes, &self.triangles, &work.bottom.nodes()[range]);
+        for tree in &work.trees {
+            sweep::bottom_sweep(
+                &mut self.nodes[tree.start as usize..tree.end as usize],
+                tree.start,
+                &self.triangles,
+                &[tree.start],
+            );
         }
         for &blas in &work.roots {
             let root = self.roots[blas as usize].node;
@@ -142,6 +150,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         let mut lists = Vec::new();
         for &blas in &pending.blases {
             let own = &self.blases[blas as usize];
+            work.trees.push(own.nodes.clone());
             lists.push(&own.levels);
         }
         work.bottom = Levels::join(&lists);
