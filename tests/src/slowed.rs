@@ -8,6 +8,7 @@ use std::time::Duration;
 use bytemuck::{Pod, Zeroable};
 use lightbvh::bounds::LightBounds;
 use lightbvh::importance::Cluster;
+use lightbvh::summary::Lanes;
 use lightbvh::{BoundsNode, CompactNode, LightNode};
 
 /// Number of tests that may use [`Slowed`] in one program; each needs a number of its own.
@@ -131,8 +132,8 @@ impl<const TEST: usize> LightNode<4> for Slowed<TEST> {
     fn relink(&mut self, slot: usize, link: u32) {
         self.0.relink(slot, link);
     }
-    fn set_summaries(&mut self, summaries: &[LightBounds; 4]) {
-        self.0.set_summaries(summaries);
+    fn set_lanes(&mut self, summaries: &Lanes<4>) {
+        self.0.set_lanes(summaries);
     }
 }
 

@@ -4,10 +4,8 @@ use glam::Vec3;
 use lightbvh::bounds::{MAX_PHI, MIN_PHI};
 use lightbvh::cone::{Cone, normalized};
 use lightbvh::node::kind;
-use lightbvh::{
-    BoundsNode, CompactNode, FullNode, ImportanceModel, Instance, LightBounds, LightNode, Summary, exact,
-};
-use lightbvh_tests::each_layout;
+use lightbvh::{BoundsNode, CompactNode, FullNode, Instance, LightBounds, LightNode, Summary, exact};
+use lightbvh_tests::each_node;
 use lightbvh_tests::generate::{self, Random, any_bounds, extreme_triangle};
 use lightbvh_tests::oracle::{assert_cone_contains, box_contains, half_angle};
 use proptest::prelude::*;
@@ -139,7 +137,7 @@ fn all_cone_codes() {
 }
 
 /// Kinds and links are kept apart from summaries, and from each other; what is said of a child does not touch the others.
-fn children_keep_to_their_slots<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>() {
+fn children_keep_to_their_slots<N: LightNode<W>, const W: usize>() {
     let mut random = Random::new(W as u32);
     let mut node = N::EMPTY;
     let words = |node: &N, slot: usize| node.summary(slot).to_words().map(f32::to_bits);
@@ -180,11 +178,11 @@ fn children_keep_to_their_slots<N: LightNode<W>, I: ImportanceModel<N, W>, const
 
 #[test]
 fn kinds_and_links() {
-    each_layout!(children_keep_to_their_slots());
+    each_node!(children_keep_to_their_slots());
 }
 
 /// Flux that is not zero never becomes zero on its way into a node, up its parents and into the world.
-fn flux_is_kept<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>() {
+fn flux_is_kept<N: LightNode<W>, const W: usize>() {
     let mut random = Random::new(W as u32);
     for _ in 0..2000 {
         let children: [N::Summary; W] =
@@ -218,7 +216,7 @@ fn flux_is_kept<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>() {
 
 #[test]
 fn flux_stays_flux() {
-    each_layout!(flux_is_kept());
+    each_node!(flux_is_kept());
 }
 
 /// The least and greatest of everything at once.

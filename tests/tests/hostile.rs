@@ -224,7 +224,8 @@ fn cycles_end<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>() {
     let (all, one, trails) = ([to_root; 3], [to_root; 1], [0x5555_5555; 8]);
     // And the greatest number of nodes on a way, in a tree of any depth.
     let (endless, levels) = (2 * max_levels(W), max_levels(W));
-    let cycles: [(&str, &[[(u32, u32); 2]], u32); 8] = [
+    type Children = [(u32, u32); 2];
+    let cycles: [(&str, &[Children], u32); 8] = [
         ("a node of itself", &[[(INNER, 0), (INNER, 0)]], levels),
         (
             "two nodes of each other",

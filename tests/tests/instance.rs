@@ -3,6 +3,7 @@
 use glam::{DMat3, DVec3};
 use lightbvh::exact::pow2;
 use lightbvh::light::MAX_COORDINATE;
+use lightbvh::summary::Lanes;
 use lightbvh::{
     CompactNode, Edit, EmissiveTriangle, ImportanceModel, Instance, LightBounds, LightNode, Scene,
     ShadingPoint, Summary, Transform,
@@ -303,7 +304,9 @@ fn flux_in_the_world_is_a_mean() {
                 flux(triangle) * (forward * (b - a)).cross(forward * (c - a)).length()
             })
             .sum();
-        let all = LightBounds::merged(&faces.map(|triangle| LightBounds::of_triangle(&triangle)));
+        let all = LightBounds::merged(&Lanes::of(
+            &faces.map(|triangle| LightBounds::of_triangle(&triangle)),
+        ));
         let found = f64::from(all.to_world(&instance).phi);
         let ratio = found / world;
         assert!((0.9999..=1.7322).contains(&ratio), "{ratio}: {transform:?}");

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use lightbvh::BuildParams;
+use lightbvh::{BuildParams, Heuristic};
 use lightbvh_host::backend::{Backend, Bvh, CpuBackend, Sampler};
 use lightbvh_host::method::{Method, Step, Target, runner};
 use lightbvh_host::scene::Scene;
 use lightbvh_host::workload::{Shot, arrays_at, build, lights_at};
-use lightbvh_kernels::bvh::{Standard, WIDTH};
+use lightbvh_kernels::bvh::Paper;
 
 const LAST: u32 = 12;
 const SHOT: Shot = Shot {
@@ -65,8 +65,9 @@ fn skipped_frames_change_no_word() {
 fn a_rebuilt_tree_is_a_new_tree_and_a_refitted_one_is_not() {
     let scene = Scene::open("street").expect("a scene");
     let arrays = arrays_at(&scene, LAST, SHOT.width, SHOT.height).expect("a frame");
-    let bvh: Bvh = build(&arrays.lights, Sampler::SingleLevel, &BuildParams::default());
-    let mut cpu = CpuBackend::<Standard, WIDTH>::new(bvh, arrays.lights.clone());
+    let params = BuildParams::paper(Heuristic::Saoh);
+    let bvh: Bvh<Paper, 4> = build(&arrays.lights, Sampler::SingleLevel, &params);
+    let mut cpu = CpuBackend::<Paper, 4>::new(bvh, arrays.lights.clone());
     let params = SHOT.params(scene.data().background);
     let new = cpu
         .render(&arrays, &params, Sampler::SingleLevel)

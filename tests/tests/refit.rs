@@ -3,10 +3,10 @@
 use lightbvh::node::kind;
 use lightbvh::validate::What;
 use lightbvh::{
-    BuildParams, CompactNode, EmissiveTriangle, FullNode, Heuristic, INVALID, ImportanceModel, Instance,
-    LightBvh, LightNode, Lights, Summary, bvh, exact, refit,
+    BuildParams, CompactNode, EmissiveTriangle, FullNode, Heuristic, INVALID, Instance, LightBvh, LightNode,
+    Lights, Summary, bvh, exact, refit,
 };
-use lightbvh_tests::each_layout;
+use lightbvh_tests::each_node;
 use lightbvh_tests::generate::{self, Random, split};
 use proptest::prelude::*;
 
@@ -44,10 +44,10 @@ fn recomputed<N: LightNode<W>, const W: usize>(
     let old = tree.nodes[index as usize];
     let mut node = N::EMPTY;
     let mut children = [N::Summary::EMPTY; W];
-    for slot in 0..W {
+    for (slot, child) in children.iter_mut().enumerate() {
         let (to, link) = (old.kind(slot), old.link(slot));
         node.set_child(slot, to, link);
-        children[slot] = match to {
+        *child = match to {
             kind::EMPTY => continue,
             kind::LIGHT => N::Summary::of_triangle(&lights.triangles()[link as usize]),
             kind::MESH => {
@@ -59,15 +59,8 @@ fn recomputed<N: LightNode<W>, const W: usize>(
     }
     node.set_summaries(&children);
     out[index as usize] = node;
-    // What a parent is told is what is stored, rounding included, in the order of the slots.
-    let stored: [N::Summary; W] = std::array::from_fn(|slot| {
-        if node.kind(slot) == kind::EMPTY {
-            N::Summary::EMPTY
-        } else {
-            node.summary(slot)
-        }
-    });
-    N::Summary::merged(&stored)
+    // What a parent is told is what is stored, rounding included.
+    node.merged()
 }
 
 /// Refit with the nodes of each pass in another order, and each pass reading only what the pass before it wrote.
@@ -118,7 +111,7 @@ fn built<N: LightNode<W>, const W: usize>(
     }
 }
 
-fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+fn check<N: LightNode<W>, const W: usize>(
     lights: &Lights,
     params: &BuildParams,
     two: bool,
@@ -193,17 +186,14 @@ proptest! {
         let random = &mut Random::new(seed);
         let heuristic = if sah { Heuristic::Sah } else { Heuristic::Saoh };
         let params = split(heuristic, buckets);
-        each_layout!(check(&lights, &params, two, random));
+        each_node!(check(&lights, &params, two, random));
     }
 }
 
 /// Every word of every array of a small BVH, each of its bits turned, and all of them: not one goes unnoticed. (None is
 /// harmless: links, kinds, trails and lists are held against the one walk that reaches everything once, all other words
 /// against what refit writes.)
-fn no_wrong_word_goes_unnoticed<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    two: bool,
-    seed: u32,
-) {
+fn no_wrong_word_goes_unnoticed<N: LightNode<W>, const W: usize>(two: bool, seed: u32) {
     let triangles = generate::small_triangles(11, 4, 10.0, 1.0, true, seed);
     let lights = Lights::new(triangles).expect("lights");
     let bvh = built::<N, W>(&lights, &BuildParams::default(), two);
@@ -237,8 +227,8 @@ fn no_wrong_word_goes_unnoticed<N: LightNode<W>, I: ImportanceModel<N, W>, const
 
 #[test]
 fn every_bit_counts() {
-    each_layout!(no_wrong_word_goes_unnoticed(false, 1));
-    each_layout!(no_wrong_word_goes_unnoticed(true, 2));
+    each_node!(no_wrong_word_goes_unnoticed(false, 1));
+    each_node!(no_wrong_word_goes_unnoticed(true, 2));
 }
 
 /// In the lists of levels nodes may change places within a level, which changes nothing, but not between levels.

@@ -3,9 +3,10 @@
 
 use lightbvh::refit::{self, BlasRoot};
 use lightbvh::{
-    CompactNode, Edit, EmissiveTriangle, Eq4, ImportanceModel, Instance, LightNode, Scene, Summary, sweep,
+    BuildParams, CompactNode, Edit, EmissiveTriangle, Instance, LightBvh, LightNode, Lights, MomentNode,
+    Scene, Summary, sweep,
 };
-use lightbvh_tests::each_layout;
+use lightbvh_tests::each_node;
 use lightbvh_tests::edits::add_mesh;
 use lightbvh_tests::generate::{self, Random, extreme_triangle};
 use lightbvh_tests::placing;
@@ -86,7 +87,7 @@ fn instances(random: &mut Random) -> Vec<Instance> {
     instances
 }
 
-fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32, count: u32) {
+fn check<N: LightNode<W>, const W: usize>(seed: u32, count: u32) {
     let random = &mut Random::new(seed);
     let triangles: Vec<EmissiveTriangle> = (0..200).map(|_| extreme_triangle(random)).collect();
     // The children are other nodes than those of the list, as in a tree.
@@ -115,26 +116,46 @@ fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32, c
     let expected = one_by_one(&top, &list, |nodes, i| refit::top(nodes, &instances, &roots, i));
     let found = words(&top, |nodes| sweep::top(nodes, &instances, &roots, &list));
     assert!(expected == found, "{} {W}: top", N::NAME);
+}
 
-    // A whole tree whose children stand behind their parents, from the last node to the first.
-    let mut whole: Vec<N> = nodes(random, count, 200);
-    for (i, node) in (0..).zip(&mut whole) {
+/// All bottom levels of a tree, together and one by one, without summaries at first, against its levels one after the other.
+fn check_trees<N: LightNode<W>, const W: usize>(count: u32) {
+    let lights = Lights::new(generate::small_triangles(
+        count,
+        count / 3 + 1,
+        10.0,
+        0.1,
+        false,
+        9,
+    ))
+    .expect("lights");
+    let triangles = lights.triangles();
+    let bvh = LightBvh::<N, W>::two_level(&lights, &BuildParams::default());
+    let bare = |node: &N| {
+        let mut bare = N::EMPTY;
         for slot in 0..W {
-            if node.kind(slot) == lightbvh::node::kind::INNER {
-                node.relink(slot, i + 1 + random.below(count - i));
-            }
+            bare.set_child(slot, node.kind(slot), node.link(slot));
+        }
+        bare
+    };
+    let bare: Vec<N> = bvh.nodes()[..bvh.tree().root as usize].iter().map(bare).collect();
+    let mut expected = bare.clone();
+    for range in bvh.bottom_levels().ranges() {
+        for &index in &bvh.bottom_levels().nodes()[range] {
+            expected[index as usize] = refit::bottom(&expected, triangles, index);
         }
     }
-    let swept = words(&whole, |nodes| sweep::bottom_sweep(nodes, &triangles, 0..count));
-    let mut expected = whole;
-    for i in (0..count).rev() {
-        expected[i as usize] = refit::bottom(&expected, &triangles, i);
-    }
-    assert!(
-        bytemuck::cast_slice::<N, u32>(&expected) == swept,
-        "{} {W}: sweep",
-        N::NAME
-    );
+    let expected = bytemuck::cast_slice::<N, u32>(&expected);
+    let roots: Vec<u32> = bvh.roots().iter().map(|root| root.node).collect();
+    let together = words(&bare, |nodes| sweep::bottom_sweep(nodes, 0, triangles, &roots));
+    assert!(together == expected, "{} {W}: together", N::NAME);
+    let apart = words(&bare, |nodes| {
+        for (k, &start) in roots.iter().enumerate() {
+            let end = roots.get(k + 1).map_or(nodes.len(), |&next| next as usize);
+            sweep::bottom_sweep(&mut nodes[start as usize..end], start, triangles, &[start]);
+        }
+    });
+    assert!(apart == expected, "{} {W}: apart", N::NAME);
 }
 
 proptest! {
@@ -142,7 +163,7 @@ proptest! {
 
     #[test]
     fn sweeps_are_the_shared_functions(seed: u32, count in 1..90u32) {
-        each_layout!(check(seed, count));
+        each_node!(check(seed, count));
     }
 }
 
@@ -151,7 +172,13 @@ proptest! {
 fn threads_do_not_show() {
     for threads in [1, 2, 3, 8] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        pool.expect("threads")
-            .install(|| check::<CompactNode<4>, Eq4, 4>(7, 40_001));
+        pool.expect("threads").install(|| {
+            check::<CompactNode<4>, 4>(7, 40_001);
+            // From one node on, and so many that subtrees of subtrees are shared out.
+            for count in [1, 5, 40, 60_000] {
+                check_trees::<CompactNode<2>, 2>(count);
+                check_trees::<MomentNode<8>, 8>(count);
+            }
+        });
     }
 }

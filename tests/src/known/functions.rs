@@ -2,7 +2,7 @@
 
 use lightbvh::importance::Cluster;
 use lightbvh::node::kind;
-use lightbvh::summary::SUMMARY_WORDS;
+use lightbvh::summary::{Lanes, SUMMARY_WORDS};
 use lightbvh::{
     BoundsNode, CompactNode, EmissiveTriangle, Eq4, FluxOverDistance, ImportanceModel, Instance, LightBounds,
     LightMoments, LightNode, MomentNode, Moments, ShadingPoint, Summary, exact,
@@ -85,8 +85,12 @@ fn of_lights(name: &str, input: &[u32]) -> Option<Vec<u32>> {
     Some(match name {
         "triangle_bounds" => words_of(&LightBounds::of_triangle(&record::<EmissiveTriangle>(input))),
         "triangle_moments" => words_of(&LightMoments::of_triangle(&record::<EmissiveTriangle>(input))),
-        "merge_bounds" => words_of(&LightBounds::merged(&summaries::<_, 4>(input))),
-        "merge_moments" => words_of(&LightMoments::merged(&summaries::<_, 8>(input))),
+        "merge_bounds" => words_of(&LightBounds::merged(&Lanes::of(&summaries::<LightBounds, 4>(
+            input,
+        )))),
+        "merge_moments" => words_of(&LightMoments::merged(&Lanes::of(&summaries::<LightMoments, 8>(
+            input,
+        )))),
         "bounds_to_world" => words_of(&summary::<LightBounds>(&input[INSTANCE..]).to_world(&instance())),
         "moments_to_world" => words_of(&summary::<LightMoments>(&input[INSTANCE..]).to_world(&instance())),
         "encode_bounds" => encode_bounds(&summary(input)),

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 use lightbvh::cone::{Cone, normalized};
+use lightbvh::summary::Lanes;
 use lightbvh::{LightBounds, LightMoments, Summary, exact};
 use lightbvh_tests::generate::{self, Random, extreme_triangle};
 
@@ -64,11 +65,12 @@ fn moments_and_merges() {
             })
         };
         children.iter().for_each(|child| digest.summary(child));
-        let pairs: [LightMoments; 4] =
-            std::array::from_fn(|k| LightMoments::merged(&[children[2 * k], children[2 * k + 1]]));
+        let pairs: [LightMoments; 4] = std::array::from_fn(|k| {
+            LightMoments::merged(&Lanes::of(&[children[2 * k], children[2 * k + 1]]))
+        });
         pairs.iter().for_each(|pair| digest.summary(pair));
-        digest.summary(&LightMoments::merged(&pairs));
-        digest.summary(&LightMoments::merged(&children));
+        digest.summary(&LightMoments::merged(&Lanes::of(&pairs)));
+        digest.summary(&LightMoments::merged(&Lanes::of(&children)));
     }
     digest.is(0, "moments");
 }

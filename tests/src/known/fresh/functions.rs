@@ -232,7 +232,7 @@ pub fn bounds() -> (&'static str, Vec<Table>) {
     };
     let bounds_of = |i: usize| {
         let mut bounds = any[i % 64];
-        if i % 5 == 0 {
+        if i.is_multiple_of(5) {
             bounds.phi = 0.0;
         }
         words_of(&bounds)
