@@ -296,7 +296,7 @@ fn frequencies() {
 /// All 2^32 words: a light's numbers are an interval, so it is returned for as many words as its probability says, but for one
 /// that the interval begins within and one that it ends within. χ² of frequencies is far below that of independent ones then.
 #[test]
-#[ignore = "4.3 billion samples: some minutes of processor time"]
+#[ignore = "4.3 billion samples: about ten minutes of processor time"]
 fn all_words() {
     use rayon::prelude::*;
     let lights = scene(1000, 31);
@@ -308,8 +308,13 @@ fn all_words() {
     let pmfs = all_pmfs::<CompactNode<4>, Eq4, 4>(&bvh, &lights, &point);
     let count = |piece: u32| {
         let mut counts = vec![0u64; pmfs.len()];
-        for word in 0..1u32 << 20 {
-            counts[bvh.sample::<Eq4>(&point, piece << 20 | word).light as usize] += 1;
+        let points = [point; 4096];
+        let mut sampled = [SampledLight::NONE; 4096];
+        for block in 0..1u32 << 8 {
+            let first = piece << 20 | block << 12;
+            let numbers: [Random64; 4096] = std::array::from_fn(|k| Random64::from(first | k as u32));
+            bvh.sample_batch::<Eq4>(&points, &numbers, &mut sampled);
+            sampled.iter().for_each(|one| counts[one.light as usize] += 1);
         }
         counts
     };
