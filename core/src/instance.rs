@@ -24,7 +24,7 @@ const THIRD: f32 = 1.0 / 3.0;
 /// Greatest magnitude of a coordinate in a mesh's space, 2^60.
 const FAR: f32 = pow2(60);
 
-/// A leaf of the top level: where a mesh stands, and which lights its triangles are there. 128 bytes.
+/// A leaf of the top level: where a mesh stands, and which lights its triangles are there. 132 bytes.
 ///
 /// Plain words, as the device reads them; [`Transform`](crate::Transform) derives them on the CPU.
 #[repr(C)]
@@ -216,7 +216,7 @@ impl Instance {
     }
 
     /// Bounds in the world of what has the bounds `local` in the space of the mesh: the box around the mapped box; the cone
-    /// around the mapped axis, its tangent stretched as much as the map can stretch one against another.
+    /// about the mapped axis where the map leaves the axis its length, as similarities do, else all directions.
     #[inline(always)]
     pub(crate) fn bounds_to_world(&self, local: &LightBounds) -> LightBounds {
         let center = flushed((local.min + local.max) * 0.5);
@@ -239,11 +239,10 @@ impl Instance {
             min: middle - extent,
             max: middle + extent,
             axis,
-            // A map that leaves the axis its length is taken for a similarity; any other may open the cone.
             cos_theta_o: if squared > 0.99 && squared < 1.01 {
                 local.cos_theta_o
             } else {
-                exact::min(local.cos_theta_o, -1.0)
+                -1.0
             },
             cos_theta_e: local.cos_theta_e,
             phi: self.flux_to_world(local.phi, 1.0),

@@ -319,3 +319,78 @@ fn thousands_of_edits_in_one_frame() {
         assert_eq!(stats.instances as usize, ids.len());
     }
 }
+
+/// Edits, plans, rebuilds and refits in every order of a frame lose no change, and a scene may be sampled at any time.
+#[test]
+fn plans_edits_and_rebuilds_come_in_any_order() {
+    for n in [20u16, 500] {
+        let mut scene = Tree::default();
+        let random = &mut Random::new(91);
+        let mesh = add_mesh(&mut scene, mesh(random));
+        let place = |k: u16| Transform::at([f32::from(k * 37 % n), f32::from(k % 17), f32::from(k % 11)]);
+        let add = (0..n).map(|k| Edit::AddInstance {
+            mesh,
+            transform: place(k),
+            radiance: if k == n / 2 { 0.0 } else { 1.0 },
+        });
+        let ids = scene.update(add.collect()).expect("instances").instances;
+        scene.refit();
+        let point = lightbvh::ShadingPoint {
+            p: [0.0, 0.0, 30.0],
+            n: [0.0; 3],
+        };
+        for order in 0..4 {
+            let lamp = ids[usize::from(n) / 2];
+            let rebuilt = scene.rebuild(&RebuildParams::default()).run();
+            let shine = |radiance| Edit::Shine {
+                instance: lamp,
+                radiance,
+            };
+            scene.update(vec![shine(1.0)]).expect("it is there");
+            if order & 1 != 0 {
+                scene.plan();
+            }
+            // Another edit after the plan, then a tree of before both.
+            let moved = Edit::Move {
+                instance: ids[3],
+                transform: place(7),
+            };
+            scene.update(vec![moved]).expect("it is there");
+            if order & 2 != 0 {
+                scene.plan();
+            }
+            scene.adopt(rebuilt);
+            scene.refit();
+            scene.validate().expect("valid");
+            let light = scene.lights_of(lamp).expect("it is there").start;
+            assert!(scene.pmf::<Eq4>(&point, light, lamp) > 0.0, "{n}, {order}");
+
+            let added = Edit::AddInstance {
+                mesh,
+                transform: place(5),
+                radiance: 1.0,
+            };
+            let id = scene.update(vec![added]).expect("an instance").instances[0];
+            assert_ne!(
+                scene.sample::<Eq4>(&point, 77_u32).light,
+                INVALID,
+                "before the refit"
+            );
+            scene.plan();
+            scene
+                .update(vec![Edit::RemoveInstance(id), shine(0.0)])
+                .expect("they are there");
+            scene.refit();
+            scene.validate().expect("valid");
+        }
+        // A mirror that takes plans without refits here sees every edit.
+        for instance in [ids[0], ids[9]] {
+            let transform = place(2);
+            scene
+                .update(vec![Edit::Move { instance, transform }])
+                .expect("it is there");
+            let written = scene.plan().written_instances.clone();
+            assert!(written.iter().any(|range| range.contains(&instance.index())));
+        }
+    }
+}

@@ -79,6 +79,8 @@ pub struct Scene<N, const W: usize> {
     pending: refit::Pending,
     /// Whether `work` is what the next refit does.
     planned: bool,
+    /// What `work` was planned from, until a refit has done it.
+    taken: refit::Pending,
     /// Lights of the previous frame that are none, or others, now.
     removed_lights: Vec<Range<u32>>,
     /// Greatest number of levels of a bottom level so far.
@@ -158,6 +160,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             work: Work::default(),
             pending: refit::Pending::default(),
             planned: false,
+            taken: refit::Pending::default(),
             removed_lights: Vec::new(),
             bottom_depth: 0,
             clock: 0,

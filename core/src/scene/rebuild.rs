@@ -195,8 +195,10 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     /// empty slots, added ones are grafted on, bottom levels replaced meanwhile stay as they are. Comes before the next
     /// frame's [`update`](Self::update) or after it, but before its [`refit`](Self::refit).
     pub fn adopt(&mut self, rebuilt: Rebuilt<N, W>) {
-        // Words copied from the leaves of then are those of now unless something came between.
-        let stale = rebuilt.taken != self.now();
+        self.unplan();
+        // Words computed from the instances of then are those of now unless something came between: any edit does, also one whose
+        // refit is still to come.
+        let stale = rebuilt.taken != self.now() || !self.pending.instances.is_empty();
         for (bottom, topology) in &rebuilt.bottoms {
             let same = |own: &Blas| own.born == bottom.born && own.triangles == bottom.range;
             if self.blases.get(bottom.blas as usize).is_some_and(same) {

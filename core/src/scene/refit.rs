@@ -52,6 +52,19 @@ impl Pending {
         self.built.remove(&index);
     }
 
+    /// Takes over what another list holds.
+    fn join(&mut self, other: Self) {
+        self.blases.extend(other.blases);
+        self.built.extend(other.built);
+        self.instances.extend(other.instances);
+        self.top_nodes.extend(other.top_nodes);
+        self.whole_top |= other.whole_top;
+        self.written_nodes.extend(other.written_nodes);
+        self.written_triangles.extend(other.written_triangles);
+        self.written_trails.extend(other.written_trails);
+        self.written_instances.extend(other.written_instances);
+    }
+
     pub fn mark_instance(&mut self, index: u32) {
         self.instances.push(index);
         self.written_instances.push(index);
@@ -101,10 +114,20 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         &self.work
     }
 
+    /// Takes a plan back that no refit has done yet: nodes that it lists may be others soon. The next plan holds its changes too.
+    pub(super) fn unplan(&mut self) {
+        if self.planned {
+            self.planned = false;
+            let taken = core::mem::take(&mut self.taken);
+            self.pending.join(taken);
+        }
+    }
+
     /// Computes the nodes that the last edits touch, and no other.
     pub fn refit(&mut self) {
         self.plan();
         self.planned = false;
+        self.taken = Pending::default();
         let work = core::mem::take(&mut self.work);
         self.refits += u64::from(work.computed() > 0);
         for tree in &work.trees {
@@ -138,15 +161,23 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
 
     /// Turns what is pending into lists.
     fn gather(&mut self) {
-        let pending = core::mem::take(&mut self.pending);
+        let mut pending = core::mem::take(&mut self.pending);
+        for list in [
+            &mut pending.instances,
+            &mut pending.top_nodes,
+            &mut pending.written_instances,
+        ] {
+            list.sort_unstable();
+            list.dedup();
+        }
         let mut work = Work {
-            written_nodes: pending.written_nodes,
-            written_triangles: pending.written_triangles,
-            written_trails: pending.written_trails,
-            written_instances: joined(pending.written_instances),
+            written_nodes: pending.written_nodes.clone(),
+            written_triangles: pending.written_triangles.clone(),
+            written_trails: pending.written_trails.clone(),
+            written_instances: joined(pending.written_instances.clone()),
             ..Work::default()
         };
-        let mut instances = pending.instances;
+        let mut instances = pending.instances.clone();
         let mut lists = Vec::new();
         for &blas in &pending.blases {
             let own = &self.blases[blas as usize];
@@ -167,6 +198,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             self.dirty_top(&instances, &pending.top_nodes, &mut work);
         }
         self.work = work;
+        self.taken = pending;
     }
 
     /// The leaves of the given instances, the given nodes, and all nodes above them.

@@ -7,6 +7,7 @@ use super::Scene;
 use crate::build::{Topology, build_top};
 use crate::levels::Levels;
 use crate::node::{LightNode, kind};
+use crate::refit;
 use crate::summary::Summary;
 use crate::trail::{BitTrail, max_levels};
 use crate::tree::INVALID;
@@ -220,7 +221,10 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             self.nodes[root.start as usize].relink(slot, child);
             self.parents[child as usize] = root.start;
         }
-        // All of the grafted tree and the new root lie above the new leaves, so the next refit gives them bounds.
+        // Summaries as they are now, so that the scene may be sampled before its next refit.
+        for node in new.clone().rev().chain([root.start]) {
+            self.nodes[node as usize] = refit::top(&self.nodes, &self.instances, &self.roots, node);
+        }
         self.pending.instances.extend(added);
         self.top.root = root.start;
         self.top.ranges.extend([new, root]);

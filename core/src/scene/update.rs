@@ -27,6 +27,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     /// [`EditError`] naming the first edit that cannot be done; the scene is as before then.
     pub fn update(&mut self, mut edits: Vec<Edit>) -> Result<Updated, EditError> {
         let mut deformed = self.check(&mut edits)?.into_iter();
+        self.unplan();
         self.removed_lights.clear();
         let mut updated = Updated::default();
         let mut added = Vec::new();

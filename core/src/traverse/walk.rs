@@ -9,9 +9,9 @@ use crate::point::ShadingPoint;
 use crate::trail::{Path, max_levels};
 use crate::tree::{INVALID, LightTree};
 
-/// Number of halvings after which a probability falls no further: it is never below 2^-120 where it is positive. Such a light
+/// Number of halvings after which a probability falls no further: it is never below 2^-99 where it is positive. Such a light
 /// is never drawn, and must not seem impossible.
-const MOST_HALVINGS: u32 = 120 - FULL_BITS;
+const MOST_HALVINGS: u32 = 98;
 
 /// The state of a walk.
 ///

@@ -39,6 +39,11 @@ impl Digest {
 
     #[track_caller]
     pub fn is(self, known: u64, what: &str) {
+        // For a change of bits: prints all digests instead of stopping at the first.
+        if std::env::var_os("LIGHTBVH_PRINT_DIGESTS").is_some() {
+            println!("{what}: 0x{:016x}, known 0x{known:016x}", self.0);
+            return;
+        }
         assert!(
             self.0 == known,
             "{what}: 0x{:016x} is not the known 0x{known:016x}",

@@ -128,7 +128,7 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
 
 #[test]
 fn scenes() {
-    scene::<CompactNode<4>, Eq4, 4>(0xb4eb_3c23_6173_98b1);
-    scene::<FullNode<2>, Eq4, 2>(0x95b1_e8e9_65c9_926f);
-    scene::<MomentNode<8>, Moments, 8>(0);
+    scene::<CompactNode<4>, Eq4, 4>(0xc30c_080a_3eca_3253);
+    scene::<FullNode<2>, Eq4, 2>(0xe65e_8f7c_db4a_bcf2);
+    scene::<MomentNode<8>, Moments, 8>(0x3905_f6d7_3c81_3b54);
 }

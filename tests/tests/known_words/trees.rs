@@ -155,19 +155,47 @@ fn bvh<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: [u64; 3
 
 #[test]
 fn compact_nodes() {
-    bvh::<CompactNode<2>, Eq4, 2>([0; 3]);
-    bvh::<CompactNode<4>, Eq4, 4>([0; 3]);
-    bvh::<CompactNode<16>, Defensive<Eq4, 5>, 16>([0; 3]);
+    bvh::<CompactNode<2>, Eq4, 2>([
+        0x762c_2c16_4373_3bd7,
+        0xfb5a_28db_83f4_9913,
+        0x48e6_7282_f42f_30fd,
+    ]);
+    bvh::<CompactNode<4>, Eq4, 4>([
+        0x6a28_b42e_4569_c10d,
+        0x8f3e_3f10_121b_a674,
+        0xfd91_b366_95d4_62e4,
+    ]);
+    bvh::<CompactNode<16>, Defensive<Eq4, 5>, 16>([
+        0xd7c7_50d6_e18a_c5f5,
+        0x2241_f853_e25f_6eb6,
+        0xc32e_cb25_93ab_af73,
+    ]);
 }
 
 #[test]
 fn full_nodes() {
-    bvh::<FullNode<2>, Eq4, 2>([0; 3]);
-    bvh::<FullNode<8>, Eq4, 8>([0; 3]);
+    bvh::<FullNode<2>, Eq4, 2>([
+        0x362b_e094_d7e6_bf3b,
+        0x9007_d3d6_77cf_46de,
+        0x3288_aca9_d32a_e0b5,
+    ]);
+    bvh::<FullNode<8>, Eq4, 8>([
+        0xa172_9253_ae37_e973,
+        0x5884_909c_55f0_dd19,
+        0x4ddc_5f96_2190_c589,
+    ]);
 }
 
 #[test]
 fn moment_nodes() {
-    bvh::<MomentNode<4>, Moments, 4>([0; 3]);
-    bvh::<MomentNode<8>, Defensive<Moments, 6>, 8>([0; 3]);
+    bvh::<MomentNode<4>, Moments, 4>([
+        0x3f35_f3a9_587f_5121,
+        0x4d47_022c_f3b7_4547,
+        0xb724_ac5e_bdd6_1a6b,
+    ]);
+    bvh::<MomentNode<8>, Defensive<Moments, 6>, 8>([
+        0xaa2a_91b1_8600_69b3,
+        0xdcf9_0266_ccfe_f568,
+        0x7a50_4e7b_ff3d_936c,
+    ]);
 }
