@@ -37,45 +37,64 @@ pub(super) fn choose<const W: usize>(
     follow: bool,
     wanted: u32,
 ) -> Share {
-    let weights = Rows::of(weights);
-    let sum = weights.sum::<W>();
+    // As few rows as the children need: each takes registers, or private memory on a device.
+    if W <= 4 {
+        choose_in_rows::<W, 1>(weights, range, number, follow, wanted)
+    } else if W <= 8 {
+        choose_in_rows::<W, 2>(weights, range, number, follow, wanted)
+    } else {
+        choose_in_rows::<W, 4>(weights, range, number, follow, wanted)
+    }
+}
+
+/// [`choose`] with the children in `ROWS` rows of four.
+#[inline(always)]
+fn choose_in_rows<const W: usize, const ROWS: usize>(
+    weights: &[f32; W],
+    range: u32,
+    number: u32,
+    follow: bool,
+    wanted: u32,
+) -> Share {
+    let weights = Rows::<ROWS>::of(weights);
+    let sum = weights.sum();
     let alive = sum > 0.0;
     let length = range as i32 as f32;
     let scale = length * GIVEN * exact::recip(if alive { sum } else { 1.0 });
     // Integers, but in `f32`, where processors add and compare several at a time.
-    let mut counts = Rows::ZERO;
-    let mut ends = Rows::ZERO;
-    let mut passed = Rows::ZERO;
-    let mut open = Rows::ZERO;
+    let mut counts = Rows::<ROWS>::ZERO;
+    let mut ends = Rows::<ROWS>::ZERO;
+    // Of all rows together: the number of shares that end at or before the number, and the last child with weight.
+    let mut passed = Vec4::ZERO;
+    let mut open = Vec4::ZERO;
     let at = Vec4::splat(number as i32 as f32);
     let mut before = Vec4::ZERO;
     for row in 0..ROWS {
-        if 4 * row < W {
-            let w = weights.0[row];
-            let whole = (w * scale + COUNTS) - COUNTS;
-            let at_least_one = Vec4::select(whole.cmpgt(Vec4::ONE), whole, Vec4::ONE);
-            let some = w.cmpgt(Vec4::ZERO);
-            let count = Vec4::select(some, at_least_one, Vec4::ZERO);
-            // Inclusive prefix sums: within the row by doubling steps, then from row to row.
-            let pairs = count + Vec4::new(0.0, count.x, count.y, count.z);
-            let end = (pairs + Vec4::new(0.0, 0.0, pairs.x, pairs.y)) + before;
-            before = Vec4::splat(end.w);
-            counts.0[row] = count;
-            ends.0[row] = end;
-            passed.0[row] = Vec4::select(end.cmple(at), Vec4::ONE, Vec4::ZERO);
-            let first = (4 * row) as i32 as f32;
-            let slots = Vec4::new(first, first + 1.0, first + 2.0, first + 3.0);
-            open.0[row] = Vec4::select(some, slots, Vec4::ZERO);
-        }
+        let w = weights.0[row];
+        let whole = (w * scale + COUNTS) - COUNTS;
+        let at_least_one = Vec4::select(whole.cmpgt(Vec4::ONE), whole, Vec4::ONE);
+        let some = w.cmpgt(Vec4::ZERO);
+        let count = Vec4::select(some, at_least_one, Vec4::ZERO);
+        // Inclusive prefix sums: within the row by doubling steps, then from row to row.
+        let pairs = count + Vec4::new(0.0, count.x, count.y, count.z);
+        let end = (pairs + Vec4::new(0.0, 0.0, pairs.x, pairs.y)) + before;
+        before = Vec4::splat(end.w);
+        counts.0[row] = count;
+        ends.0[row] = end;
+        passed += Vec4::select(end.cmple(at), Vec4::ONE, Vec4::ZERO);
+        let first = (4 * row) as i32 as f32;
+        let slots = Vec4::new(first, first + 1.0, first + 2.0, first + 3.0);
+        // Later rows hold later slots.
+        open = Vec4::select(some, slots, open);
     }
     // The slot is the number of shares that end at or before the number, but not beyond the last child with weight.
-    let last = open.greatest::<W>();
-    let found = integer(exact::min(passed.sum::<W>(), last));
+    let last = exact::max(exact::max(open.x, open.z), exact::max(open.y, open.w));
+    let found = integer(exact::min((passed.x + passed.z) + (passed.y + passed.w), last));
     let last = integer(last);
     let slot = if follow { wanted } else { found };
     let within = if slot < W as u32 { slot } else { 0 };
-    let count = counts.entry::<W>(within);
-    let first = ends.entry::<W>(within) - count;
+    let count = counts.entry(within);
+    let first = ends.entry(within) - count;
     let all = if slot == last { length - first } else { count };
     let some = alive & (count > 0.0) & (slot < W as u32);
     Share {
@@ -91,82 +110,63 @@ fn integer(x: f32) -> u32 {
     (x + COUNTS).to_bits() & 0x007f_ffff
 }
 
-/// Rows of four of up to 16 children.
-const ROWS: usize = 4;
-
 /// One number of each child in rows of four, the width of the least vector registers: left to itself, the compiler packs such
 /// short loops badly. Only sums, products, comparisons and selects of vectors are used, which are those of their components.
 #[derive(Clone, Copy)]
-struct Rows([Vec4; ROWS]);
+struct Rows<const ROWS: usize>([Vec4; ROWS]);
 
-impl Rows {
+impl<const ROWS: usize> Rows<ROWS> {
     const ZERO: Self = Self([Vec4::ZERO; ROWS]);
 
     #[inline(always)]
     fn of<const W: usize>(numbers: &[f32; W]) -> Self {
         let number = |slot: usize| if slot < W { numbers[slot] } else { 0.0 };
-        let row = |first: usize| {
-            Vec4::new(
+        let mut rows = Self::ZERO;
+        for row in 0..ROWS {
+            let first = 4 * row;
+            rows.0[row] = Vec4::new(
                 number(first),
                 number(first + 1),
                 number(first + 2),
                 number(first + 3),
-            )
-        };
-        Self([row(0), row(4), row(8), row(12)])
+            );
+        }
+        rows
     }
 
     /// The sum, its halves added slot by slot, as registers do it.
     #[inline(always)]
-    fn sum<const W: usize>(&self) -> f32 {
-        let [a, b, c, d] = self.0;
-        let row = if W > 8 {
-            (a + c) + (b + d)
-        } else if W > 4 {
-            a + b
+    fn sum(&self) -> f32 {
+        let row = if ROWS == 4 {
+            (self.0[0] + self.0[2 % ROWS]) + (self.0[1 % ROWS] + self.0[3 % ROWS])
+        } else if ROWS == 2 {
+            self.0[0] + self.0[1 % ROWS]
         } else {
-            a
+            self.0[0]
         };
         (row.x + row.z) + (row.y + row.w)
-    }
-
-    /// The greatest, of numbers that are not negative.
-    #[inline(always)]
-    fn greatest<const W: usize>(&self) -> f32 {
-        let [a, b, c, d] = self.0;
-        let max = |a: Vec4, b: Vec4| Vec4::select(a.cmpgt(b), a, b);
-        let row = if W > 8 {
-            max(max(a, c), max(b, d))
-        } else if W > 4 {
-            max(a, b)
-        } else {
-            a
-        };
-        exact::max(exact::max(row.x, row.z), exact::max(row.y, row.w))
     }
 
     /// The number of child `slot`, below `W`. Devices keep arrays in registers only where no index varies, so there it is
     /// selected.
     #[inline(always)]
-    fn entry<const W: usize>(&self, slot: u32) -> f32 {
+    fn entry(&self, slot: u32) -> f32 {
         #[cfg(target_arch = "spirv")]
         {
             let mut found = 0.0;
             for row in 0..ROWS {
-                if 4 * row < W {
-                    let v = self.0[row];
-                    let first = (4 * row) as u32;
-                    found = if slot == first { v.x } else { found };
-                    found = if slot == first + 1 { v.y } else { found };
-                    found = if slot == first + 2 { v.z } else { found };
-                    found = if slot == first + 3 { v.w } else { found };
-                }
+                let v = self.0[row];
+                let first = (4 * row) as u32;
+                found = if slot == first { v.x } else { found };
+                found = if slot == first + 1 { v.y } else { found };
+                found = if slot == first + 2 { v.z } else { found };
+                found = if slot == first + 3 { v.w } else { found };
             }
             found
         }
         #[cfg(not(target_arch = "spirv"))]
         {
-            self.0[(slot / 4) as usize & 3].to_array()[(slot & 3) as usize]
+            self.0[(slot / 4) as usize % ROWS].to_array()[(slot & 3) as usize]
         }
     }
 }
