@@ -91,7 +91,7 @@ struct Report {
     frames: Range<u32>,
     frame_queries: u32,
     refits: u32,
-    /// Words that the CPU came by in two ways (sampled pmfs, evaluated again), and those that came out otherwise.
+    /// Words that the CPU computes in two ways (sampled pmfs, evaluated again), and how many of them differ.
     cpu_compared: u64,
     cpu_different: u64,
     devices: Vec<DeviceReport>,
