@@ -33,8 +33,7 @@ pub struct Cluster {
 const SLACK: f32 = 0.003_906_25;
 
 /// Least factor, 2^-10, also where a bound is zero. It then says that nothing below contributes, but a rounded bound is no
-/// proof, and no weight is zero where there is flux. Smaller ones change no variance to three digits (moments of variance with
-/// floors of 10^-3 and of zero: `docs/walk.md`).
+/// proof, and no weight is zero where there is flux. A smaller one was not measured here.
 const FLOOR: f32 = pow2(-10);
 
 /// Share of the distance by which a box may lie below the horizon, 2^-20: it covers the rounding of the products.

@@ -29,7 +29,8 @@ pub trait ImportanceModel<N, const W: usize> {
 
 /// The importance `I` with a share of 2^-`HALVINGS` of samples that choose among all lights alike (a defensive mixture:
 /// Hesterberg 1995). A light that `I` underrates then keeps that share of its uniform probability, and its contribution to the
-/// variance stays bounded. `HALVINGS` is from 1 to 20; 5, a share of 3 %, is good (measured in `docs/walk.md`).
+/// variance stays bounded. `HALVINGS` is from 1 to 20; the kernels take 6
+/// (`docs/walk.md` says what that costs).
 #[derive(Clone, Copy, Debug)]
 pub struct Defensive<I, const HALVINGS: u32>(core::marker::PhantomData<I>);
 
