@@ -26,7 +26,7 @@ const FAR: f32 = pow2(60);
 
 /// A leaf of the top level: where a mesh stands, and which lights its triangles are there. 132 bytes.
 ///
-/// Plain words, as the device reads them; [`Transform`](crate::Transform) derives them on the CPU.
+/// Plain words, as the device reads them; `Transform` (feature `alloc`) derives them on the CPU.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Instance {

@@ -1,9 +1,10 @@
 //! A two-level light BVH for sampling one of many moving lights in real-time ray tracing — one source for CPU and GPU.
 //!
-//! A **light BVH** is a tree over lights whose nodes bound where the lights below are, which way they face and how much
+//! A **light BVH** is a tree over lights whose nodes say where the lights below are, which way they face and how much
 //! they emit (Conty Estevez & Kulla 2018). To light a point, a walk from the root chooses at each node among the
-//! children by their *importance*, a bound on what they may contribute there, and ends at one light with a known
-//! probability: a low-variance estimate of the light of all, for the price of a walk.
+//! children by their *importance*, an estimate of what they contribute there, and ends at one light with a known
+//! probability: a low-variance estimate of the light of all, for the price of a walk. The estimate is positive wherever
+//! there is flux, so no light is lost (`docs/walk.md`).
 //!
 //! **Two levels** make it fit for moving lights (Moreau, Pharr & Clarberg 2019; Freire & Pereira 2023): each emissive
 //! mesh has a bottom-level tree over its triangles that is only refitted, and a small top-level tree over the meshes is
@@ -18,7 +19,7 @@
 //! | [`light`], [`bounds`], [`cone`], [`point`] | lights and what is known of sets of them; the receiver |
 //! | [`summary`], [`importance`] | what nodes store of their children, and what these are chosen by |
 //! | [`node`], [`tree`], [`trail`] | layout of nodes, links, bit trails |
-//! | [`refit`] | new bounds on an unchanged topology |
+//! | [`refit`] | new summaries on an unchanged topology |
 //! | [`traverse`] | sampling, and the probability of any light |
 //! | [`instance`] | leaves of the top level with a space of their own |
 //! | [`reservoir`] | resampling of light samples, over candidates and over other reservoirs (ReSTIR) |

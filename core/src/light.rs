@@ -24,7 +24,7 @@ pub const MAX_RADIANCE: f32 = exact::pow2(100);
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct EmissiveTriangle {
-    /// Vertices in world space, metres; magnitude zero or in [`MIN_COORDINATE`]`..=`[`MAX_COORDINATE`].
+    /// Vertices, metres, in the space of the mesh (for `Lights`, of the world); magnitude zero or in [`MIN_COORDINATE`]`..=`[`MAX_COORDINATE`].
     pub p: [[f32; 3]; 3],
     /// Radiance, W/(m² sr), linear RGB; zero or in [`MIN_RADIANCE`]`..=`[`MAX_RADIANCE`].
     pub radiance: [f32; 3],

@@ -1,6 +1,6 @@
 //! Refit on the CPU: whole trees in one sweep, lists node by node, long ones on several threads.
 //!
-//! The shared functions of [`refit`](crate::refit) are the definition, and give every word. Neither the order nor the threads
+//! The shared functions of [`refit`] are the definition, and give every word. Neither the order nor the threads
 //! show in any bit.
 
 #[cfg(feature = "rayon")]

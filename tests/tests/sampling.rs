@@ -296,7 +296,7 @@ fn frequencies() {
 /// All 2^32 words: a light's numbers are an interval, so it is returned for as many words as its probability says, but for one
 /// that the interval begins within and one that it ends within. χ² of frequencies is far below that of independent ones then.
 #[test]
-#[ignore = "4.3 billion samples: about ten minutes of processor time"]
+#[ignore = "4.3 billion samples: half an hour of processor time"]
 fn all_words() {
     use rayon::prelude::*;
     let lights = scene(1000, 31);

@@ -33,8 +33,8 @@ pub struct BuildParams {
 
 /// Which ranges of lights [`Heuristic::Ward`] splits on the way to a node's `W` children.
 ///
-/// Sets of up to `4·W` lights are always built with [`Most`](Self::Most): their trees are small anyway, and a quarter to
-/// a twentieth of the variance was measured.
+/// Sets of up to `4·W` lights are always built with [`Most`](Self::Most): a tree of few nodes stays small, and variance
+/// fell to between a quarter and a twentieth on such sets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Effort {
     /// The costliest of those with more than `W` lights, so that leaf nodes are full.
@@ -59,7 +59,8 @@ impl BuildParams {
         buckets: 16,
         effort: Effort::Usual,
     };
-    /// The least variance: Ward's criterion down to single lights, 32 buckets.
+    /// Ward's criterion down to single lights, 32 buckets: less variance where a few lights dominate, more on some other scenes, in
+    /// twice the bytes (`docs/walk.md`).
     pub const BEST: Self = Self {
         heuristic: Heuristic::Ward,
         buckets: MAX_BUCKETS,

@@ -271,3 +271,75 @@ fn full_nodes_merge_what_they_store() {
         <LightMoments as Summary>::merged(&crate::summary::Lanes::of(&stored))
     );
 }
+
+/// What a set without flux says of itself changes nothing: not the merged set, nor the words of the others in a node.
+#[test]
+fn sets_without_flux_do_not_matter() {
+    let mut random = Random(7);
+    let garbage = LightMoments {
+        phi: 0.0,
+        c: Vec3::new(pow2(40), -pow2(40), 3.0),
+        across: pow2(30),
+        along: pow2(31),
+        m: Vec3::new(0.5, 0.5, -0.5),
+        h: Vec3::splat(pow2(35)),
+    };
+    for _ in 0..500 {
+        let mut plain = [LightMoments::EMPTY; 8];
+        let mut dirty = plain;
+        for slot in 0..8 {
+            if random.unit() < 0.6 {
+                plain[slot] = random.set(1.0, 1.0);
+                dirty[slot] = plain[slot];
+            } else {
+                dirty[slot] = garbage;
+            }
+        }
+        assert_eq!(LightMoments::merge(&plain), LightMoments::merge(&dirty));
+        let node = |sets: &[LightMoments; 8]| {
+            let (mut packed, mut full) = (MomentNode::<8>::EMPTY, FullMomentNode::<8>::EMPTY);
+            for slot in 0..8 {
+                packed.set_child(slot, kind::LIGHT, slot as u32);
+                full.set_child(slot, kind::LIGHT, slot as u32);
+            }
+            packed.set_summaries(sets);
+            full.set_summaries(sets);
+            (packed, full)
+        };
+        assert_eq!(node(&plain), node(&dirty));
+    }
+}
+
+/// The variance along the normal is kept as a ratio of that across, of at most 2: more is not told.
+#[test]
+fn a_set_along_its_normal_keeps_twice_its_breadth() {
+    let mut set = Random(9).set(1.0, 1.0);
+    set.across = 0.25;
+    for (along, kept) in [(0.0, 0.0), (0.125, 0.125), (0.5, 0.5), (0.75, 0.5), (100.0, 0.5)] {
+        set.along = along;
+        let mut node = FullMomentNode::<4>::EMPTY;
+        node.set_child(0, kind::LIGHT, 0);
+        node.set_summaries(&[set, LightMoments::EMPTY, LightMoments::EMPTY, LightMoments::EMPTY]);
+        near(node.summary(0).along, kept, 1e-5, "along");
+    }
+}
+
+/// Flux at the end of its range stays in it: merged, and rounded up to a code.
+#[test]
+fn flux_stays_in_its_range() {
+    let most = pow2(126);
+    let mut set = Random(11).set(1.0, 1.0);
+    // Rounds up to the next code, that of 2^126 and more.
+    for phi in [most, most * 0.99] {
+        set.phi = phi;
+        assert_eq!(LightMoments::merge(&[set; 8]).phi, most);
+        let mut node = MomentNode::<8>::EMPTY;
+        for slot in 0..8 {
+            node.set_child(slot, kind::LIGHT, slot as u32);
+        }
+        node.set_summaries(&[set; 8]);
+        for slot in 0..8 {
+            assert_eq!(node.summary(slot).phi, most, "{slot}");
+        }
+    }
+}

@@ -141,7 +141,13 @@ impl<const W: usize> MomentNode<W> {
 impl<const W: usize> LightNode<W> for MomentNode<W> {
     type Summary = LightMoments;
 
-    const EMPTY: Self = Self([[0; W]; 6]);
+    const EMPTY: Self = {
+        assert!(
+            W >= 4,
+            "the header of a packed node takes four words: it has 4 to 16 children"
+        );
+        Self([[0; W]; 6])
+    };
     const NAME: &'static str = "moments";
 
     #[inline(always)]

@@ -16,11 +16,11 @@ use crate::summary::Lanes;
 const WORD_0: usize = 1;
 const WORD_1: usize = 2;
 const WORD_2: usize = 3;
-/// A node of 16 bytes per child and a header of as much as one word of each: no box, one deviation.
+/// A node of 16 bytes per child and a header of as much as one word of each: no box, one deviation. `W` is at least 4.
 ///
 /// | word | content |
 /// |---|---|
-/// | header | as of [`MomentNode`] |
+/// | header | as of [`MomentNode`](super::MomentNode) |
 /// | 0 | centre x 15, y 15, kind 2 |
 /// | 1 | centre z 14, breadth 7, flux 11 |
 /// | 2 | mean normal 3 × 8, spread of normals 8 |
@@ -78,7 +78,13 @@ impl<const W: usize> LeanMomentNode<W> {
 impl<const W: usize> LightNode<W> for LeanMomentNode<W> {
     type Summary = LightMoments;
 
-    const EMPTY: Self = Self([[0; W]; 5]);
+    const EMPTY: Self = {
+        assert!(
+            W >= 4,
+            "the header of a packed node takes four words: it has 4 to 16 children"
+        );
+        Self([[0; W]; 5])
+    };
     const NAME: &'static str = "lean moments";
 
     #[inline(always)]

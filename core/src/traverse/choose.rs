@@ -62,7 +62,6 @@ fn choose_in_rows<const W: usize, const ROWS: usize>(
     let length = range as i32 as f32;
     let scale = length * GIVEN * exact::recip(if alive { sum } else { 1.0 });
     // Integers, but in `f32`, where processors add and compare several at a time.
-    let mut counts = Rows::<ROWS>::ZERO;
     let mut ends = Rows::<ROWS>::ZERO;
     // Of all rows together: the number of shares that end at or before the number, and the last child with weight.
     let mut passed = Vec4::ZERO;
@@ -79,7 +78,6 @@ fn choose_in_rows<const W: usize, const ROWS: usize>(
         let pairs = count + Vec4::new(0.0, count.x, count.y, count.z);
         let end = (pairs + Vec4::new(0.0, 0.0, pairs.x, pairs.y)) + before;
         before = Vec4::splat(end.w);
-        counts.0[row] = count;
         ends.0[row] = end;
         passed += Vec4::select(end.cmple(at), Vec4::ONE, Vec4::ZERO);
         let first = (4 * row) as i32 as f32;
@@ -93,8 +91,9 @@ fn choose_in_rows<const W: usize, const ROWS: usize>(
     let last = integer(last);
     let slot = if follow { wanted } else { found };
     let within = if slot < W as u32 { slot } else { 0 };
-    let count = counts.entry(within);
-    let first = ends.entry(within) - count;
+    let end = ends.entry(within);
+    let first = if within == 0 { 0.0 } else { ends.entry(within - 1) };
+    let count = end - first;
     let all = if slot == last { length - first } else { count };
     let some = alive & (count > 0.0) & (slot < W as u32);
     Share {

@@ -12,6 +12,8 @@ mod batch;
 mod choose;
 mod random;
 mod sample;
+#[cfg(test)]
+mod tests;
 mod walk;
 #[cfg(feature = "alloc")]
 pub(crate) mod widest;

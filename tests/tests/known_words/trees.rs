@@ -156,46 +156,46 @@ fn bvh<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: [u64; 3
 #[test]
 fn compact_nodes() {
     bvh::<CompactNode<2>, Eq4, 2>([
-        0x762c_2c16_4373_3bd7,
-        0xfb5a_28db_83f4_9913,
-        0x48e6_7282_f42f_30fd,
+        0x269c_0869_a331_ba9b,
+        0x300d_1af6_4021_7b66,
+        0x0388_23c6_e9ba_d285,
     ]);
     bvh::<CompactNode<4>, Eq4, 4>([
-        0x6a28_b42e_4569_c10d,
-        0x8f3e_3f10_121b_a674,
-        0xfd91_b366_95d4_62e4,
+        0x8cd8_0f86_49d5_49b3,
+        0xc0ec_569f_69e1_cee5,
+        0xafae_d1a5_adbd_fa4c,
     ]);
     bvh::<CompactNode<16>, Defensive<Eq4, 5>, 16>([
-        0xd7c7_50d6_e18a_c5f5,
-        0x2241_f853_e25f_6eb6,
-        0xc32e_cb25_93ab_af73,
+        0x72ab_f0f4_08ff_2bb8,
+        0x4d40_fbda_8485_c221,
+        0xe05a_6a04_fddf_6d0c,
     ]);
 }
 
 #[test]
 fn full_nodes() {
     bvh::<FullNode<2>, Eq4, 2>([
-        0x362b_e094_d7e6_bf3b,
-        0x9007_d3d6_77cf_46de,
-        0x3288_aca9_d32a_e0b5,
+        0xdf59_c44c_5221_0236,
+        0x9fce_9468_9956_5df5,
+        0x6e39_ddc4_23c0_6ca5,
     ]);
     bvh::<FullNode<8>, Eq4, 8>([
-        0xa172_9253_ae37_e973,
-        0x5884_909c_55f0_dd19,
-        0x4ddc_5f96_2190_c589,
+        0xa3b4_7cc1_aae0_eaa6,
+        0xf97d_154a_c64e_47fa,
+        0xb0c3_c4d2_5004_60d0,
     ]);
 }
 
 #[test]
 fn moment_nodes() {
     bvh::<MomentNode<4>, Moments, 4>([
-        0x3f35_f3a9_587f_5121,
-        0x4d47_022c_f3b7_4547,
-        0xb724_ac5e_bdd6_1a6b,
+        0x824c_a966_db9c_c60c,
+        0xb379_fff3_28f7_1b47,
+        0x6e96_76a3_63ee_1b47,
     ]);
     bvh::<MomentNode<8>, Defensive<Moments, 6>, 8>([
-        0xaa2a_91b1_8600_69b3,
-        0xdcf9_0266_ccfe_f568,
-        0x7a50_4e7b_ff3d_936c,
+        0xef4d_5e8f_a9f9_91e6,
+        0x96bc_381c_caa6_f9ff,
+        0xe4a5_0810_372d_ee6c,
     ]);
 }

@@ -102,3 +102,21 @@ fn clusters_are_the_greatest_prefixes_that_fit() {
     lights.sort_unstable();
     assert!(lights.iter().copied().eq(0..3000));
 }
+
+/// The flux of a cluster stays in its range.
+#[test]
+fn clusters_of_the_brightest_lights_are_not_infinite() {
+    let most = crate::exact::pow2(126);
+    let primitives: Vec<_> = (0..40)
+        .map(|i| WardPrimitive {
+            phi: most,
+            ..primitive(i, [0.5; 3])
+        })
+        .collect();
+    let (_, centres) = clusters::<8>(&primitives);
+    assert!(
+        centres
+            .iter()
+            .all(|centre| centre.phi == most && centre.c == [0.5; 3])
+    );
+}

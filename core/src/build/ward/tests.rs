@@ -189,7 +189,7 @@ fn the_number_of_threads_changes_no_bit() {
 }
 
 /// Of FAST, BALANCED and BEST; another builder has others.
-const DIGESTS: [u32; 3] = [0xadf0_e243, 0x6837_42c1, 0x5dd7_0140];
+const DIGESTS: [u32; 3] = [0x6a88_5b68, 0x586d_26a8, 0x5dd7_0140];
 
 /// Work grows with the number of lights, not with its square: quadratic work on these would take minutes.
 #[test]
@@ -272,7 +272,7 @@ fn the_first_split_is_the_best_of_all_planes() {
     }
 }
 
-/// 0.7 of the slots and more are filled, where leaf nodes are meant to be full.
+/// Where leaf nodes are meant to be full, 0.8 of the slots and more are filled; with clusters by code, 0.7.
 #[test]
 fn nodes_are_filled() {
     for (name, primitives) in hostile(20_000) {
@@ -280,7 +280,12 @@ fn nodes_are_filled() {
             let tree = built::<8>(&primitives, &params);
             let children = primitives.len() + tree.nodes.len() - 1;
             let fill = children as f64 / (8 * tree.nodes.len()) as f64;
-            assert!(fill > 0.68, "{name}, {:?}: {fill}", params.heuristic);
+            let least = if params.heuristic == Heuristic::Ward {
+                0.8
+            } else {
+                0.7
+            };
+            assert!(fill > least, "{name}, {:?}: {fill}", params.heuristic);
         }
     }
 }

@@ -1,0 +1,162 @@
+//! Walks over nodes made by hand, whose weights are the numbers in them.
+
+extern crate std;
+
+use core::cell::Cell;
+
+use super::*;
+use crate::importance::ImportanceModel;
+use crate::instance::Instance;
+use crate::node::{FullMomentNode, kind};
+use crate::point::ShadingPoint;
+use crate::trail::{BitTrail, max_levels};
+use crate::tree::{INVALID, LightTree};
+
+type Node = FullMomentNode<4>;
+
+std::thread_local! {
+    static NODES: Cell<u32> = const { Cell::new(0) };
+}
+
+/// The flux alone, whatever it is; counts its calls.
+struct Flux;
+
+impl ImportanceModel<Node, 4> for Flux {
+    const UNIFORM_HALVINGS: u32 = 0;
+
+    fn weights(node: &Node, _: &ShadingPoint) -> [f32; 4] {
+        let calls = NODES.get() + 1;
+        NODES.set(calls);
+        assert!(calls < 1000, "the walk does not end");
+        let words: [[u32; 4]; 15] = bytemuck::cast(*node);
+        words[0].map(f32::from_bits)
+    }
+}
+
+const POINT: ShadingPoint = ShadingPoint {
+    p: [0.0; 3],
+    n: [0.0; 3],
+};
+
+/// A node of (weight, kind, link).
+fn node(children: &[(f32, u32, u32)]) -> Node {
+    let mut words = [[0; 4]; 15];
+    for (slot, &(weight, kind, link)) in children.iter().enumerate() {
+        words[0][slot] = weight.to_bits();
+        words[13][slot] = link;
+        words[14][slot] = kind;
+    }
+    bytemuck::cast(words)
+}
+
+fn tree<'a>(
+    nodes: &'a [Node],
+    instances: &'a [Instance],
+    trails: &'a [u32],
+    depth: u32,
+) -> LightTree<'a, Node> {
+    LightTree {
+        nodes,
+        root: 0,
+        instances,
+        trails,
+        trail_words: 2,
+        live: instances.len() as u32,
+        lights: (trails.len() / 2) as u32,
+        depth,
+    }
+}
+
+/// Nodes that one call evaluates.
+fn nodes_of<R>(call: impl FnOnce() -> R) -> u32 {
+    NODES.set(0);
+    call();
+    NODES.get()
+}
+
+/// Light `k` is a child of level `k`, beside a next level of nearly no weight: each has one number in 2^22 of those that lead
+/// to its parent, down to a probability that is never drawn but is not zero.
+#[test]
+fn probabilities_are_products_of_shares_down_to_the_least() {
+    const LEVELS: u32 = 7;
+    let nodes: std::vec::Vec<Node> = (0..LEVELS)
+        .map(|level| {
+            let next = if level + 1 < LEVELS {
+                kind::INNER
+            } else {
+                kind::EMPTY
+            };
+            let weight = if level + 1 < LEVELS { 1e-30 } else { 0.0 };
+            node(&[(weight, next, level + 1), (1.0, kind::LIGHT, level)])
+        })
+        .collect();
+    let mut trails = std::vec::Vec::new();
+    for level in 0..LEVELS {
+        let mut trail = BitTrail::default();
+        for above in 0..level {
+            trail = trail.with::<4>(above, 0);
+        }
+        let own = trail.with::<4>(level, 1);
+        trails.extend([own.low, own.high]);
+    }
+    let tree = tree(&nodes, &[], &trails, LEVELS);
+    for light in 0..LEVELS {
+        let expected = 2f64.powi(-22 * light as i32).max(2f64.powi(-98));
+        let found = f64::from(pmf::<Node, Flux, 4>(&tree, &POINT, light, INVALID));
+        // All but one of the numbers, where there is a next level.
+        assert!(
+            (expected * (1.0 - 2f64.powi(-21))..=expected).contains(&found),
+            "{light}: {found:e}, expected {expected:e}"
+        );
+    }
+}
+
+/// Hostile words may give weights of any sign, whose shares are longer than the range: such a child is not entered.
+#[test]
+fn shares_longer_than_the_range_lead_nowhere() {
+    let nodes = [node(&[
+        (1.0, kind::LIGHT, 0),
+        (-1.5, kind::LIGHT, 1),
+        (1.0, kind::LIGHT, 2),
+    ])];
+    let tree = tree(&nodes, &[], &[0, 0, 1, 0, 2, 0], 1);
+    for light in 0..3 {
+        let pmf = pmf::<Node, Flux, 4>(&tree, &POINT, light, INVALID);
+        assert!((0.0..=1.0).contains(&pmf), "{light}: {pmf}");
+        assert!(light != 0 || pmf == 0.0, "{pmf}");
+    }
+    for number in 0..64u32 {
+        let sampled = sample::<Node, Flux, 4>(&tree, &POINT, Random64::from(number << 26));
+        assert!((0.0..=1.0).contains(&sampled.pmf), "{}", sampled.pmf);
+    }
+}
+
+/// Nodes linked in a ring, in a tree that says it is as deep as can be: the levels of a trail end the walk, in either tree.
+#[test]
+fn rings_end_with_the_levels_of_a_trail() {
+    let levels = max_levels(4);
+    let top = [node(&[(1.0, kind::INNER, 0)])];
+    let ring = tree(&top, &[], &[0, 0], u32::MAX);
+    let number = Random64::from(0u32);
+    assert_eq!(
+        nodes_of(|| sample::<Node, Flux, 4>(&ring, &POINT, number)),
+        levels
+    );
+    assert_eq!(
+        nodes_of(|| pmf::<Node, Flux, 4>(&ring, &POINT, 0, INVALID)),
+        levels
+    );
+
+    let below = [node(&[(1.0, kind::MESH, 0)]), node(&[(1.0, kind::INNER, 1)])];
+    let instance = Instance {
+        root: 1,
+        ..Instance::IDENTITY
+    };
+    let instances = [instance];
+    let ring = tree(&below, &instances, &[0, 0], u32::MAX);
+    assert_eq!(
+        nodes_of(|| sample::<Node, Flux, 4>(&ring, &POINT, number)),
+        1 + levels
+    );
+    assert_eq!(nodes_of(|| pmf::<Node, Flux, 4>(&ring, &POINT, 0, 0)), 1 + levels);
+}
