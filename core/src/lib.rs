@@ -103,8 +103,6 @@ pub mod levels;
 #[cfg(feature = "alloc")]
 pub mod lights;
 #[cfg(feature = "alloc")]
-pub mod scene;
-#[cfg(feature = "alloc")]
 pub mod sweep;
 #[cfg(feature = "alloc")]
 pub mod transform;
@@ -117,17 +115,15 @@ pub mod rebuilder;
 #[cfg(feature = "alloc")]
 pub use build::{BuildParams, Effort, Heuristic};
 #[cfg(feature = "alloc")]
-pub use bvh::LightBvh;
+pub use bvh::{Bvh, Edit, EditError, InstanceId, LightBvh, MeshId};
 #[cfg(feature = "alloc")]
 pub use lights::{Lights, LightsError};
 #[cfg(feature = "std")]
 pub use rebuilder::{RebuildError, Rebuilder, RebuilderParams};
 #[cfg(feature = "alloc")]
-pub use scene::{Edit, InstanceId, MeshId, Scene};
-#[cfg(feature = "alloc")]
 pub use transform::Transform;
 #[cfg(feature = "alloc")]
-pub use validate::{Stats, Violation};
+pub use validate::Violation;
 
 pub use bounds::LightBounds;
 pub use importance::{Defensive, Eq4, FluxOverDistance, ImportanceModel, Moments};

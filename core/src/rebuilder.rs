@@ -6,16 +6,16 @@
 //! and refitted as ever.
 //!
 //! ```
-//! # use lightbvh::{CompactNode, Edit, EmissiveTriangle, Rebuilder, RebuilderParams, Scene, Transform};
+//! # use lightbvh::{CompactNode, Edit, EmissiveTriangle, Rebuilder, RebuilderParams, Bvh, Transform};
 //! # let lamp = EmissiveTriangle { p: [[0.0, 3.0, 0.0], [0.1, 3.0, 0.0], [0.0, 3.0, 0.1]], radiance: [1.0; 3], mesh: 0, flags: 0 };
-//! let mut scene = Scene::<CompactNode<4>, 4>::default();
-//! let mesh = scene.update(vec![Edit::AddMesh { triangles: vec![lamp] }])?.meshes[0];
+//! let mut scene = Bvh::<CompactNode<4>, crate::Eq4, 4>::default();
+//! let mesh = scene.apply(vec![Edit::AddMesh { triangles: vec![lamp] }])?.meshes[0];
 //! let mut rebuilder = Rebuilder::new(RebuilderParams::default());
 //! for frame in 0..3 {
 //!     let start = rebuilder.begin_frame(&mut scene)?;
 //!     assert_eq!(start.swapped, frame > 0);
 //!     let transform = Transform::at([frame as f32, 0.0, 0.0]);
-//!     scene.update(vec![Edit::AddInstance { mesh, transform, radiance: 1.0 }])?;
+//!     scene.apply(vec![Edit::AddInstance { mesh, transform, radiance: 1.0 }])?;
 //!     scene.refit();
 //!     rebuilder.end_frame(&scene);
 //!     // Sample the scene here, while the next top level is built.
@@ -34,8 +34,8 @@ use std::time::Instant;
 
 use self::handover::Outcome;
 use self::worker::{Built, Worker, build};
+use crate::bvh::{Bvh, RebuildParams};
 use crate::node::LightNode;
-use crate::scene::{RebuildParams, Scene};
 
 /// When results are swapped in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -86,12 +86,15 @@ pub struct FrameStart {
 
 /// Why a rebuild came to nothing. The scene goes on with the tree that it has.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum RebuildError {
     /// Building panicked.
     Panicked {
         /// What the panic said.
         message: String,
     },
+    /// It was taken from another light BVH than the one that it came back to.
+    Foreign,
 }
 
 impl fmt::Display for RebuildError {
@@ -101,13 +104,14 @@ impl fmt::Display for RebuildError {
                 f,
                 "the rebuild panicked: {message}; the scene keeps its refitted tree and the next rebuild is tried anew"
             ),
+            Self::Foreign => write!(f, "{}", crate::bvh::Foreign),
         }
     }
 }
 
 impl core::error::Error for RebuildError {}
 
-/// Runs the rebuilds of one [`Scene`] beside its frames, one at a time.
+/// Runs the rebuilds of one [`Bvh`] beside its frames, one at a time.
 ///
 /// Dropping it waits for the worker to end the rebuild that it runs, if any. Where no thread can be started (a limit of
 /// the system, or a platform without threads) rebuilds run at the end of their frame, with the same results.
@@ -155,12 +159,12 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
         self.flight.is_some()
     }
 
-    /// Swaps in what is due. Comes before the frame's [`Scene::update`] or after it, but before its [`Scene::refit`], with
+    /// Swaps in what is due. Comes before the frame's [`Bvh::apply`] or after it, but before its [`Bvh::refit`], with
     /// the scene that [`end_frame`](Self::end_frame) gets.
     ///
     /// # Errors
     /// [`RebuildError`], once, if the rebuild that was due came to nothing. The frame can go on as if nothing had been due.
-    pub fn begin_frame(&mut self, scene: &mut Scene<N, W>) -> Result<FrameStart, RebuildError> {
+    pub fn begin_frame<I>(&mut self, scene: &mut Bvh<N, I, W>) -> Result<FrameStart, RebuildError> {
         let mut start = FrameStart::default();
         let Some(flight) = &mut self.flight else {
             return Ok(start);
@@ -190,7 +194,7 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
         let flight = self.flight.take();
         match built {
             Ok((rebuilt, time)) => {
-                scene.adopt(rebuilt);
+                scene.install(rebuilt).map_err(|_| RebuildError::Foreign)?;
                 start.swapped = true;
                 start.built = time;
                 Ok(start)
@@ -207,8 +211,8 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
     }
 
     /// Starts the next rebuild, unless one is under way or there is nothing to build. Comes after the frame's
-    /// [`Scene::refit`], every frame: it also notes which bottom levels may have lost quality while one is under way.
-    pub fn end_frame(&mut self, scene: &Scene<N, W>) {
+    /// [`Bvh::refit`], every frame: it also notes which bottom levels may have lost quality while one is under way.
+    pub fn end_frame<I>(&mut self, scene: &Bvh<N, I, W>) {
         let work = scene.work();
         self.changed |= work.computed() > 0;
         self.watched.extend(&work.roots);
@@ -252,10 +256,10 @@ mod tests {
             flags: 0,
         };
         let run = |threads: bool| {
-            let mut scene = Scene::<CompactNode<4>, 4>::default();
+            let mut scene = Bvh::<CompactNode<4>, crate::Eq4, 4>::default();
             let triangles = vec![triangle];
             let mesh = scene
-                .update(vec![Edit::AddMesh { triangles }])
+                .apply(vec![Edit::AddMesh { triangles }])
                 .expect("a mesh")
                 .meshes[0];
             let mut rebuilder = Rebuilder::new(RebuilderParams {
@@ -274,7 +278,7 @@ mod tests {
                     transform: Transform::at([f32::from(frame * k % 7), f32::from(k), f32::from(frame)]),
                     radiance: 1.0,
                 };
-                scene.update((0..5).map(add).collect()).expect("instances");
+                scene.apply((0..5).map(add).collect()).expect("instances");
                 scene.refit();
                 scene.validate().expect("valid");
                 rebuilder.end_frame(&scene);

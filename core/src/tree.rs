@@ -1,17 +1,18 @@
 //! A light BVH as traversal sees it: borrowed arrays, the same on both processors.
 
+use core::marker::PhantomData;
+
 use crate::instance::Instance;
 use crate::trail::{BitTrail, Path};
 
 /// "No such index."
 pub const INVALID: u32 = u32::MAX;
 
-/// A light BVH of one or two levels over nodes of type `N`.
+/// A light BVH of one or two levels: borrowed arrays with nodes of layout `N` and width `W`, and what children are chosen by, `I`.
 ///
 /// Both shapes share every function: in a two-level tree the leaves of the starting tree are instances, in a single-level
 /// tree they are triangles and `live` is 0.
-#[derive(Clone, Copy)]
-pub struct LightTree<'a, N> {
+pub struct LightTree<'a, N, I, const W: usize> {
     /// All nodes of all trees; at least one.
     pub nodes: &'a [N],
     /// Index of the node that a walk starts at.
@@ -28,9 +29,37 @@ pub struct LightTree<'a, N> {
     pub lights: u32,
     /// Greatest number of nodes on a path from the root to a light: no walk takes more steps.
     pub depth: u32,
+    /// The importance has no words.
+    pub importance: PhantomData<I>,
 }
 
-impl<N> LightTree<'_, N> {
+impl<N, I, const W: usize> Clone for LightTree<'_, N, I, W> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<N, I, const W: usize> Copy for LightTree<'_, N, I, W> {}
+
+impl<'a, N, I, const W: usize> LightTree<'a, N, I, W> {
+    /// The same tree, walked by another importance.
+    #[inline]
+    #[must_use]
+    pub fn by<J>(&self) -> LightTree<'a, N, J, W> {
+        LightTree {
+            nodes: self.nodes,
+            root: self.root,
+            instances: self.instances,
+            trails: self.trails,
+            trail_words: self.trail_words,
+            live: self.live,
+            lights: self.lights,
+            depth: self.depth,
+            importance: PhantomData,
+        }
+    }
+
     /// The path to triangle `triangle` of the bottom level of instance `instance` ([`INVALID`] in a single-level tree).
     /// Indices out of range give a path that leads elsewhere; no access is out of range.
     #[inline]

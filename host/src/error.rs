@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use lightbvh::scene::EditError;
-use lightbvh::{LightsError, RebuildError};
+use lightbvh::{EditError, LightsError, RebuildError};
 
+use crate::backend::BackendError;
 use crate::compare::CompareError;
 use crate::metrics::MetricError;
 use crate::render::{FilmError, RayBvhError};
@@ -53,6 +53,9 @@ pub enum HostError {
     /// A device.
     #[error(transparent)]
     Vulkan(#[from] VulkanError),
+    /// Lights that a backend cannot follow.
+    #[error("{0}")]
+    Follow(EditError),
     /// A comparison that makes no sense.
     #[error(transparent)]
     Compare(#[from] CompareError),
@@ -117,4 +120,13 @@ pub enum HostError {
     /// Standard output is gone.
     #[error("cannot write to standard output: {0}")]
     Output(#[from] std::io::Error),
+}
+
+impl From<BackendError> for HostError {
+    fn from(error: BackendError) -> Self {
+        match error {
+            BackendError::Vulkan(error) => Self::Vulkan(error),
+            BackendError::Lights(error) => Self::Follow(error),
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! From a scene to what the backends run: arrays of a frame, light BVHs, queries.
 
 use lightbvh::exact::{hash, unit_f32};
-use lightbvh::{BuildParams, LightBvh, LightNode, Lights, ShadingPoint};
+use lightbvh::{BuildParams, Bvh, INVALID, LightNode, Lights, Random64, ShadingPoint};
 use lightbvh_kernels::query::Query;
 use lightbvh_kernels::render::RenderParams;
 
@@ -75,14 +75,27 @@ pub fn arrays_at(scene: &Scene, frame: u32, width: u32, height: u32) -> Result<S
 
 /// The light BVH that `sampler` walks; the other samplers walk none and get the two-level one.
 #[must_use]
-pub fn build<N: LightNode<W>, const W: usize>(
+pub fn build<N: LightNode<W>, I, const W: usize>(
     lights: &Lights,
     sampler: Sampler,
     params: &BuildParams,
-) -> LightBvh<N, W> {
+) -> Bvh<N, I, W> {
     match sampler {
-        Sampler::SingleLevel => LightBvh::single_level(lights, params),
-        _ => LightBvh::two_level(lights, params),
+        Sampler::SingleLevel => Bvh::single_level(lights, params),
+        _ => Bvh::two_level(lights, params),
+    }
+}
+
+/// The instance of light `light` in a BVH that was built over `lights`: what a pmf is asked for beside the light.
+#[must_use]
+pub fn instance_of<N: LightNode<W>, I, const W: usize>(
+    bvh: &Bvh<N, I, W>,
+    lights: &Lights,
+    light: u32,
+) -> u32 {
+    match lights.triangles().get(light as usize) {
+        Some(triangle) if !bvh.is_single_level() => triangle.mesh,
+        _ => INVALID,
     }
 }
 
@@ -123,9 +136,10 @@ fn query(scene: &SceneArrays, bounds: &([f32; 3], [f32; 3]), random: u32) -> Que
     } else if kind >= 0.995 {
         p = [0.0; 3];
     }
+    let number = Random64::from(hash(random ^ 0x5555_5555));
     Query {
         point: ShadingPoint { p, n },
-        random_or_light: hash(random ^ 0x5555_5555),
+        words: [number.high, number.low],
     }
 }
 

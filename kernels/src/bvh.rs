@@ -5,17 +5,17 @@ use core::marker::PhantomData;
 use bytemuck::{Pod, Zeroable};
 use lightbvh::{
     CompactNode, Defensive, Eq4, INVALID, ImportanceModel, Instance, LightNode, LightTree, MomentNode,
-    Moments, Random64, ShadingPoint, traverse,
+    Moments, Random64, SampledLight, ShadingPoint,
 };
 
-use crate::shading::pick::{PickLight, Picked};
+use crate::shading::pick::PickLight;
 
 /// A layout with its importance: what one set of kernels is compiled for.
 pub trait Choice<const W: usize>: Copy + Send + Sync + 'static {
     /// The node layout.
     type Node: LightNode<W> + core::fmt::Debug;
     /// What children are chosen by.
-    type Importance: ImportanceModel<Self::Node, W> + Send + Sync + 'static;
+    type Importance: ImportanceModel<Self::Node, W> + Clone + core::fmt::Debug + Send + Sync + 'static;
     /// Name for tables and options.
     const NAME: &'static str;
     /// What the names of its kernels end in.
@@ -86,7 +86,7 @@ pub struct TreePush {
 impl TreePush {
     /// What `tree` holds besides its arrays.
     #[must_use]
-    pub fn of<N>(tree: &LightTree<'_, N>) -> Self {
+    pub fn of<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>) -> Self {
         Self {
             root: tree.root,
             trail_words: tree.trail_words,
@@ -99,12 +99,12 @@ impl TreePush {
     /// The tree over the given arrays.
     #[inline]
     #[must_use]
-    pub fn tree<'a, N>(
+    pub fn tree<'a, N, I, const W: usize>(
         &self,
         nodes: &'a [N],
         instances: &'a [Instance],
         trails: &'a [u32],
-    ) -> LightTree<'a, N> {
+    ) -> LightTree<'a, N, I, W> {
         LightTree {
             nodes,
             root: self.root,
@@ -114,44 +114,24 @@ impl TreePush {
             live: self.live,
             lights: self.lights,
             depth: self.depth,
+            importance: PhantomData,
         }
     }
 }
 
-/// Picks lights by sampling a light BVH.
-#[derive(Clone, Copy)]
-pub struct BvhPicker<'a, C: Choice<W>, const W: usize> {
-    /// The light BVH.
-    pub tree: LightTree<'a, C::Node>,
-    choice: PhantomData<C>,
-}
+/// The tree of a choice.
+pub type TreeOf<'a, C, const W: usize> =
+    LightTree<'a, <C as Choice<W>>::Node, <C as Choice<W>>::Importance, W>;
 
-impl<'a, C: Choice<W>, const W: usize> BvhPicker<'a, C, W> {
-    /// The picker over `tree`.
+impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> PickLight for LightTree<'_, N, I, W> {
     #[inline]
-    #[must_use]
-    pub fn new(tree: LightTree<'a, C::Node>) -> Self {
-        Self {
-            tree,
-            choice: PhantomData,
-        }
-    }
-}
-
-impl<C: Choice<W>, const W: usize> PickLight for BvhPicker<'_, C, W> {
-    #[inline]
-    fn pick(&self, point: &ShadingPoint, random: u32) -> Picked {
-        let random = Random64::from(random);
-        let sampled = traverse::sample::<C::Node, C::Importance, W>(&self.tree, point, random);
-        Picked {
-            light: sampled.light,
-            pmf: sampled.pmf,
-        }
+    fn pick(&self, point: &ShadingPoint, random: u32) -> SampledLight {
+        self.sample(point, Random64::from(random))
     }
 
     #[inline]
     fn pmf(&self, point: &ShadingPoint, light: u32, mesh: u32) -> f32 {
-        let instance = if self.tree.live > 0 { mesh } else { INVALID };
-        traverse::pmf::<C::Node, C::Importance, W>(&self.tree, point, light, instance)
+        let instance = if self.live > 0 { mesh } else { INVALID };
+        LightTree::pmf(self, point, light, instance)
     }
 }

@@ -6,7 +6,7 @@ use lightbvh::exact::{div, hash};
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
-use crate::bvh::{BvhPicker, NodeOf, Paper, Standard, TreePush};
+use crate::bvh::{NodeOf, Paper, Standard, TreeOf, TreePush};
 use crate::invocation;
 use crate::render::RenderParams;
 use crate::shading::camera::Camera;
@@ -97,7 +97,7 @@ macro_rules! path_pass {
                     materials,
                     lights,
                 };
-                let picker = BvhPicker::<$choice, _>::new(push.tree.tree(nodes, instances, trails));
+                let picker: TreeOf<'_, $choice, _> = push.tree.tree(nodes, instances, trails);
                 results[i as usize] = path_pixel(
                     &scene,
                     &camera[0],

@@ -2,30 +2,21 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::UVec3;
-use lightbvh::{EmissiveTriangle, INVALID, Instance, LightTree, Random64, ShadingPoint, traverse};
+use lightbvh::{Instance, Random64, SampledLight, ShadingPoint};
 use spirv_std::spirv;
 
-use crate::bvh::{Choice, NodeOf, Paper, Standard, TreePush};
+use crate::bvh::{Choice, NodeOf, Paper, Standard, TreeOf, TreePush};
 use crate::invocation;
 
-/// A point and 32 random bits; for `pmf` the light asked about takes the place of the random bits.
+/// A point, and what is asked: 32 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Query {
     /// The point to be lit.
     pub point: ShadingPoint,
-    /// Random bits (`sample`), or the index of an emissive triangle (`pmf`).
-    pub random_or_light: u32,
-}
-
-/// What `sample` writes.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Sampled {
-    /// Index of the emissive triangle, or [`INVALID`].
-    pub light: u32,
-    /// Its probability.
-    pub pmf: f32,
+    /// For `sample` the number of the walk, its high word first; for `pmf` the light and its instance (`u32::MAX` in a
+    /// single-level tree).
+    pub words: [u32; 2],
 }
 
 /// Push constants of both passes.
@@ -41,34 +32,19 @@ pub struct QueryPush {
 /// The answer to a query of pass `sample`.
 #[inline]
 #[must_use]
-pub fn sample_query<C: Choice<W>, const W: usize>(tree: &LightTree<'_, C::Node>, query: &Query) -> Sampled {
-    let random = Random64::from(query.random_or_light);
-    let sampled = traverse::sample::<C::Node, C::Importance, W>(tree, &query.point, random);
-    Sampled {
-        light: sampled.light,
-        pmf: sampled.pmf,
-    }
+pub fn sample_query<C: Choice<W>, const W: usize>(tree: &TreeOf<'_, C, W>, query: &Query) -> SampledLight {
+    let number = Random64 {
+        high: query.words[0],
+        low: query.words[1],
+    };
+    tree.sample(&query.point, number)
 }
 
 /// The answer to a query of pass `pmf`.
 #[inline]
 #[must_use]
-pub fn pmf_query<C: Choice<W>, const W: usize>(
-    tree: &LightTree<'_, C::Node>,
-    triangles: &[EmissiveTriangle],
-    query: &Query,
-) -> f32 {
-    let light = query.random_or_light;
-    let mut result = 0.0;
-    if light < triangles.len() as u32 {
-        let instance = if tree.live > 0 {
-            triangles[light as usize].mesh
-        } else {
-            INVALID
-        };
-        result = traverse::pmf::<C::Node, C::Importance, W>(tree, &query.point, light, instance);
-    }
-    result
+pub fn pmf_query<C: Choice<W>, const W: usize>(tree: &TreeOf<'_, C, W>, query: &Query) -> f32 {
+    tree.pmf(&query.point, query.words[0], query.words[1])
 }
 
 /// The passes for one choice: `$sample` chooses a light for each query's point, `$pmf` evaluates the probability of each
@@ -84,11 +60,11 @@ macro_rules! query_passes {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] trails: &[u32],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] queries: &[Query],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] results: &mut [Sampled],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] results: &mut [SampledLight],
         ) {
             let i = invocation(id);
             if i < push.count && i < queries.len() as u32 {
-                let tree = push.tree.tree(nodes, instances, trails);
+                let tree: TreeOf<'_, $choice, _> = push.tree.tree(nodes, instances, trails);
                 results[i as usize] = sample_query::<$choice, _>(&tree, &queries[i as usize]);
             }
         }
@@ -101,14 +77,13 @@ macro_rules! query_passes {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[NodeOf<$choice>],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] trails: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] queries: &[Query],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] results: &mut [f32],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] queries: &[Query],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] results: &mut [f32],
         ) {
             let i = invocation(id);
             if i < push.count && i < queries.len() as u32 {
                 let tree = push.tree.tree(nodes, instances, trails);
-                results[i as usize] = pmf_query::<$choice, _>(&tree, triangles, &queries[i as usize]);
+                results[i as usize] = pmf_query::<$choice, _>(&tree, &queries[i as usize]);
             }
         }
     };

@@ -7,7 +7,7 @@ use lightbvh::exact::hash;
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
-use crate::bvh::{BvhPicker, NodeOf, Paper, Standard, TreePush};
+use crate::bvh::{NodeOf, Paper, Standard, TreeOf, TreePush};
 use crate::invocation;
 use crate::shading::camera::Camera;
 use crate::shading::material::Material;
@@ -100,7 +100,7 @@ macro_rules! render_pass {
                     materials,
                     lights,
                 };
-                let picker = BvhPicker::<$choice, _>::new(push.tree.tree(nodes, instances, trails));
+                let picker: TreeOf<'_, $choice, _> = push.tree.tree(nodes, instances, trails);
                 results[i as usize] = render_pixel(
                     &scene,
                     &camera[0],

@@ -16,7 +16,7 @@ use glam::UVec3;
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
-use crate::bvh::{BvhPicker, NodeOf, Paper, Standard, TreePush};
+use crate::bvh::{NodeOf, Paper, Standard, TreeOf, TreePush};
 use crate::invocation;
 use crate::shading::camera::Camera;
 use crate::shading::material::Material;
@@ -110,7 +110,7 @@ macro_rules! initial_pass {
                     lights,
                 };
                 let surface = first_surface(&scene, &camera[0], &push.params, pixel);
-                let picker = BvhPicker::<$choice, _>::new(push.tree.tree(nodes, instances, trails));
+                let picker: TreeOf<'_, $choice, _> = push.tree.tree(nodes, instances, trails);
                 gbuffer[pixel as usize] = surface;
                 reservoirs[pixel as usize] = first_reservoir(&scene, &push.params, &picker, &surface, pixel);
             }

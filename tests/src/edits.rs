@@ -131,12 +131,12 @@ pub fn edits<N: LightNode<W>, const W: usize>(
                 let kind = placing::kind(random);
                 let transform = placing::transform(random, kind, reach);
                 model.instances.get_mut(&instance).expect("it is there").1 = transform;
-                batch.push(Edit::Move { instance, transform });
+                batch.push(Edit::SetTransform { instance, transform });
             }
             (5, Some(instance), _) => {
                 let radiance = factor(random);
                 model.instances.get_mut(&instance).expect("it is there").2 = radiance;
-                batch.push(Edit::Shine { instance, radiance });
+                batch.push(Edit::SetRadiance { instance, radiance });
             }
             (6, _, Some(mesh)) => {
                 let mut triangles = model.meshes[&mesh].clone();
@@ -146,7 +146,7 @@ pub fn edits<N: LightNode<W>, const W: usize>(
                     triangle.radiance = [random.below(2) as f32 * 3.0; 3];
                 }
                 model.meshes.insert(mesh, triangles.clone());
-                batch.push(Edit::Deform { mesh, triangles });
+                batch.push(Edit::SetTriangles { mesh, triangles });
             }
             (7, Some(instance), Some(mesh)) => {
                 if random.below(2) == 0 {

@@ -126,7 +126,10 @@ fn edits() {
         &["emissive triangle 1", "blue", "NaN"],
     );
     let triangles = vec![LAMP; 2];
-    let count = refused(Edit::Deform { mesh, triangles }, &["2 triangles for a mesh of 3"]);
+    let count = refused(
+        Edit::SetTriangles { mesh, triangles },
+        &["2 triangles for a mesh of 3"],
+    );
     assert_eq!(
         count,
         EditReason::Count {

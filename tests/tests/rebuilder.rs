@@ -358,7 +358,7 @@ fn a_mesh_bent_while_a_rebuild_is_under_way_is_built_anew_by_the_next() {
                 let j = random.below(i as u32 + 1) as usize;
                 triangles.swap(i, j);
             }
-            let batch = vec![Edit::Deform {
+            let batch = vec![Edit::SetTriangles {
                 mesh,
                 triangles: triangles.clone(),
             }];

@@ -2,7 +2,7 @@
 
 use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, ShadingPoint};
 use lightbvh_host::render::{flux, power_thresholds};
-use lightbvh_kernels::bvh::{BvhPicker, Choice, Node, Standard, WIDTH};
+use lightbvh_kernels::bvh::{Choice, Node, Standard, TreeOf, WIDTH};
 use lightbvh_kernels::shading::pick::{MAX_PICKABLE, PickLight, Power, Uniform};
 use lightbvh_kernels::shading::trace::NONE;
 use lightbvh_tests::generate::{Random, point, small_triangles};
@@ -178,7 +178,7 @@ fn evaluated_pmfs_are_those_of_the_pick() {
         LightBvh::<Node, WIDTH>::single_level(&lights, &BuildParams::default()),
         LightBvh::<Node, WIDTH>::two_level(&lights, &BuildParams::default()),
     ] {
-        let picker = BvhPicker::<Standard, WIDTH>::new(bvh.tree());
+        let picker = bvh.tree();
         let what = if bvh.is_two_level() {
             "two-level"
         } else {

@@ -13,7 +13,7 @@ use lightbvh_host::render::RayBvh;
 use lightbvh_host::scene::Scene;
 use lightbvh_host::vulkan::{Device, Options};
 use lightbvh_host::workload::arrays_at;
-use lightbvh_kernels::bvh::BvhPicker;
+use lightbvh_kernels::bvh::TreeOf;
 use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::restir::combine::Unbiased;
 use lightbvh_kernels::shading::restir::shade::shade;
@@ -49,7 +49,7 @@ impl Shot {
     fn frame(&self, width: u32, height: u32, seed: u32) -> RestirFrame<'_> {
         RestirFrame {
             scene: &self.arrays,
-            bvh: BvhPicker::new(self.bvh.tree()),
+            bvh: self.bvh.tree(),
             width,
             height,
             seed,

@@ -10,7 +10,7 @@ use lightbvh_host::backend::{
 use lightbvh_host::render::Film;
 use lightbvh_host::scene::Scene;
 use lightbvh_host::workload::{Shot, arrays_at};
-use lightbvh_kernels::bvh::{BvhPicker, Standard, WIDTH as WIDE};
+use lightbvh_kernels::bvh::{Standard, TreeOf, WIDTH as WIDE};
 
 const WIDTH: u32 = 128;
 const HEIGHT: u32 = 72;
@@ -44,7 +44,7 @@ fn restir(case: &Case, options: RestirOptions, seed: u32) -> (Vec<[f32; 3]>, f64
     for (number, (scene, bvh)) in (0..).zip(&case.frames) {
         let frame = RestirFrame {
             scene,
-            bvh: BvhPicker::new(bvh.tree()),
+            bvh: bvh.tree(),
             width: WIDTH,
             height: HEIGHT,
             seed: seed * 1000 + number,

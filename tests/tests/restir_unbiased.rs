@@ -9,7 +9,7 @@ use lightbvh_host::backend::{
     Bvh, CandidateSource, Combination, CpuRestir, LightRemap, Restir, RestirFrame, RestirOptions, SceneArrays,
 };
 use lightbvh_host::render::{RayBvh, View, camera};
-use lightbvh_kernels::bvh::BvhPicker;
+use lightbvh_kernels::bvh::TreeOf;
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 use lightbvh_tests::direct::{Reference, brute_force};
@@ -148,7 +148,7 @@ fn moving() -> Vec<Shot> {
 fn frame(shot: &Shot, seed: u32) -> RestirFrame<'_> {
     RestirFrame {
         scene: &shot.arrays,
-        bvh: BvhPicker::new(shot.bvh.tree()),
+        bvh: shot.bvh.tree(),
         width: WIDTH,
         height: HEIGHT,
         seed,

@@ -40,7 +40,7 @@ fn motion_costs_one_way_up_and_no_bottom_level() {
     ] {
         let transform = placing::transform(random, kind, 50.0);
         scene
-            .update(vec![Edit::Move { instance, transform }])
+            .update(vec![Edit::SetTransform { instance, transform }])
             .expect("moved");
         scene.refit();
         let work = scene.work();
@@ -180,28 +180,28 @@ fn bad_edits_change_nothing() {
             matches!(r, EditReason::UnknownInstance(_))
         }),
         (
-            Edit::Move {
+            Edit::SetTransform {
                 instance,
                 transform: nan,
             },
             |r| matches!(r, EditReason::Transform(_)),
         ),
         (
-            Edit::Move {
+            Edit::SetTransform {
                 instance,
                 transform: far,
             },
             |r| matches!(r, EditReason::Transform(_)),
         ),
         (
-            Edit::Shine {
+            Edit::SetRadiance {
                 instance,
                 radiance: f32::INFINITY,
             },
             |r| matches!(r, EditReason::Radiance { .. }),
         ),
         (
-            Edit::Shine {
+            Edit::SetRadiance {
                 instance,
                 radiance: -1.0,
             },
@@ -217,7 +217,7 @@ fn bad_edits_change_nothing() {
             matches!(r, EditReason::Light { index: 0, .. })
         }),
         (
-            Edit::Deform {
+            Edit::SetTriangles {
                 mesh: mesh_id,
                 triangles: vec![mesh(random)[0]; 40],
             },
@@ -229,7 +229,7 @@ fn bad_edits_change_nothing() {
     ];
     for (edit, expected) in bad {
         let text = format!("{edit:?}");
-        let good = Edit::Shine {
+        let good = Edit::SetRadiance {
             instance,
             radiance: 0.5,
         };
@@ -260,7 +260,7 @@ fn deforming_a_mesh_counts_instances_of_the_same_batch() {
         transform: Transform::at([1.0995e12, 0.0, 0.0]),
         radiance: 1.0,
     };
-    let deform = Edit::Deform {
+    let deform = Edit::SetTriangles {
         mesh,
         triangles: large.clone(),
     };
@@ -300,7 +300,7 @@ fn thousands_of_edits_in_one_frame() {
         let mut batch = Vec::new();
         for &instance in &ids {
             let transform = placing::transform(random, Kind::Rigid, 100.0);
-            batch.push(Edit::Move { instance, transform });
+            batch.push(Edit::SetTransform { instance, transform });
         }
         let gone = ids.len() / 2;
         batch.extend(ids.drain(..gone).map(Edit::RemoveInstance));
@@ -342,7 +342,7 @@ fn plans_edits_and_rebuilds_come_in_any_order() {
         for order in 0..4 {
             let lamp = ids[usize::from(n) / 2];
             let rebuilt = scene.rebuild(&RebuildParams::default()).run();
-            let shine = |radiance| Edit::Shine {
+            let shine = |radiance| Edit::SetRadiance {
                 instance: lamp,
                 radiance,
             };
@@ -351,7 +351,7 @@ fn plans_edits_and_rebuilds_come_in_any_order() {
                 scene.plan();
             }
             // Another edit after the plan, then a tree of before both.
-            let moved = Edit::Move {
+            let moved = Edit::SetTransform {
                 instance: ids[3],
                 transform: place(7),
             };
@@ -387,7 +387,7 @@ fn plans_edits_and_rebuilds_come_in_any_order() {
         for instance in [ids[0], ids[9]] {
             let transform = place(2);
             scene
-                .update(vec![Edit::Move { instance, transform }])
+                .update(vec![Edit::SetTransform { instance, transform }])
                 .expect("it is there");
             let written = scene.plan().written_instances.clone();
             assert!(written.iter().any(|range| range.contains(&instance.index())));

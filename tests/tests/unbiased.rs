@@ -3,7 +3,7 @@
 use glam::Vec3;
 use lightbvh::{BuildParams, EmissiveTriangle, Heuristic, LightBvh, Lights, ShadingPoint, exact};
 use lightbvh_host::render::{RayBvh, power_thresholds};
-use lightbvh_kernels::bvh::{BvhPicker, Node, Standard, WIDTH};
+use lightbvh_kernels::bvh::{Node, Standard, TreeOf, WIDTH};
 use lightbvh_kernels::shading::area::sample_triangle;
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
@@ -104,7 +104,7 @@ fn each_picker(lights: &Lights, mut test: impl FnMut(&str, &dyn Fn(&ShadingPoint
     };
     let one = LightBvh::<Node, WIDTH>::single_level(lights, &BuildParams::default());
     let two = LightBvh::<Node, WIDTH>::two_level(lights, &sah);
-    let [one, two] = [&one, &two].map(|bvh| BvhPicker::<Standard, WIDTH>::new(bvh.tree()));
+    let [one, two] = [&one, &two].map(|bvh| bvh.tree());
     let call = |p: &dyn Fn(&ShadingPoint, u32) -> lightbvh_kernels::shading::pick::Picked,
                 point: &ShadingPoint,
                 r| {

@@ -1,126 +1,92 @@
-//! Building an owned light BVH: trees from the builder, bounds from refit.
+//! Light BVHs over triangles that stand in the world already.
 
 use alloc::vec::Vec;
+use core::ops::Range;
 
-#[cfg(feature = "rayon")]
-use rayon::prelude::*;
-
-use super::LightBvh;
-use crate::build::{BuildParams, Topology, build_over, build_top};
-use crate::instance::Instance;
-use crate::levels::Levels;
+use super::Bvh;
+use super::edit::{EditError, EditReason};
+use crate::build::BuildParams;
+use crate::light::EmissiveTriangle;
 use crate::lights::Lights;
-use crate::node::{LightNode, kind};
-use crate::refit::BlasRoot;
-use crate::summary::Summary;
-use crate::trail::{BitTrail, trail_words};
+use crate::node::LightNode;
+use crate::transform::{Extent, Transform};
 
-impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
-    /// One tree over all triangles: the paper's baseline.
+impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+    /// One tree over all triangles: the paper's baseline. Light `k` is triangle `k`; the only edits are those of the triangles.
     #[must_use]
     pub fn single_level(lights: &Lights, params: &BuildParams) -> Self {
-        let all = 0..lights.triangles().len() as u32;
-        let topology = build_over::<N, W>(lights.triangles(), all, params);
-        let mut bvh = Self::empty(lights, topology.depth);
-        bvh.bottom = Levels::gather(topology.leveled(0));
-        bvh.append(&topology);
-        bvh.refit(lights);
+        let mut bvh = Self::over(
+            lights.triangles(),
+            core::iter::once(0..lights.triangles().len()),
+            params,
+        );
+        bvh.single = true;
         bvh
     }
 
     /// A bottom level (BLAS) over the triangles of each mesh light, and a top level (TLAS) over the mesh lights (paper
-    /// section 3.2).
+    /// section 3.2), each an instance that stays where it is. Light `k` is triangle `k`, instance `i` is mesh light `i`.
     #[must_use]
     pub fn two_level(lights: &Lights, params: &BuildParams) -> Self {
-        let bottom = |mesh| {
-            let range = lights.mesh(mesh);
-            build_over::<N, W>(lights.triangles(), range.start as u32..range.end as u32, params)
-        };
-        // Bottom levels do not depend on each other, so neither does the result on the number of threads.
-        #[cfg(feature = "rayon")]
-        let bottoms: Vec<Topology<N>> = (0..lights.mesh_count()).into_par_iter().map(bottom).collect();
-        #[cfg(not(feature = "rayon"))]
-        let bottoms: Vec<Topology<N>> = (0..lights.mesh_count()).map(bottom).collect();
+        let meshes = (0..lights.mesh_count()).map(|mesh| lights.mesh(mesh));
+        Self::over(lights.triangles(), meshes, params)
+    }
 
-        let bottom_depth = bottoms.iter().map(|topology| topology.depth).max().unwrap_or(0);
-        let mut bvh = Self::empty(lights, bottom_depth);
-        let mut pairs = Vec::new();
-        for (mesh, topology) in bottoms.into_iter().enumerate() {
-            let root = bvh.nodes.len() as u32;
-            let range = lights.mesh(mesh);
-            bvh.instances.push(Instance {
-                root,
-                blas: mesh as u32,
-                first: range.start as u32,
-                first_triangle: range.start as u32,
-                count: range.len() as u32,
-                listed: mesh as u32,
-                ..Instance::IDENTITY
-            });
-            bvh.roots.push(BlasRoot::new(root, &N::Summary::EMPTY));
-            pairs.extend(topology.leveled(root));
-            bvh.append(&topology);
+    /// A mesh and an instance of it for each range of the triangles.
+    fn over(
+        triangles: &[EmissiveTriangle],
+        meshes: impl Iterator<Item = Range<usize>>,
+        params: &BuildParams,
+    ) -> Self {
+        let mut bvh = Self::new(*params);
+        let mut added = Vec::new();
+        for range in meshes {
+            let mesh = bvh.insert_mesh(&triangles[range]);
+            added.push(bvh.insert_instance(mesh, Transform::IDENTITY, 1.0).index());
         }
-        bvh.bottom = Levels::gather(pairs);
-        bvh.root = bvh.nodes.len() as u32;
-        bvh.build_top(lights, params);
+        bvh.insert_instances(&added);
+        bvh.refit();
         bvh
     }
 
-    /// Builds the top level over the bottom levels.
-    fn build_top(&mut self, lights: &Lights, params: &BuildParams) {
-        self.refit(lights);
-        let summaries = (0..)
-            .zip(&self.roots)
-            .map(|(i, root)| (i, root.summary::<N::Summary>()));
-        let topology = build_top::<N, W>(summaries, params);
-        self.top = Levels::gather(topology.leveled(self.root));
-        self.depth += topology.depth;
-        for &(mesh, trail) in &topology.trails {
-            self.instances[mesh as usize].set_trail(trail);
-        }
-        self.extend(&topology.nodes);
-        self.refit_top();
-    }
-
-    fn empty(lights: &Lights, depth: u32) -> Self {
-        let trail_words = trail_words(W, depth);
-        Self {
-            nodes: Vec::new(),
-            root: 0,
-            instances: Vec::new(),
-            roots: Vec::new(),
-            trails: alloc::vec![0; lights.triangles().len() * trail_words as usize],
-            trail_words,
-            bottom: Levels::default(),
-            top: Levels::default(),
-            depth,
-            lights: lights.triangles().len() as u32,
-        }
-    }
-
-    /// Takes over a bottom level: its trails, and its nodes with their links moved to where they stand now.
-    fn append(&mut self, topology: &Topology<N>) {
-        let words = self.trail_words as usize;
-        for &(light, BitTrail { low, high }) in &topology.trails {
-            let at = light as usize * words;
-            self.trails[at] = low;
-            if words == 2 {
-                self.trails[at + 1] = high;
+    /// Moves or changes all triangles of a BVH built over [`Lights`], and refits it: the triangles of mesh `k` are those of mesh light
+    /// `k`, or all of them in a single-level BVH.
+    ///
+    /// # Errors
+    /// [`EditError`] naming the mesh light whose number of triangles is another, or would be out of range where an instance has
+    /// moved it meanwhile; the BVH is as before then.
+    pub fn follow(&mut self, lights: &Lights) -> Result<(), EditError> {
+        let mut changes = Vec::new();
+        for (index, mesh) in self.meshes.iter().enumerate().filter(|(_, mesh)| mesh.live) {
+            let error = |reason| EditError { edit: index, reason };
+            let expected = self.blases[mesh.blas as usize].triangles.len();
+            let range = if self.single {
+                0..lights.triangles().len()
+            } else if index < lights.mesh_count() {
+                lights.mesh(index)
+            } else {
+                0..0
+            };
+            if range.len() != expected {
+                let found = range.len();
+                return Err(error(EditReason::Count { expected, found }));
             }
-        }
-        self.extend(&topology.nodes);
-    }
-
-    fn extend(&mut self, nodes: &[N]) {
-        let base = self.nodes.len() as u32;
-        self.nodes.extend_from_slice(nodes);
-        for node in &mut self.nodes[base as usize..] {
-            for slot in 0..W {
-                if node.kind(slot) == kind::INNER {
-                    node.relink(slot, base + node.link(slot));
-                }
+            let triangles = &lights.triangles()[range];
+            let extent = Extent::of(triangles);
+            for &user in &mesh.users {
+                let transform = &self.placed[user as usize].transform;
+                transform
+                    .check(&extent)
+                    .map_err(|reason| error(EditReason::Transform(reason)))?;
             }
+            changes.push((mesh.blas, triangles, extent));
         }
+        self.unplan();
+        for (blas, triangles, extent) in changes {
+            self.blases[blas as usize].extent = extent;
+            self.write_triangles(blas, triangles);
+        }
+        self.refit();
+        Ok(())
     }
 }

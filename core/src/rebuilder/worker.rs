@@ -9,8 +9,8 @@ use std::thread::{self, JoinHandle};
 use std::time::Instant;
 
 use super::handover::Handover;
+use crate::bvh::{Rebuild, Rebuilt};
 use crate::node::LightNode;
-use crate::scene::{Rebuild, Rebuilt};
 
 /// A rebuild and the time it took, or what the panic said that ended it.
 pub(super) type Built<N, const W: usize> = Result<(Rebuilt<N, W>, Duration), String>;

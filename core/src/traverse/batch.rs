@@ -13,14 +13,13 @@ use crate::tree::LightTree;
 /// cache.
 const TURNS: usize = 8;
 
-/// Chooses a light for each point by its random number, to the same words as [`sample`](fn@super::sample) one at a time.
-/// `points`, `randoms` and `sampled` are of one length; what is longer is left alone.
+/// Chooses a light for each point by its random number, to the same words as one at a time.
 ///
 /// Walks take turns, a node each, so that one computes while the next node of the others is on its way from memory: in
 /// trees larger than the caches that is where the time goes.
 #[inline(always)]
-pub fn sample_batch<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    tree: &LightTree<'_, N>,
+pub(super) fn sample_batch<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    tree: &LightTree<'_, N, I, W>,
     points: &[ShadingPoint],
     randoms: &[Random64],
     sampled: &mut [SampledLight],
@@ -28,14 +27,14 @@ pub fn sample_batch<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     let queries = points.chunks(TURNS).zip(randoms.chunks(TURNS));
     for ((points, randoms), out) in queries.zip(sampled.chunks_mut(TURNS)) {
         let count = points.len().min(randoms.len()).min(out.len());
-        let nothing = begin::<N, I, W>(tree, &points[0], randoms[0]);
+        let nothing = begin(tree, &points[0], randoms[0]);
         let mut walks = [nothing; TURNS];
         for k in 1..count {
-            walks[k] = begin::<N, I, W>(tree, &points[k], randoms[k]);
+            walks[k] = begin(tree, &points[k], randoms[k]);
         }
-        turns::<N, I, W>(tree, &points[..count], &mut walks);
+        turns(tree, &points[..count], &mut walks);
         for k in 0..count {
-            out[k] = walks[k].end::<N, I, W>(tree);
+            out[k] = walks[k].end(tree);
         }
     }
 }
@@ -43,7 +42,7 @@ pub fn sample_batch<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 /// Brings the first walks, one for each point, to their ends.
 #[inline(always)]
 fn turns<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    tree: &LightTree<'_, N>,
+    tree: &LightTree<'_, N, I, W>,
     points: &[ShadingPoint],
     walks: &mut [Started; TURNS],
 ) {
@@ -52,7 +51,7 @@ fn turns<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         left = false;
         for (walk, point) in walks.iter_mut().zip(points) {
             if !walk.walk.done {
-                walk.walk.step::<N, I, W>(tree, point);
+                walk.walk.step(tree, point);
                 left |= !walk.walk.done;
                 fetch(tree.nodes, walk.walk.index);
             }

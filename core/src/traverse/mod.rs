@@ -15,9 +15,40 @@ mod sample;
 #[cfg(test)]
 mod tests;
 mod walk;
-#[cfg(feature = "alloc")]
-pub(crate) mod widest;
+mod widest;
 
-pub use batch::sample_batch;
 pub use random::Random64;
-pub use sample::{SampledLight, pmf, sample};
+pub use sample::SampledLight;
+
+use crate::importance::ImportanceModel;
+use crate::node::LightNode;
+use crate::point::ShadingPoint;
+use crate::tree::LightTree;
+
+impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> LightTree<'_, N, I, W> {
+    /// Chooses one light for `point` by `random` (paper section 3.6), after at most as many steps as the tree is deep.
+    ///
+    /// A light is returned whenever one has flux. The pmf is to the bit the one that [`pmf`](Self::pmf) gives for the light, and
+    /// the share of random numbers that choose it.
+    #[inline(always)]
+    #[must_use]
+    pub fn sample(&self, point: &ShadingPoint, random: Random64) -> SampledLight {
+        widest::sample(self, point, random)
+    }
+
+    /// Chooses a light for each point by its random number, to the same words as [`sample`](Self::sample) one at a time, but
+    /// faster: several walks hide each other's waits for memory. `points`, `randoms` and `sampled` are of one length; what is
+    /// longer is left alone.
+    #[inline(always)]
+    pub fn sample_batch(&self, points: &[ShadingPoint], randoms: &[Random64], sampled: &mut [SampledLight]) {
+        widest::sample_batch(self, points, randoms, sampled);
+    }
+
+    /// The probability with which [`sample`](Self::sample) returns light `light` of instance `instance`
+    /// ([`INVALID`](crate::INVALID) in a single-level tree) at `point`: 0 if there is no such light.
+    #[inline(always)]
+    #[must_use]
+    pub fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {
+        widest::pmf(self, point, light, instance)
+    }
+}

@@ -1,4 +1,6 @@
-//! The two questions that a renderer asks of a light BVH.
+//! One light for a point, and the probability of any.
+
+use bytemuck::{Pod, Zeroable};
 
 use super::choose::FULL_BITS;
 use super::random::Random64;
@@ -10,12 +12,15 @@ use crate::point::ShadingPoint;
 use crate::trail::Path;
 use crate::tree::{INVALID, LightTree};
 
-/// A light and the probability with which it was chosen.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A light and the probability with which it was chosen: 12 bytes, the same on devices.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct SampledLight {
-    /// Index of the emissive triangle; [`INVALID`] when no light has flux. (A share of uniform choice may return a light
-    /// without flux, with the probability that it has.)
+    /// Number of the light; [`INVALID`] when no light has flux. (A share of uniform choice may return a light without flux,
+    /// with the probability that it has.)
     pub light: u32,
+    /// Index of its instance; [`INVALID`] in a single-level tree and where there is no light.
+    pub instance: u32,
     /// Probability of this light at this point, in (0, 1]; 0 with [`INVALID`].
     pub pmf: f32,
 }
@@ -24,29 +29,26 @@ impl SampledLight {
     /// No light has flux.
     pub const NONE: Self = Self {
         light: INVALID,
+        instance: INVALID,
         pmf: 0.0,
     };
 }
 
-/// Chooses one light for `point` by `random` (paper section 3.6), after at most as many steps as the tree is deep.
-///
-/// A light is returned whenever one has flux. The pmf is to the bit the one that [`pmf`] gives for the light, and the share
-/// of random numbers that choose it.
+/// See [`LightTree::sample`].
 #[inline(always)]
-#[must_use]
-pub fn sample<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    tree: &LightTree<'_, N>,
+pub(super) fn sample<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    tree: &LightTree<'_, N, I, W>,
     point: &ShadingPoint,
     random: Random64,
 ) -> SampledLight {
-    let mut walk = begin::<N, I, W>(tree, point, random);
+    let mut walk = begin(tree, point, random);
     // A single exit at the head, no early return: rust-gpu miscompiles some of the others (spirt issue 31).
     let mut done = walk.walk.done;
     while !done {
-        walk.walk.step::<N, I, W>(tree, point);
+        walk.walk.step(tree, point);
         done = walk.walk.done;
     }
-    walk.end::<N, I, W>(tree)
+    walk.end(tree)
 }
 
 /// A walk, and what it was started for.
@@ -62,7 +64,7 @@ pub(super) struct Started {
 /// Starts a walk by a random number: down the tree, or for a share of the numbers along the path to a light out of all alike.
 #[inline(always)]
 pub(super) fn begin<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    tree: &LightTree<'_, N>,
+    tree: &LightTree<'_, N, I, W>,
     point: &ShadingPoint,
     random: Random64,
 ) -> Started {
@@ -86,7 +88,7 @@ impl Started {
     #[inline(always)]
     pub fn end<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         &self,
-        tree: &LightTree<'_, N>,
+        tree: &LightTree<'_, N, I, W>,
     ) -> SampledLight {
         let walk = &self.walk;
         let chosen = self.light != INVALID;
@@ -98,21 +100,19 @@ impl Started {
             light_of(tree, walk.triangle, walk.instance)
         };
         let by_tree = if reached { walk.probability() } else { 0.0 };
-        let pmf = by_tree + uniform_probability::<N, I, W>(tree, instance);
+        let pmf = by_tree + uniform_probability(tree, instance);
         if chosen | reached {
-            SampledLight { light, pmf }
+            SampledLight { light, instance, pmf }
         } else {
             SampledLight::NONE
         }
     }
 }
 
-/// The probability with which [`sample`] returns light `light` of instance `instance` ([`INVALID`] in a single-level
-/// tree) at `point`: 0 if there is no such light.
+/// See [`LightTree::pmf`].
 #[inline(always)]
-#[must_use]
-pub fn pmf<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    tree: &LightTree<'_, N>,
+pub(super) fn pmf<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    tree: &LightTree<'_, N, I, W>,
     point: &ShadingPoint,
     light: u32,
     instance: u32,
@@ -124,12 +124,12 @@ pub fn pmf<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     let mut walk = Walk::start(tree, point, number, taken, true, path);
     let mut done = walk.done;
     while !done {
-        walk.step::<N, I, W>(tree, point);
+        walk.step(tree, point);
         done = walk.done;
     }
     let found = (walk.triangle == triangle) & (walk.instance == instance) & (triangle != INVALID);
     let by_tree = if found { walk.probability() } else { 0.0 };
-    let uniform = uniform_probability::<N, I, W>(tree, instance);
+    let uniform = uniform_probability(tree, instance);
     if is_light(tree, light, instance) {
         by_tree + uniform
     } else {
@@ -140,7 +140,7 @@ pub fn pmf<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 /// A light out of all alike, and its instance: out of all instances alike, and out of the instance's lights alike. That needs
 /// no table of lights, which would have to change whenever an instance comes or goes.
 #[inline(always)]
-fn uniform<N>(tree: &LightTree<'_, N>, random: Random64) -> (u32, u32) {
+fn uniform<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>, random: Random64) -> (u32, u32) {
     let (mut light, mut found) = (INVALID, INVALID);
     if tree.live > 0 {
         let (entry, rest) = random.pick(tree.live);
@@ -163,7 +163,7 @@ fn uniform<N>(tree: &LightTree<'_, N>, random: Random64) -> (u32, u32) {
 /// The probability of a light of `instance` by a uniform choice, times the share of such choices.
 #[inline(always)]
 fn uniform_probability<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    tree: &LightTree<'_, N>,
+    tree: &LightTree<'_, N, I, W>,
     instance: u32,
 ) -> f32 {
     let taken = uniform_numbers::<N, I, W>();
@@ -189,7 +189,7 @@ fn at_least_one(count: u32) -> f32 {
 }
 
 #[inline(always)]
-fn triangle_of<N>(tree: &LightTree<'_, N>, light: u32, instance: u32) -> u32 {
+fn triangle_of<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>, light: u32, instance: u32) -> u32 {
     if instance < tree.instances.len() as u32 && tree.live > 0 {
         tree.instances[instance as usize].triangle_of(light)
     } else {
@@ -198,7 +198,7 @@ fn triangle_of<N>(tree: &LightTree<'_, N>, light: u32, instance: u32) -> u32 {
 }
 
 #[inline(always)]
-fn light_of<N>(tree: &LightTree<'_, N>, triangle: u32, instance: u32) -> u32 {
+fn light_of<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>, triangle: u32, instance: u32) -> u32 {
     if instance < tree.instances.len() as u32 {
         tree.instances[instance as usize].light_of(triangle)
     } else {
@@ -208,7 +208,7 @@ fn light_of<N>(tree: &LightTree<'_, N>, triangle: u32, instance: u32) -> u32 {
 
 /// Whether there is such a light.
 #[inline(always)]
-fn is_light<N>(tree: &LightTree<'_, N>, light: u32, instance: u32) -> bool {
+fn is_light<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>, light: u32, instance: u32) -> bool {
     let mut known = false;
     if tree.live > 0 {
         if instance < tree.instances.len() as u32 {

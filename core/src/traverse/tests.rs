@@ -3,6 +3,7 @@
 extern crate std;
 
 use core::cell::Cell;
+use core::marker::PhantomData;
 
 use super::*;
 use crate::importance::ImportanceModel;
@@ -54,7 +55,7 @@ fn tree<'a>(
     instances: &'a [Instance],
     trails: &'a [u32],
     depth: u32,
-) -> LightTree<'a, Node> {
+) -> LightTree<'a, Node, Flux, 4> {
     LightTree {
         nodes,
         root: 0,
@@ -64,6 +65,7 @@ fn tree<'a>(
         live: instances.len() as u32,
         lights: (trails.len() / 2) as u32,
         depth,
+        importance: PhantomData,
     }
 }
 
@@ -102,7 +104,7 @@ fn probabilities_are_products_of_shares_down_to_the_least() {
     let tree = tree(&nodes, &[], &trails, LEVELS);
     for light in 0..LEVELS {
         let expected = 2f64.powi(-22 * light as i32).max(2f64.powi(-98));
-        let found = f64::from(pmf::<Node, Flux, 4>(&tree, &POINT, light, INVALID));
+        let found = f64::from(tree.pmf(&POINT, light, INVALID));
         // All but one of the numbers, where there is a next level.
         assert!(
             (expected * (1.0 - 2f64.powi(-21))..=expected).contains(&found),
@@ -121,12 +123,12 @@ fn shares_longer_than_the_range_lead_nowhere() {
     ])];
     let tree = tree(&nodes, &[], &[0, 0, 1, 0, 2, 0], 1);
     for light in 0..3 {
-        let pmf = pmf::<Node, Flux, 4>(&tree, &POINT, light, INVALID);
+        let pmf = tree.pmf(&POINT, light, INVALID);
         assert!((0.0..=1.0).contains(&pmf), "{light}: {pmf}");
         assert!(light != 0 || pmf == 0.0, "{pmf}");
     }
     for number in 0..64u32 {
-        let sampled = sample::<Node, Flux, 4>(&tree, &POINT, Random64::from(number << 26));
+        let sampled = tree.sample(&POINT, Random64::from(number << 26));
         assert!((0.0..=1.0).contains(&sampled.pmf), "{}", sampled.pmf);
     }
 }
@@ -138,14 +140,8 @@ fn rings_end_with_the_levels_of_a_trail() {
     let top = [node(&[(1.0, kind::INNER, 0)])];
     let ring = tree(&top, &[], &[0, 0], u32::MAX);
     let number = Random64::from(0u32);
-    assert_eq!(
-        nodes_of(|| sample::<Node, Flux, 4>(&ring, &POINT, number)),
-        levels
-    );
-    assert_eq!(
-        nodes_of(|| pmf::<Node, Flux, 4>(&ring, &POINT, 0, INVALID)),
-        levels
-    );
+    assert_eq!(nodes_of(|| ring.sample(&POINT, number)), levels);
+    assert_eq!(nodes_of(|| ring.pmf(&POINT, 0, INVALID)), levels);
 
     let below = [node(&[(1.0, kind::MESH, 0)]), node(&[(1.0, kind::INNER, 1)])];
     let instance = Instance {
@@ -154,9 +150,6 @@ fn rings_end_with_the_levels_of_a_trail() {
     };
     let instances = [instance];
     let ring = tree(&below, &instances, &[0, 0], u32::MAX);
-    assert_eq!(
-        nodes_of(|| sample::<Node, Flux, 4>(&ring, &POINT, number)),
-        1 + levels
-    );
-    assert_eq!(nodes_of(|| pmf::<Node, Flux, 4>(&ring, &POINT, 0, 0)), 1 + levels);
+    assert_eq!(nodes_of(|| ring.sample(&POINT, number)), 1 + levels);
+    assert_eq!(nodes_of(|| ring.pmf(&POINT, 0, 0)), 1 + levels);
 }

@@ -44,8 +44,8 @@ pub(super) struct Walk {
 impl Walk {
     /// At the root, with the numbers from `taken` on; the others chose another way to a light. With `follow` along `path`.
     #[inline(always)]
-    pub fn start<N>(
-        tree: &LightTree<'_, N>,
+    pub fn start<N, I, const W: usize>(
+        tree: &LightTree<'_, N, I, W>,
         point: &ShadingPoint,
         number: Random64,
         taken: u32,
@@ -74,7 +74,7 @@ impl Walk {
     #[inline(always)]
     pub fn step<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         &mut self,
-        tree: &LightTree<'_, N>,
+        tree: &LightTree<'_, N, I, W>,
         world: &ShadingPoint,
     ) {
         // An index out of range (hostile words) reads node 0 and ends the walk.

@@ -5,8 +5,6 @@
 
 #[cfg(feature = "simd")]
 mod dispatched {
-    use core::marker::PhantomData;
-
     use pulp::{Arch, Simd, WithSimd};
 
     use crate::importance::ImportanceModel;
@@ -17,9 +15,8 @@ mod dispatched {
 
     /// Arguments of a walk, as the dispatcher takes them.
     struct Job<'a, N, I, A, const W: usize> {
-        tree: &'a LightTree<'a, N>,
+        tree: &'a LightTree<'a, N, I, W>,
         arguments: A,
-        importance: PhantomData<I>,
     }
 
     struct One<'a>(&'a ShadingPoint, Random64);
@@ -31,7 +28,7 @@ mod dispatched {
 
         #[inline(always)]
         fn with_simd<S: Simd>(self, _: S) -> SampledLight {
-            crate::traverse::sample::<N, I, W>(self.tree, self.arguments.0, self.arguments.1)
+            crate::traverse::sample::sample(self.tree, self.arguments.0, self.arguments.1)
         }
     }
 
@@ -41,7 +38,7 @@ mod dispatched {
         #[inline(always)]
         fn with_simd<S: Simd>(self, _: S) -> f32 {
             let Known(point, light, instance) = self.arguments;
-            crate::traverse::pmf::<N, I, W>(self.tree, point, light, instance)
+            crate::traverse::sample::pmf(self.tree, point, light, instance)
         }
     }
 
@@ -51,53 +48,51 @@ mod dispatched {
         #[inline(always)]
         fn with_simd<S: Simd>(self, _: S) {
             let Batch(points, randoms, sampled) = self.arguments;
-            crate::traverse::sample_batch::<N, I, W>(self.tree, points, randoms, sampled);
+            crate::traverse::batch::sample_batch(self.tree, points, randoms, sampled);
         }
     }
 
     fn run<'a, N, I, A, const W: usize>(
-        tree: &'a LightTree<'a, N>,
+        tree: &'a LightTree<'a, N, I, W>,
         arguments: A,
     ) -> <Job<'a, N, I, A, W> as WithSimd>::Output
     where
         Job<'a, N, I, A, W>: WithSimd,
     {
-        Arch::new().dispatch(Job::<N, I, A, W> {
-            tree,
-            arguments,
-            importance: PhantomData,
-        })
+        Arch::new().dispatch(Job { tree, arguments })
     }
 
     pub fn sample<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-        tree: &LightTree<'_, N>,
+        tree: &LightTree<'_, N, I, W>,
         point: &ShadingPoint,
         random: Random64,
     ) -> SampledLight {
-        run::<N, I, One<'_>, W>(tree, One(point, random))
+        run(tree, One(point, random))
     }
 
     pub fn pmf<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-        tree: &LightTree<'_, N>,
+        tree: &LightTree<'_, N, I, W>,
         point: &ShadingPoint,
         light: u32,
         instance: u32,
     ) -> f32 {
-        run::<N, I, Known<'_>, W>(tree, Known(point, light, instance))
+        run(tree, Known(point, light, instance))
     }
 
     pub fn sample_batch<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-        tree: &LightTree<'_, N>,
+        tree: &LightTree<'_, N, I, W>,
         points: &[ShadingPoint],
         randoms: &[Random64],
         sampled: &mut [SampledLight],
     ) {
-        run::<N, I, Batch<'_>, W>(tree, Batch(points, randoms, sampled));
+        run(tree, Batch(points, randoms, sampled));
     }
 }
 
 #[cfg(feature = "simd")]
-pub(crate) use dispatched::{pmf, sample, sample_batch};
+pub(super) use dispatched::{pmf, sample, sample_batch};
 
 #[cfg(not(feature = "simd"))]
-pub(crate) use super::{pmf, sample, sample_batch};
+pub(super) use super::batch::sample_batch;
+#[cfg(not(feature = "simd"))]
+pub(super) use super::sample::{pmf, sample};

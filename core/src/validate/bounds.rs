@@ -3,38 +3,9 @@
 use bytemuck::Pod;
 
 use super::{Violation, What, equal};
-use crate::bvh::LightBvh;
-use crate::lights::Lights;
 use crate::node::{LightNode, kind};
 use crate::summary::Summary;
 use crate::tree::INVALID;
-
-/// Checks all summaries of a BVH whose links are sound.
-pub(super) fn validate<N: LightNode<W>, const W: usize>(
-    bvh: &LightBvh<N, W>,
-    lights: &Lights,
-) -> Result<(), Violation> {
-    // A copy of links and kinds alone, refitted: none of the summaries under test is in it.
-    let mut again = bvh.clone();
-    for node in again.nodes_mut() {
-        let mut bare = N::EMPTY;
-        for slot in 0..W {
-            bare.set_child(slot, node.kind(slot), node.link(slot));
-        }
-        *node = bare;
-    }
-    again.refit(lights);
-    for (index, (expected, found)) in again.nodes().iter().zip(bvh.nodes()).enumerate() {
-        same(index as u32, expected, found)?;
-    }
-    for node in bvh.nodes() {
-        for slot in (0..W).filter(|&slot| node.kind(slot) == kind::INNER) {
-            let child = node.link(slot);
-            within(&node.summary(slot), child, &bvh.nodes()[child as usize])?;
-        }
-    }
-    Ok(())
-}
 
 /// Checks that two nodes have the same words; the first difference is named by what it means, where it shows.
 pub(crate) fn same<N: LightNode<W>, const W: usize>(

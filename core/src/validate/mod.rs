@@ -4,31 +4,12 @@
 //! time linear in the number of nodes, and needs as much memory again as the tree.
 
 mod bounds;
-mod topology;
 
 pub(crate) use bounds::{same, same_words, within as contained};
 
 use core::fmt;
 
-use crate::bvh::LightBvh;
-use crate::lights::Lights;
-use crate::node::LightNode;
 use crate::tree::INVALID;
-
-/// What a valid light BVH consists of.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stats {
-    /// Number of nodes, of all levels.
-    pub nodes: u32,
-    /// Number of leaves: triangles, and in a two-level BVH mesh lights too.
-    pub leaves: u32,
-    /// Greatest number of nodes on a path from the root to a light.
-    pub depth: u32,
-    /// Bytes that sampling and pmf read.
-    pub bytes: usize,
-    /// The same per triangle.
-    pub bytes_per_light: f32,
-}
 
 /// A word that is not what it must be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -165,31 +146,6 @@ pub(crate) fn equal(node: u32, slot: u32, what: What, expected: u32, found: u32)
             what,
             expected,
             found,
-        })
-    }
-}
-
-impl<N: LightNode<W>, const W: usize> LightBvh<N, W> {
-    /// Checks every invariant of the BVH over `lights`, which must be those of the last refit:
-    /// - each link is in range and of a kind that its level may hold; each node of each tree is reached exactly once;
-    /// - each triangle and each mesh light is a leaf exactly once, and its trail leads to just that leaf;
-    /// - the lists of levels are complete and run from the deepest level to the root;
-    /// - no tree is deeper than a trail can say;
-    /// - every word of every summary is what refit makes of the lights;
-    /// - a child's bounds, where the layout stores bounds, lie within its parent's.
-    ///
-    /// # Errors
-    /// The first [`Violation`].
-    pub fn validate(&self, lights: &Lights) -> Result<Stats, Violation> {
-        let leaves = topology::validate(self, lights)?;
-        bounds::validate(self, lights)?;
-        let bytes = self.bytes();
-        Ok(Stats {
-            nodes: self.nodes().len() as u32,
-            leaves,
-            depth: self.depth(),
-            bytes,
-            bytes_per_light: bytes as f32 / lights.triangles().len() as f32,
         })
     }
 }

@@ -260,7 +260,7 @@ impl Staged {
         if let Some(placed) = self.placed(instance) {
             placed.transform = transform;
         }
-        (Edit::Move { instance, transform }, verdict)
+        (Edit::SetTransform { instance, transform }, verdict)
     }
 
     fn shine(&mut self, instance: InstanceId, radiance: f32) -> (Edit, Verdict) {
@@ -272,7 +272,7 @@ impl Staged {
         if let Some(placed) = placed {
             placed.radiance = radiance;
         }
-        (Edit::Shine { instance, radiance }, verdict)
+        (Edit::SetRadiance { instance, radiance }, verdict)
     }
 
     fn deform(&mut self, id: MeshId, triangles: Vec<EmissiveTriangle>) -> (Edit, Verdict) {
@@ -297,7 +297,7 @@ impl Staged {
         if let Some(mesh) = self.model.meshes.iter_mut().find(|mesh| mesh.id == id) {
             mesh.triangles = all;
         }
-        (Edit::Deform { mesh: id, triangles }, first_wrong(&conditions))
+        (Edit::SetTriangles { mesh: id, triangles }, first_wrong(&conditions))
     }
 
     fn remove_instance(&mut self, id: InstanceId) -> (Edit, Verdict) {

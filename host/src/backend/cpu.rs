@@ -3,46 +3,35 @@
 use std::time::Instant;
 
 use bytemuck::cast_slice;
-use lightbvh::Lights;
+use lightbvh::{Lights, SampledLight};
 use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
-use lightbvh_kernels::query::{Query, Sampled, pmf_query, sample_query};
+use lightbvh_kernels::query::{Query, pmf_query, sample_query};
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use rayon::prelude::*;
 
 use super::parts::{MAX_SAMPLES_PER_INVOCATION, in_parts, paths_per_invocation};
-use super::{Backend, Follow, LightScene, Sampler, SceneArrays, Structure, Timed, node_record};
+use super::{Backend, BackendError, Bvh, Follow, Sampler, SceneArrays, Timed, node_record};
 use crate::compare::Record;
 use crate::render::{render, render_path};
-use crate::vulkan::VulkanError;
 
 /// The CPU as a backend: the reference that devices are compared with.
 pub struct CpuBackend<C: Choice<W> = Standard, const W: usize = WIDTH> {
-    structure: Structure<C, W>,
-    lights: Lights,
+    bvh: Bvh<C, W>,
 }
 
 impl<C: Choice<W>, const W: usize> CpuBackend<C, W> {
-    /// Takes a BVH, or moving lights, over `lights` in the world.
+    /// Takes a BVH.
     #[must_use]
-    pub fn new(structure: impl Into<Structure<C, W>>, lights: Lights) -> Self {
-        Self {
-            structure: structure.into(),
-            lights,
-        }
+    pub fn new(bvh: Bvh<C, W>) -> Self {
+        Self { bvh }
     }
 
-    /// What lights are chosen by, as last refitted.
+    /// The BVH as last refitted.
     #[must_use]
-    pub fn structure(&self) -> &Structure<C, W> {
-        &self.structure
-    }
-
-    /// The lights as last refitted to.
-    #[must_use]
-    pub fn lights(&self) -> &Lights {
-        &self.lights
+    pub fn bvh(&self) -> &Bvh<C, W> {
+        &self.bvh
     }
 }
 
@@ -55,25 +44,22 @@ impl<C: Choice<W>, const W: usize> Backend for CpuBackend<C, W> {
         node_record::<C::Node, W>()
     }
 
-    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, VulkanError> {
-        self.lights = lights.clone();
+    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, BackendError> {
         let start = Instant::now();
-        if let Structure::Bvh(bvh) = &mut self.structure {
-            bvh.refit(lights);
-        }
+        self.bvh.follow(lights).map_err(BackendError::Lights)?;
         Ok(Timed {
             time: start.elapsed(),
             value: self.words(),
         })
     }
 
-    fn nodes(&mut self) -> Result<Vec<u32>, VulkanError> {
+    fn nodes(&mut self) -> Result<Vec<u32>, BackendError> {
         Ok(self.words())
     }
 
-    fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<Sampled>>, VulkanError> {
+    fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<SampledLight>>, BackendError> {
         let start = Instant::now();
-        let tree = self.structure.tree();
+        let tree = self.bvh.tree();
         let value = queries
             .par_iter()
             .with_min_len(256)
@@ -85,13 +71,13 @@ impl<C: Choice<W>, const W: usize> Backend for CpuBackend<C, W> {
         })
     }
 
-    fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, VulkanError> {
+    fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, BackendError> {
         let start = Instant::now();
-        let (tree, lights) = (self.structure.tree(), self.lights.triangles());
+        let tree = self.bvh.tree();
         let value = queries
             .par_iter()
             .with_min_len(256)
-            .map(|query| pmf_query::<C, W>(&tree, lights, query))
+            .map(|query| pmf_query::<C, W>(&tree, query))
             .collect();
         Ok(Timed {
             value,
@@ -104,7 +90,7 @@ impl<C: Choice<W>, const W: usize> Backend for CpuBackend<C, W> {
         scene: &SceneArrays,
         params: &RenderParams,
         sampler: Sampler,
-    ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
+    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
         in_parts(params, MAX_SAMPLES_PER_INVOCATION, |params| {
             Ok(self.shade(scene, sampler, Direct(params)))
         })
@@ -116,7 +102,7 @@ impl<C: Choice<W>, const W: usize> Backend for CpuBackend<C, W> {
         params: &RenderParams,
         bounces: u32,
         sampler: Sampler,
-    ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
+    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
         in_parts(params, paths_per_invocation(bounces.min(MAX_BOUNCES)), |params| {
             Ok(self.shade(scene, sampler, Paths(params, bounces)))
         })
@@ -145,13 +131,12 @@ impl Integrate for Paths<'_> {
 }
 
 impl<C: Choice<W>, const W: usize> Follow<C, W> for CpuBackend<C, W> {
-    fn follow(&mut self, scene: &LightScene<C, W>, lights: &Lights) -> Result<Timed<()>, VulkanError> {
-        self.lights = lights.clone();
-        let mut own = scene.clone();
+    fn follow(&mut self, bvh: &Bvh<C, W>) -> Result<Timed<()>, BackendError> {
+        let mut own = bvh.clone();
         let start = Instant::now();
         own.refit();
         let time = start.elapsed();
-        self.structure = own.into();
+        self.bvh = own;
         Ok(Timed { time, value: () })
     }
 }
@@ -159,7 +144,7 @@ impl<C: Choice<W>, const W: usize> Follow<C, W> for CpuBackend<C, W> {
 impl<C: Choice<W>, const W: usize> CpuBackend<C, W> {
     /// The words of all nodes.
     fn words(&self) -> Vec<u32> {
-        cast_slice(self.structure.tree().nodes).to_vec()
+        cast_slice(self.bvh.tree().nodes).to_vec()
     }
 
     /// The image by `integrator` with the picker of `sampler`.
@@ -179,7 +164,7 @@ impl<C: Choice<W>, const W: usize> CpuBackend<C, W> {
                 let thresholds = &scene.thresholds;
                 integrator.image(scene, &Power { thresholds })
             }
-            Sampler::SingleLevel | Sampler::TwoLevel => integrator.image(scene, &self.structure.picker()),
+            Sampler::SingleLevel | Sampler::TwoLevel => integrator.image(scene, &self.bvh.tree()),
         };
         Timed {
             value,

@@ -5,21 +5,22 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use bytemuck::bytes_of;
+use lightbvh::bvh::RefitPlan;
 use lightbvh::levels::Levels;
 use lightbvh::refit::BlasRoot;
-use lightbvh::{EmissiveTriangle, Instance, Lights};
+use lightbvh::{EmissiveTriangle, Instance, Lights, SampledLight};
 use lightbvh_kernels::WORKGROUP;
 use lightbvh_kernels::bvh::{Choice, Standard, TreePush, WIDTH};
 use lightbvh_kernels::path::PathPush;
-use lightbvh_kernels::query::{Query, QueryPush, Sampled};
+use lightbvh_kernels::query::{Query, QueryPush};
 use lightbvh_kernels::refit::RefitPush;
 use lightbvh_kernels::render::{RenderParams, RenderPush};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
 use super::parts::{MAX_SAMPLES_PER_INVOCATION, in_parts, paths_per_invocation};
-use super::{Backend, Bvh, LightScene, Sampler, SceneArrays, Timed, node_record};
+use super::{Backend, BackendError, Bvh, Sampler, SceneArrays, Timed, node_record};
 use crate::compare::Record;
-use crate::vulkan::{Binding, Buffer, Device, Kernel, Pass, Timings, VulkanError};
+use crate::vulkan::{Binding, Buffer, Device, Kernel, Pass, Timings};
 
 /// Queries per dispatch: 28 MiB of them, within the smallest storage buffer range seen (128 MiB).
 const QUERIES_PER_PASS: usize = 1 << 20;
@@ -35,11 +36,9 @@ pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     pub(super) instances: Buffer<Instance>,
     pub(super) roots: Buffer<BlasRoot>,
     pub(super) trails: Buffer<u32>,
-    /// The lights in the world.
+    /// The triangles of the bottom levels, in the spaces of their meshes.
     pub(super) triangles: Buffer<EmissiveTriangle>,
-    /// The triangles of bottom levels, where those are not the lights in the world.
-    pub(super) local: Option<Buffer<EmissiveTriangle>>,
-    /// What a refit of a tree over triangles in the world runs over.
+    /// What a refit of everything runs over.
     lists: Buffer<u32>,
     dispatches: Dispatches,
     pub(super) tree: TreePush,
@@ -55,12 +54,12 @@ pub(super) struct Dispatches {
 }
 
 impl Dispatches {
-    pub fn new(bottom: &Levels, roots: impl Iterator<Item = u32>, top: &Levels) -> Self {
+    pub fn new(plan: &RefitPlan) -> Self {
         let mut list = Vec::new();
         Self {
-            bottom: parts(&mut list, bottom),
-            roots: part(&mut list, roots),
-            top: parts(&mut list, top),
+            bottom: parts(&mut list, &plan.bottom),
+            roots: part(&mut list, plan.roots.iter().copied()),
+            top: parts(&mut list, &plan.top),
             list,
         }
     }
@@ -81,21 +80,19 @@ fn part(list: &mut Vec<u32>, entries: impl Iterator<Item = u32>) -> Option<Refit
 }
 
 impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
-    /// Uploads a BVH and its lights.
+    /// Uploads a BVH, planned or refitted.
     ///
     /// # Errors
-    /// [`VulkanError`] when they do not fit, or the device fails.
-    pub fn new(device: &'d Device, bvh: &Bvh<C, W>, lights: &Lights) -> Result<Self, VulkanError> {
+    /// [`BackendError`] when it does not fit, or the device fails.
+    pub fn new(device: &'d Device, bvh: &Bvh<C, W>) -> Result<Self, BackendError> {
         let tree = bvh.tree();
-        let roots = 0..bvh.roots().len() as u32;
-        let mut dispatches = Dispatches::new(bvh.bottom_levels(), roots, bvh.top_levels());
+        let mut dispatches = Dispatches::new(&bvh.plan_of_everything());
         Ok(Self {
             device,
             nodes: device.upload(tree.nodes)?,
             instances: device.upload(tree.instances)?,
             trails: device.upload(tree.trails)?,
-            triangles: device.upload(lights.triangles())?,
-            local: None,
+            triangles: device.upload(bvh.triangles())?,
             roots: device.upload(bvh.roots())?,
             lists: device.upload(&std::mem::take(&mut dispatches.list))?,
             dispatches,
@@ -103,41 +100,17 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
         })
     }
 
-    /// Uploads moving lights, planned or refitted; `lights` are those in the world.
-    ///
-    /// # Errors
-    /// [`VulkanError`] when they do not fit, or the device fails.
-    pub fn of_scene(
-        device: &'d Device,
-        scene: &LightScene<C, W>,
-        lights: &Lights,
-    ) -> Result<Self, VulkanError> {
-        let tree = scene.tree();
-        Ok(Self {
-            device,
-            nodes: device.upload(tree.nodes)?,
-            instances: device.upload(tree.instances)?,
-            trails: device.upload(tree.trails)?,
-            triangles: device.upload(lights.triangles())?,
-            local: Some(device.upload(scene.triangles())?),
-            roots: device.upload(scene.roots())?,
-            lists: device.upload(&[])?,
-            dispatches: Dispatches::default(),
-            tree: TreePush::of(&tree),
-        })
-    }
-
     /// Overwrites the device's nodes, so that a refit has something to change.
     ///
     /// # Errors
-    /// [`VulkanError`] from the device.
-    pub fn write_nodes(&mut self, nodes: &[C::Node]) -> Result<(), VulkanError> {
-        self.nodes.write(nodes)
+    /// [`BackendError`] from the device.
+    pub fn write_nodes(&mut self, nodes: &[C::Node]) -> Result<(), BackendError> {
+        Ok(self.nodes.write(nodes)?)
     }
 
     /// The kernel of this choice.
-    fn kernel(&self, name: &str) -> Result<Arc<Kernel>, VulkanError> {
-        self.device.kernel(&format!("{name}{}", C::SUFFIX))
+    fn kernel(&self, name: &str) -> Result<Arc<Kernel>, BackendError> {
+        Ok(self.device.kernel(&format!("{name}{}", C::SUFFIX))?)
     }
 
     /// Runs the passes of a refit over parts of `lists`.
@@ -145,15 +118,14 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
         &self,
         lists: &Buffer<u32>,
         dispatches: &Dispatches,
-    ) -> Result<Duration, VulkanError> {
+    ) -> Result<Duration, BackendError> {
         let (bottom, roots, top) = (
             self.kernel("refit_bottom")?,
             self.kernel("refit_roots")?,
             self.kernel("refit_top")?,
         );
         let (lists, nodes) = (lists.bind(), self.nodes.bind());
-        let triangles = self.local.as_ref().unwrap_or(&self.triangles).bind();
-        let by_triangle = [lists, triangles, nodes];
+        let by_triangle = [lists, self.triangles.bind(), nodes];
         let by_root = [lists, nodes, self.roots.bind()];
         let by_instance = [lists, self.instances.bind(), self.roots.bind(), nodes];
         let mut pass = Pass::new();
@@ -175,7 +147,7 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
         kernel: &str,
         queries: &[Query],
         bindings: &[Binding<'_>],
-    ) -> Result<Timed<Vec<T>>, VulkanError> {
+    ) -> Result<Timed<Vec<T>>, BackendError> {
         let kernel = self.kernel(kernel)?;
         let mut all = Timed {
             value: Vec::with_capacity(queries.len()),
@@ -208,23 +180,20 @@ impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
         node_record::<C::Node, W>()
     }
 
-    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, VulkanError> {
+    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, BackendError> {
         self.triangles.write(lights.triangles())?;
-        let time = match self.local {
-            None => self.refit_by(&self.lists, &self.dispatches)?,
-            Some(_) => Duration::ZERO,
-        };
+        let time = self.refit_by(&self.lists, &self.dispatches)?;
         Ok(Timed {
             value: self.nodes.read_words()?,
             time,
         })
     }
 
-    fn nodes(&mut self) -> Result<Vec<u32>, VulkanError> {
-        self.nodes.read_words()
+    fn nodes(&mut self) -> Result<Vec<u32>, BackendError> {
+        Ok(self.nodes.read_words()?)
     }
 
-    fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<Sampled>>, VulkanError> {
+    fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<SampledLight>>, BackendError> {
         self.query(
             "sample",
             queries,
@@ -232,14 +201,12 @@ impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
         )
     }
 
-    fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, VulkanError> {
-        let bindings = [
-            self.nodes.bind(),
-            self.instances.bind(),
-            self.trails.bind(),
-            self.triangles.bind(),
-        ];
-        self.query("pmf", queries, &bindings)
+    fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, BackendError> {
+        self.query(
+            "pmf",
+            queries,
+            &[self.nodes.bind(), self.instances.bind(), self.trails.bind()],
+        )
     }
 
     fn render(
@@ -247,7 +214,7 @@ impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
         scene: &SceneArrays,
         params: &RenderParams,
         sampler: Sampler,
-    ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
+    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
         let kernel = match sampler {
             Sampler::Uniform => self.device.kernel("render_uniform")?,
             Sampler::Power => self.device.kernel("render_power")?,
@@ -273,7 +240,7 @@ impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
         params: &RenderParams,
         bounces: u32,
         sampler: Sampler,
-    ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
+    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
         let kernel = match sampler {
             Sampler::Uniform => self.device.kernel("path_uniform")?,
             Sampler::Power => self.device.kernel("path_power")?,
@@ -307,7 +274,7 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
         kernel: &Kernel,
         per_pass: usize,
         push: impl Fn(u32, u32) -> T,
-    ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
+    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
         let device = self.device;
         let ray_nodes = device.upload(&scene.rays.nodes)?;
         let surfaces = device.upload(&scene.rays.triangles)?;

@@ -4,18 +4,16 @@ use std::ops::Range;
 use std::time::Duration;
 
 use bytemuck::Pod;
-use lightbvh::Lights;
 use lightbvh_kernels::bvh::{Choice, TreePush};
 
 use super::device::{DeviceBackend, Dispatches};
-use super::{Follow, LightScene, Timed};
+use super::{BackendError, Bvh, Follow, Timed};
 use crate::vulkan::{Buffer, Device, VulkanError};
 
 impl<C: Choice<W>, const W: usize> Follow<C, W> for DeviceBackend<'_, C, W> {
-    fn follow(&mut self, scene: &LightScene<C, W>, lights: &Lights) -> Result<Timed<()>, VulkanError> {
-        self.copy_changes(scene, lights)?;
-        let work = scene.work();
-        let dispatches = Dispatches::new(&work.bottom, work.roots.iter().copied(), &work.top);
+    fn follow(&mut self, bvh: &Bvh<C, W>) -> Result<Timed<()>, BackendError> {
+        self.copy_changes(bvh)?;
+        let dispatches = Dispatches::new(bvh.work());
         let mut time = Duration::ZERO;
         if !dispatches.list.is_empty() {
             let lists = self.device.upload(&dispatches.list)?;
@@ -26,9 +24,9 @@ impl<C: Choice<W>, const W: usize> Follow<C, W> for DeviceBackend<'_, C, W> {
 }
 
 impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
-    /// Makes the device's arrays those of `scene`, but for the summaries that are refitted.
-    fn copy_changes(&mut self, scene: &LightScene<C, W>, lights: &Lights) -> Result<(), VulkanError> {
-        let (device, tree, work) = (self.device, scene.tree(), scene.work());
+    /// Makes the device's arrays those of `bvh`, but for the summaries that are refitted.
+    fn copy_changes(&mut self, bvh: &Bvh<C, W>) -> Result<(), BackendError> {
+        let (device, tree, work) = (self.device, bvh.tree(), bvh.work());
         let words = tree.trail_words;
         let trails: Vec<_> = work
             .written_trails
@@ -44,13 +42,13 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
             &work.written_instances,
         )?;
         renew(device, &mut self.trails, tree.trails, &trails)?;
-        renew(device, &mut self.roots, scene.roots(), &roots)?;
-        match &mut self.local {
-            Some(local) => renew(device, local, scene.triangles(), &work.written_triangles)?,
-            None => self.local = Some(device.upload(scene.triangles())?),
-        }
-        let all = 0..lights.triangles().len() as u32;
-        renew(device, &mut self.triangles, lights.triangles(), &[all])?;
+        renew(device, &mut self.roots, bvh.roots(), &roots)?;
+        renew(
+            device,
+            &mut self.triangles,
+            bvh.triangles(),
+            &work.written_triangles,
+        )?;
         self.tree = TreePush::of(&tree);
         Ok(())
     }

@@ -4,15 +4,16 @@
 
 mod cpu;
 mod device;
+mod error;
 mod follow;
 mod parts;
 mod record;
 mod restir;
 mod scene;
-mod structure;
 
 pub use cpu::CpuBackend;
 pub use device::DeviceBackend;
+pub use error::BackendError;
 pub use parts::MAX_SAMPLES_PER_INVOCATION;
 pub use record::{PIXEL_RECORD, PMF_RECORD, SAMPLED_RECORD, node_record};
 pub use restir::{
@@ -20,23 +21,19 @@ pub use restir::{
     RestirOptions, SURFACE_RECORD,
 };
 pub use scene::{Sampler, SceneArrays};
-pub use structure::Structure;
 
 use std::time::Duration;
 
-use lightbvh::{LightBvh, Lights};
+use lightbvh::{Lights, SampledLight};
 use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
-use lightbvh_kernels::query::{Query, Sampled};
+use lightbvh_kernels::query::Query;
 use lightbvh_kernels::render::RenderParams;
 
 use crate::compare::Record;
-use crate::vulkan::VulkanError;
 
 /// The light BVH of a choice.
-pub type Bvh<C = Standard, const W: usize = WIDTH> = LightBvh<<C as Choice<W>>::Node, W>;
-
-/// The moving lights of a choice.
-pub type LightScene<C = Standard, const W: usize = WIDTH> = lightbvh::Scene<<C as Choice<W>>::Node, W>;
+pub type Bvh<C = Standard, const W: usize = WIDTH> =
+    lightbvh::Bvh<<C as Choice<W>>::Node, <C as Choice<W>>::Importance, W>;
 
 /// A result and how long it took: on a device the kernels' own time, where it can tell.
 #[derive(Clone, Debug)]
@@ -55,64 +52,63 @@ pub trait Backend {
     /// Words of a node.
     fn node_record(&self) -> Record;
 
-    /// Refits a BVH to `lights`, which are those of the BVH moved or changed, and returns the words of all nodes. Moving
-    /// lights are left as they are.
+    /// Refits a BVH that was built over [`Lights`] to `lights`, the same ones moved or changed, and returns the words of all nodes.
     ///
     /// # Errors
-    /// [`VulkanError`] from a device.
-    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, VulkanError>;
+    /// [`BackendError`] from a device, or where they are not the same lights.
+    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, BackendError>;
 
     /// The words of all nodes as they are.
     ///
     /// # Errors
-    /// [`VulkanError`] from a device.
-    fn nodes(&mut self) -> Result<Vec<u32>, VulkanError>;
+    /// [`BackendError`] from a device.
+    fn nodes(&mut self) -> Result<Vec<u32>, BackendError>;
 
     /// Chooses a light for each query.
     ///
     /// # Errors
-    /// [`VulkanError`] from a device.
-    fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<Sampled>>, VulkanError>;
+    /// [`BackendError`] from a device.
+    fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<SampledLight>>, BackendError>;
 
     /// Evaluates the probability of each query's light.
     ///
     /// # Errors
-    /// [`VulkanError`] from a device.
-    fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, VulkanError>;
+    /// [`BackendError`] from a device.
+    fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, BackendError>;
 
     /// Renders direct lighting with lights chosen by `sampler`; the light BVH's samplers use this backend's BVH. More than
     /// [`MAX_SAMPLES_PER_INVOCATION`] samples are the mean of several images, the same ones on every backend.
     ///
     /// # Errors
-    /// [`VulkanError`] from a device.
+    /// [`BackendError`] from a device.
     fn render(
         &mut self,
         scene: &SceneArrays,
         params: &RenderParams,
         sampler: Sampler,
-    ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError>;
+    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError>;
 
     /// Renders light along paths of up to `bounces` reflections, at most
     /// [`MAX_BOUNCES`](lightbvh_kernels::shading::path::MAX_BOUNCES), with lights chosen as by [`render`](Self::render);
     /// [`RenderParams::samples`] counts paths, which are shared out over several images where they are many or long.
     ///
     /// # Errors
-    /// [`VulkanError`] from a device.
+    /// [`BackendError`] from a device.
     fn render_path(
         &mut self,
         scene: &SceneArrays,
         params: &RenderParams,
         bounces: u32,
         sampler: Sampler,
-    ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError>;
+    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError>;
 }
 
-/// A backend that follows moving lights.
+/// A backend that follows a BVH through its edits.
 pub trait Follow<C: Choice<W> = Standard, const W: usize = WIDTH>: Backend {
-    /// Takes over what [`plan`](lightbvh::Scene::plan) says has changed in `scene`, and refits it here. Planned frames must
-    /// be followed without gaps, each before it is refitted in `scene` itself; `lights` are its lights in the world.
+    /// Takes over what [`plan`](lightbvh::Bvh::plan) says has changed in `bvh`, and refits it here. Planned frames must be followed
+    /// without gaps, each before it is refitted in `bvh` itself.
     ///
     /// # Errors
-    /// [`VulkanError`] from a device.
-    fn follow(&mut self, scene: &LightScene<C, W>, lights: &Lights) -> Result<Timed<()>, VulkanError>;
+    /// [`BackendError`] from a device.
+    fn follow(&mut self, bvh: &Bvh<C, W>) -> Result<Timed<()>, BackendError>;
 }

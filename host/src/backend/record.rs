@@ -60,7 +60,11 @@ impl<N> Layout<N> {
 /// Words of a sampled light.
 pub const SAMPLED_RECORD: Record = Record {
     name: "sampled light",
-    fields: &[Field::index("light"), Field::new("pmf", 1)],
+    fields: &[
+        Field::index("light"),
+        Field::index("instance"),
+        Field::new("pmf", 1),
+    ],
 };
 
 /// Word of a pmf.

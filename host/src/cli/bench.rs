@@ -11,7 +11,6 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use lightbvh::{BuildParams, LightBvh, Lights};
-use lightbvh_kernels::bvh::{Node, WIDTH};
 use serde::Serialize;
 use serde_json::json;
 
@@ -133,7 +132,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         let batch = one.install(|| batches(&bvh, &queries));
         let mut results = vec![(1, single, batch)];
         if all > 1 {
-            let mut cpu: CpuBackend = CpuBackend::new(bvh.clone(), lights.clone());
+            let mut cpu: CpuBackend = CpuBackend::new(bvh.clone());
             let times = passes(&mut cpu, &lights, &queries)?;
             results.push((all, times, batches(&bvh, &queries)));
         }
@@ -144,7 +143,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             push(What::PMF, "cpu", *threads, &times.pmf, args.queries);
         }
         for o in &opened {
-            let mut device: DeviceBackend<'_> = DeviceBackend::new(&o.device, &bvh, &lights)?;
+            let mut device: DeviceBackend<'_> = DeviceBackend::new(&o.device, &bvh)?;
             let times = passes(&mut device, &lights, &queries)?;
             push(What::REFIT, o.device.name(), 0, &times.refit, args.lights);
             push(What::SAMPLE, o.device.name(), 0, &times.sample, args.queries);
@@ -212,7 +211,7 @@ impl What {
 /// Times of builds by the threads of the current pool.
 fn builds(lights: &Lights, structure: Sampler, params: &BuildParams) -> Vec<Duration> {
     measure(|| {
-        let bvh: LightBvh<Node, WIDTH> = build(lights, structure, params);
+        let bvh: LightBvh = build(lights, structure, params);
         black_box(&bvh);
     })
 }

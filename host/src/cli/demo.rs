@@ -90,10 +90,10 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let bvh: Bvh = build(&lights, Sampler::TwoLevel, &BuildParams::default());
     let build_time = start.elapsed();
 
-    let mut cpu: CpuBackend = CpuBackend::new(bvh.clone(), lights.clone());
+    let mut cpu: CpuBackend = CpuBackend::new(bvh.clone());
     let mut on_devices = opened
         .iter()
-        .map(|o| DeviceBackend::new(&o.device, &bvh, &lights))
+        .map(|o| DeviceBackend::new(&o.device, &bvh))
         .collect::<Result<Vec<_>, _>>()?;
     let mut records: Vec<Run> = (0..=opened.len()).map(|_| Run::default()).collect();
     let mut written = Vec::new();

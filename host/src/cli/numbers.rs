@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::{
-    BuildParams, EmissiveTriangle, ImportanceModel, LightBvh, LightNode, Lights, Random64, ShadingPoint,
+    BuildParams, Bvh, EmissiveTriangle, ImportanceModel, LightNode, Lights, Random64, ShadingPoint,
 };
 use lightbvh_kernels::bvh::{Choice, Paper, Standard};
 use serde::Serialize;
@@ -100,12 +100,12 @@ fn floor(x: f32, z: f32) -> ShadingPoint {
 
 /// The estimate of the light at `point` by one number.
 fn estimate<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    bvh: &LightBvh<N, W>,
+    bvh: &Bvh<N, I, W>,
     lights: &Lights,
     point: &ShadingPoint,
     number: Random64,
 ) -> f64 {
-    let sampled = bvh.sample::<I>(point, number);
+    let sampled = bvh.sample(point, number);
     match lights.triangles().get(sampled.light as usize) {
         Some(triangle) => irradiance(triangle, point) / f64::from(sampled.pmf),
         None => 0.0,
@@ -113,7 +113,7 @@ fn estimate<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 }
 
 fn measure<C: Choice<W>, const W: usize>(lights: &Lights, numbers: u32) -> Vec<Row> {
-    let bvh = LightBvh::<C::Node, W>::single_level(lights, &BuildParams::default());
+    let bvh = Bvh::<C::Node, C::Importance, W>::single_level(lights, &BuildParams::default());
     let mut errors = Vec::new();
     for sequence in Sequence::ALL {
         let mut sum = 0.0;
@@ -124,7 +124,7 @@ fn measure<C: Choice<W>, const W: usize>(lights: &Lights, numbers: u32) -> Vec<R
                 let seed = hash(hash(i).wrapping_add(trial));
                 let estimates = (0..numbers).map(|k| {
                     let number = Random64::from(sequence.number(k, numbers, seed));
-                    estimate::<C::Node, C::Importance, W>(&bvh, lights, &point, number)
+                    estimate(&bvh, lights, &point, number)
                 });
                 let mean = estimates.sum::<f64>() / f64::from(numbers);
                 sum += (mean / all - 1.0).powi(2);
@@ -147,7 +147,7 @@ fn measure<C: Choice<W>, const W: usize>(lights: &Lights, numbers: u32) -> Vec<R
 /// The floor by one number a pixel: independent numbers left, a blue-noise mask's right; below, the same smoothed as an eye
 /// from afar does.
 fn picture<C: Choice<W>, const W: usize>(lights: &Lights) -> Canvas {
-    let bvh = LightBvh::<C::Node, W>::single_level(lights, &BuildParams::default());
+    let bvh = Bvh::<C::Node, C::Importance, W>::single_level(lights, &BuildParams::default());
     let mut canvas = Canvas::new(2 * SIDE * ZOOM + 8, 2 * SIDE * ZOOM + 8, [255; 3]);
     for (column, blue) in [(0, false), (1, true)] {
         let pixels: Vec<f64> = (0..SIDE * SIDE)
@@ -161,7 +161,7 @@ fn picture<C: Choice<W>, const W: usize>(lights: &Lights) -> Canvas {
                 // A corner of the room: strong gradients.
                 let point = floor(x as f32 * 0.05, y as f32 * 0.05);
                 let all: f64 = lights.triangles().iter().map(|t| irradiance(t, &point)).sum();
-                let one = estimate::<C::Node, C::Importance, W>(&bvh, lights, &point, Random64::from(number));
+                let one = estimate(&bvh, lights, &point, Random64::from(number));
                 one / all
             })
             .collect();

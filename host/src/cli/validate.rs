@@ -72,8 +72,9 @@ fn rows<C: Choice<W>, const W: usize>(scene: &Scene, args: &Args) -> Result<Vec<
         let mut bvh: Bvh<C, W> = build(&lights_at(scene, 0)?, sampler, &params);
         for frame in FRAMES {
             let lights = lights_at(scene, frame)?;
-            bvh.refit(&lights);
-            let (valid, said) = match bvh.validate(&lights) {
+            bvh.follow(&lights)
+                .map_err(crate::backend::BackendError::Lights)?;
+            let (valid, said) = match bvh.validate() {
                 Ok(_) => (true, "valid".to_owned()),
                 Err(violation) => (false, violation.to_string()),
             };

@@ -9,8 +9,8 @@ mod points;
 use std::time::Instant;
 
 use lightbvh::{
-    BuildParams, CompactNode, Defensive, Eq4, FluxOverDistance, FullMomentNode, Heuristic, ImportanceModel,
-    LeanMomentNode, LightBvh, LightNode, Lights, MomentNode, Moments, ShadingPoint,
+    BuildParams, Bvh, CompactNode, Defensive, Eq4, FluxOverDistance, FullMomentNode, Heuristic,
+    ImportanceModel, LeanMomentNode, LightNode, Lights, MomentNode, Moments, ShadingPoint,
 };
 use serde::Serialize;
 use serde_json::json;
@@ -18,6 +18,7 @@ use serde_json::json;
 use self::irradiance::irradiance;
 use super::{Context, Outcome, table};
 use crate::error::HostError;
+use crate::workload::instance_of;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -173,12 +174,12 @@ fn both<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     [
         (
             "single-level",
-            LightBvh::<N, W>::single_level(&subject.lights, params),
+            Bvh::<N, I, W>::single_level(&subject.lights, params),
         ),
-        ("two-level", LightBvh::<N, W>::two_level(&subject.lights, params)),
+        ("two-level", Bvh::<N, I, W>::two_level(&subject.lights, params)),
     ]
     .map(|(structure, bvh)| {
-        let (variances, nothing) = variances::<N, I, W>(&bvh, subject, light);
+        let (variances, nothing) = variances(&bvh, subject, light);
         let count = variances.len().max(1) as f64;
         let part = |share: f64| {
             variances
@@ -202,7 +203,7 @@ fn both<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 
 /// The relative variance at each point that any light reaches, sorted, and the mean share of samples that contribute nothing.
 fn variances<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    bvh: &LightBvh<N, W>,
+    bvh: &Bvh<N, I, W>,
     subject: &Subject,
     light: &[Vec<f64>],
 ) -> (Vec<f64>, f64) {
@@ -212,7 +213,7 @@ fn variances<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         let (mut mean, mut square, mut useful) = (0.0, 0.0, 0.0);
         for (i, &sent) in (0..).zip(light) {
             if sent > 0.0 {
-                let pmf = f64::from(bvh.pmf::<I>(&subject.lights, point, i));
+                let pmf = f64::from(bvh.pmf(point, i, instance_of(bvh, &subject.lights, i)));
                 mean += sent;
                 square += sent * sent / pmf;
                 useful += pmf;

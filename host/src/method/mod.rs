@@ -23,11 +23,12 @@ use lightbvh_kernels::shading::restir::surface::Surface;
 use serde::{Deserialize, Serialize};
 
 use crate::backend::{
-    Backend, Bvh, CandidateSource, Combination, CpuBackend, DeviceBackend, RestirOptions, SceneArrays, Timed,
+    Backend, BackendError, Bvh, CandidateSource, Combination, CpuBackend, DeviceBackend, RestirOptions,
+    SceneArrays, Timed,
 };
 use crate::error::HostError;
 use crate::scene::Scene;
-use crate::vulkan::{Device, VulkanError};
+use crate::vulkan::Device;
 use crate::workload::Shot;
 
 /// A method of the paper's comparison, or a baseline.
@@ -98,6 +99,15 @@ impl Method {
     #[must_use]
     pub fn is_light_bvh(self) -> bool {
         self.importance().is_some() && !matches!(self, Self::TwoLevelRestir | Self::TwoLevelMomentsRestir)
+    }
+
+    /// Whether it walks a light BVH of a single level.
+    #[must_use]
+    pub fn is_single_level(self) -> bool {
+        matches!(
+            self,
+            Self::SingleLevelRefit | Self::SingleLevelRebuilt | Self::SingleLevelMomentsRebuilt
+        )
     }
 
     /// Whether its light BVH is built anew by every frame that waits for it.
@@ -225,15 +235,14 @@ impl<'d> Target<'d> {
         }
     }
 
-    /// A backend over `bvh`, a BVH over `lights`.
+    /// A backend over `bvh`.
     pub(crate) fn backend<C: Choice<W>, const W: usize>(
         &self,
         bvh: Bvh<C, W>,
-        lights: &Lights,
-    ) -> Result<Box<dyn Backend + 'd>, VulkanError> {
+    ) -> Result<Box<dyn Backend + 'd>, BackendError> {
         Ok(match *self {
-            Self::Cpu => Box::new(CpuBackend::<C, W>::new(bvh, lights.clone())),
-            Self::Device(device) => Box::new(DeviceBackend::<C, W>::new(device, &bvh, lights)?),
+            Self::Cpu => Box::new(CpuBackend::<C, W>::new(bvh)),
+            Self::Device(device) => Box::new(DeviceBackend::<C, W>::new(device, &bvh)?),
         })
     }
 }

@@ -7,13 +7,13 @@ use lightbvh::{BuildParams, Rebuilder, RebuilderParams};
 use lightbvh_kernels::bvh::Choice;
 
 use super::{Step, UpdateTimes};
-use crate::backend::{Follow, LightScene};
+use crate::backend::{Bvh, Follow};
 use crate::error::HostError;
 use crate::scene::Instances;
 
 /// Moving lights, their rebuilder, and where they stand.
 pub(super) struct Moving<C: Choice<W>, const W: usize> {
-    scene: LightScene<C, W>,
+    scene: Bvh<C, W>,
     instances: Instances,
     rebuilder: Rebuilder<C::Node, W>,
 }
@@ -37,7 +37,7 @@ impl<C: Choice<W>, const W: usize> Moving<C, W> {
     }
 
     /// The lights as last advanced to.
-    pub fn scene(&self) -> &LightScene<C, W> {
+    pub fn scene(&self) -> &Bvh<C, W> {
         &self.scene
     }
 
@@ -52,21 +52,21 @@ impl<C: Choice<W>, const W: usize> Moving<C, W> {
         let edits = self.instances.edits(step.scene, step.frame);
         let began = Instant::now();
         let start = self.rebuilder.begin_frame(&mut self.scene)?;
-        self.scene.update(edits).map_err(|source| HostError::Edit {
+        self.scene.apply(edits).map_err(|source| HostError::Edit {
             scene: step.scene.name().to_owned(),
             frame: step.frame,
             source,
         })?;
         self.scene.plan();
         let mut refit = began.elapsed().saturating_sub(start.waited);
-        let own = |scene: &mut LightScene<C, W>| {
+        let own = |scene: &mut Bvh<C, W>| {
             let began = Instant::now();
             scene.refit();
             began.elapsed()
         };
         refit += match backend {
             Some(backend) => {
-                let time = backend.follow(&self.scene, step.lights)?.time;
+                let time = backend.follow(&self.scene)?.time;
                 own(&mut self.scene);
                 time
             }

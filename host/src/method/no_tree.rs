@@ -39,7 +39,7 @@ impl<'d> NoTree<'d> {
     fn new(first: &Step<'_>, target: Target<'d>, sampler: Sampler) -> Result<Self, HostError> {
         // Backends come with a tree; this one is never walked.
         let bvh = build(first.lights, Sampler::TwoLevel, &BuildParams::default());
-        let backend = target.backend::<Standard, WIDTH>(bvh, first.lights)?;
+        let backend = target.backend::<Standard, WIDTH>(bvh)?;
         Ok(Self { sampler, backend })
     }
 }

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use lightbvh::BuildParams;
 use lightbvh::exact::hash;
-use lightbvh_kernels::bvh::{BvhPicker, Choice, Standard, WIDTH};
+use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
 
 use super::moving::Moving;
 use super::{Chain, History, Runner, Step, Target, UpdateTimes};
@@ -113,7 +113,7 @@ impl<C: Choice<W>, const W: usize> Runner for Reservoirs<'_, C, W> {
         for (number, history) in (0..).zip(histories) {
             let part = history.frame(&RestirFrame {
                 scene: arrays,
-                bvh: BvhPicker::new(self.moving.scene().tree()),
+                bvh: self.moving.scene().tree(),
                 width: shot.width,
                 height: shot.height,
                 seed: hash(hash(shot.seed).wrapping_add(number)).wrapping_add(step.frame),

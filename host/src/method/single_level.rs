@@ -9,7 +9,7 @@ use lightbvh::BuildParams;
 use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
 
 use super::{Chain, Runner, Step, Target, UpdateTimes, render};
-use crate::backend::{Backend, Sampler, SceneArrays, Timed};
+use crate::backend::{Backend, Bvh, Sampler, SceneArrays, Timed};
 use crate::error::HostError;
 use crate::workload::{Shot, build};
 
@@ -45,12 +45,12 @@ impl<'d, C: Choice<W>, const W: usize> SingleLevel<'d, C, W> {
         params: BuildParams,
         rebuilds: bool,
     ) -> Result<Self, HostError> {
-        let bvh = build(first.lights, Sampler::SingleLevel, &params);
+        let bvh: Bvh<C, W> = build(first.lights, Sampler::SingleLevel, &params);
         Ok(Self {
             params,
             rebuilds,
             target,
-            backend: target.backend::<C, W>(bvh, first.lights)?,
+            backend: target.backend::<C, W>(bvh)?,
             choice: PhantomData,
         })
     }
@@ -61,10 +61,10 @@ impl<C: Choice<W>, const W: usize> Runner for SingleLevel<'_, C, W> {
         let mut times = UpdateTimes::default();
         if self.rebuilds {
             let start = Instant::now();
-            let bvh = build(step.lights, Sampler::SingleLevel, &self.params);
+            let bvh: Bvh<C, W> = build(step.lights, Sampler::SingleLevel, &self.params);
             times.rebuild = start.elapsed();
             times.wait = times.rebuild;
-            self.backend = self.target.backend::<C, W>(bvh, step.lights)?;
+            self.backend = self.target.backend::<C, W>(bvh)?;
         } else {
             times.refit = self.backend.refit(step.lights)?.time;
         }

@@ -25,15 +25,8 @@ impl<'d, C: Choice<W>, const W: usize> TwoLevel<'d, C, W> {
     pub fn new(first: &Step<'_>, target: Target<'d>, params: BuildParams) -> Result<Self, HostError> {
         let moving = Moving::<C, W>::new(first, params)?;
         let backend: Box<dyn Follow<C, W> + 'd> = match target {
-            Target::Cpu => Box::new(CpuBackend::<C, W>::new(
-                moving.scene().clone(),
-                first.lights.clone(),
-            )),
-            Target::Device(device) => Box::new(DeviceBackend::<C, W>::of_scene(
-                device,
-                moving.scene(),
-                first.lights,
-            )?),
+            Target::Cpu => Box::new(CpuBackend::<C, W>::new(moving.scene().clone())),
+            Target::Device(device) => Box::new(DeviceBackend::<C, W>::new(device, moving.scene())?),
         };
         Ok(Self { moving, backend })
     }

@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 
 use lightbvh::light::TWO_SIDED;
-use lightbvh::scene::EditError;
-use lightbvh::{BuildParams, Edit, EmissiveTriangle, InstanceId, LightNode, MeshId};
+use lightbvh::{BuildParams, Edit, EditError, EmissiveTriangle, InstanceId, LightNode, MeshId};
 
 use super::animate::world_transforms;
 use super::frame::{FRAMES_PER_SECOND, emits};
@@ -26,14 +25,14 @@ impl Instances {
     ///
     /// # Errors
     /// [`EditError`] for lights outside the domain.
-    pub fn new<N: LightNode<W>, const W: usize>(
+    pub fn new<N: LightNode<W>, I, const W: usize>(
         scene: &Scene,
         frame: u32,
         params: BuildParams,
-    ) -> Result<(lightbvh::Scene<N, W>, Self), EditError> {
+    ) -> Result<(lightbvh::Bvh<N, I, W>, Self), EditError> {
         let data = scene.data();
         let world = world_at(scene, frame);
-        let mut lights = lightbvh::Scene::new(params);
+        let mut lights = lightbvh::Bvh::new(params);
         let mut meshes: BTreeMap<(u32, usize), MeshId> = BTreeMap::new();
         let mut add = Vec::new();
         let mut nodes = Vec::new();
@@ -46,7 +45,7 @@ impl Instances {
                 let id = match meshes.get(&(mesh, primitive)) {
                     Some(id) => *id,
                     None => {
-                        let id = lights.update(vec![Edit::AddMesh { triangles }])?.meshes[0];
+                        let id = lights.apply(vec![Edit::AddMesh { triangles }])?.meshes[0];
                         meshes.insert((mesh, primitive), id);
                         id
                     }
@@ -67,7 +66,7 @@ impl Instances {
             });
             nodes.extend(std::iter::repeat_n(index as u32, count));
         }
-        let ids = lights.update(add)?.instances;
+        let ids = lights.apply(add)?.instances;
         lights.refit();
         let last = nodes.iter().map(|&node| world[node as usize]).collect();
         Ok((lights, Self { nodes, ids, last }))
@@ -82,7 +81,7 @@ impl Instances {
             let now = world[node as usize];
             if now != *last {
                 *last = now;
-                edits.push(Edit::Move {
+                edits.push(Edit::SetTransform {
                     instance,
                     transform: transform(&now),
                 });
@@ -137,9 +136,9 @@ mod tests {
         for name in BUILT_IN {
             let scene = Scene::open(name).expect("built in");
             let (mut lights, mut instances) =
-                Instances::new::<Node, WIDTH>(&scene, 3, BuildParams::default()).expect("sound");
+                Instances::new::<Node, (), WIDTH>(&scene, 3, BuildParams::default()).expect("sound");
             for frame in [3, 40] {
-                lights.update(instances.edits(&scene, frame)).expect("sound");
+                lights.apply(instances.edits(&scene, frame)).expect("sound");
                 lights.refit();
                 lights
                     .validate()
@@ -161,7 +160,7 @@ mod tests {
     fn what_stands_still_is_not_edited() {
         let scene = Scene::open("street").expect("built in");
         let (_, mut instances) =
-            Instances::new::<Node, WIDTH>(&scene, 7, BuildParams::default()).expect("sound");
+            Instances::new::<Node, (), WIDTH>(&scene, 7, BuildParams::default()).expect("sound");
         assert!(instances.edits(&scene, 7).is_empty());
         let moved = instances.edits(&scene, 8).len();
         assert!(

@@ -3,7 +3,7 @@
 use lightbvh::{BuildParams, Edit, EmissiveTriangle, Lights, ShadingPoint, Transform};
 
 use super::random::Random;
-use crate::backend::LightScene;
+use crate::backend::Bvh;
 use crate::error::HostError;
 
 /// The lights of an extreme.
@@ -95,17 +95,17 @@ pub fn moving_scene(
     meshes: &[Vec<EmissiveTriangle>],
     instances: &[(usize, Transform, f32)],
     params: &BuildParams,
-) -> Result<(LightScene, Lights), HostError> {
+) -> Result<(Bvh, Lights), HostError> {
     let refused = |source| HostError::Edit {
         scene: name.to_owned(),
         frame: 0,
         source,
     };
-    let mut scene: LightScene = lightbvh::Scene::new(*params);
+    let mut scene: Bvh = lightbvh::Bvh::new(*params);
     let edits = meshes.iter().map(|triangles| Edit::AddMesh {
         triangles: triangles.clone(),
     });
-    let ids = scene.update(edits.collect()).map_err(refused)?.meshes;
+    let ids = scene.apply(edits.collect()).map_err(refused)?.meshes;
     let edits = instances
         .iter()
         .map(|&(mesh, transform, radiance)| Edit::AddInstance {
@@ -113,7 +113,7 @@ pub fn moving_scene(
             transform,
             radiance,
         });
-    scene.update(edits.collect()).map_err(refused)?;
+    scene.apply(edits.collect()).map_err(refused)?;
     scene.plan();
     let lights = door(name, scene.world_lights())?;
     Ok((scene, lights))

@@ -2,7 +2,6 @@
 
 use glam::{DMat3, DQuat, DVec3};
 use lightbvh::{BuildParams, EmissiveTriangle, Lights, ShadingPoint, exact};
-use lightbvh_kernels::bvh::WIDTH;
 use rayon::prelude::*;
 
 use super::case::{around, door};
@@ -10,7 +9,7 @@ use super::cases::scattered;
 use super::checks::{all_pmfs, relative_deviation};
 use super::random::Random;
 use super::row::{Check, Row};
-use super::{Importance, walked};
+use super::walked;
 use crate::backend::{Bvh, Sampler};
 use crate::error::HostError;
 use crate::workload;
@@ -92,9 +91,9 @@ impl Scene {
         let (mut bvh, mut lights) = base.unwrap_or(self).tree(sampler)?;
         if base.is_some() {
             lights = door("invariance", self.lights.clone())?;
-            bvh.refit(&lights);
+            bvh.follow(&lights).expect("as many lights");
         }
-        let tree = walked::<_, Importance, WIDTH>(&bvh, &lights);
+        let tree = walked(&bvh, &lights);
         let squares: Vec<f64> = self
             .points
             .par_iter()

@@ -16,7 +16,7 @@ pub mod subject;
 pub mod words;
 
 use lightbvh::{
-    BoundsNode, CompactNode, EmissiveTriangle, Eq4, FullNode, ImportanceModel, LightBvh, LightNode, Lights,
+    BoundsNode, Bvh, CompactNode, EmissiveTriangle, Eq4, FullNode, ImportanceModel, LightNode, Lights,
 };
 use lightbvh_kernels::bvh::{Choice, Node, Standard, WIDTH};
 
@@ -88,7 +88,7 @@ pub fn run(case: &Case, effort: &Effort, devices: &[&Device], found: &mut Found)
             };
             let mut refitted = scene.clone();
             refitted.refit();
-            let tree = Walked::<_, Importance, WIDTH>::new(refitted.tree(), lights.triangles());
+            let tree = Walked::new(refitted.tree(), lights.triangles());
             found.rows.extend(checks::check(
                 &case.name,
                 "instances",
@@ -99,7 +99,7 @@ pub fn run(case: &Case, effort: &Effort, devices: &[&Device], found: &mut Found)
             on_devices(
                 &case,
                 "instances",
-                &Compared::Moving(&scene),
+                &Compared::Planned(&scene),
                 &lights,
                 devices,
                 found,
@@ -123,8 +123,8 @@ fn world(
         effort.samples
     };
     for sampler in [Sampler::SingleLevel, Sampler::TwoLevel] {
-        let bvh = workload::build::<Node, WIDTH>(&lights, sampler, &case.params);
-        let tree = walked::<_, Importance, WIDTH>(&bvh, &lights);
+        let bvh = workload::build::<Node, Importance, WIDTH>(&lights, sampler, &case.params);
+        let tree = walked(&bvh, &lights);
         found.rows.extend(checks::check(
             &case.name,
             sampler.name(),
@@ -135,7 +135,7 @@ fn world(
         on_devices(
             case,
             sampler.name(),
-            &Compared::Bvh(&bvh),
+            &Compared::Refitted(&bvh),
             &lights,
             devices,
             found,
@@ -151,9 +151,9 @@ fn world(
 /// Trees of two-wide nodes, the deepest there are, by the paper's importance: on the CPU alone, since no kernels are compiled
 /// for them.
 fn narrow<N: BoundsNode<2>>(case: &Case, lights: &Lights, samples: u32, found: &mut Found) {
-    let bvh = LightBvh::<N, 2>::two_level(lights, &case.params);
+    let bvh = Bvh::<N, Eq4, 2>::two_level(lights, &case.params);
     let structure = format!("two-level {} 2-wide", N::NAME);
-    let tree = walked::<N, Eq4, 2>(&bvh, lights);
+    let tree = walked(&bvh, lights);
     if case.least_depth > 0 {
         let missing = f64::from(case.least_depth.saturating_sub(tree.depth()));
         found
@@ -172,7 +172,7 @@ fn narrow<N: BoundsNode<2>>(case: &Case, lights: &Lights, samples: u32, found: &
 /// A tree over triangles in the world, walked by importance `I`.
 #[must_use]
 pub fn walked<'a, N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    bvh: &'a LightBvh<N, W>,
+    bvh: &'a Bvh<N, I, W>,
     lights: &'a Lights,
 ) -> Walked<'a, N, I, W> {
     Walked::new(bvh.tree(), lights.triangles())

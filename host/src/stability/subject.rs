@@ -1,10 +1,8 @@
 //! What is checked: lights, points to light, and trees over the lights.
 
-use std::marker::PhantomData;
-
 use lightbvh::{
     Defensive, EmissiveTriangle, Eq4, INVALID, ImportanceModel, LightNode, LightTree, Moments, Random64,
-    SampledLight, ShadingPoint, traverse,
+    SampledLight, ShadingPoint,
 };
 
 /// A tree to be walked, whatever its nodes and importance.
@@ -41,20 +39,15 @@ impl<I: Sync, const HALVINGS: u32> Weighted for Defensive<I, HALVINGS> {
 
 /// A light tree of any layout, walked by importance `I`.
 pub struct Walked<'a, N, I, const W: usize> {
-    tree: LightTree<'a, N>,
+    tree: LightTree<'a, N, I, W>,
     lights: &'a [EmissiveTriangle],
-    importance: PhantomData<I>,
 }
 
 impl<'a, N: LightNode<W>, I, const W: usize> Walked<'a, N, I, W> {
     /// A tree over `lights`, which are in the world.
     #[must_use]
-    pub fn new(tree: LightTree<'a, N>, lights: &'a [EmissiveTriangle]) -> Self {
-        Self {
-            tree,
-            lights,
-            importance: PhantomData,
-        }
+    pub fn new(tree: LightTree<'a, N, I, W>, lights: &'a [EmissiveTriangle]) -> Self {
+        Self { tree, lights }
     }
 
     fn pmf_by<J: ImportanceModel<N, W>>(&self, point: &ShadingPoint, light: u32) -> f32 {
@@ -63,7 +56,7 @@ impl<'a, N: LightNode<W>, I, const W: usize> Walked<'a, N, I, W> {
             Some(_) => INVALID,
             None => return 0.0,
         };
-        traverse::pmf::<N, J, W>(&self.tree, point, light, instance)
+        self.tree.by::<J>().pmf(point, light, instance)
     }
 }
 
@@ -80,7 +73,7 @@ where
     }
 
     fn sample(&self, point: &ShadingPoint, random: u32) -> SampledLight {
-        traverse::sample::<N, I, W>(&self.tree, point, Random64::from(random))
+        self.tree.sample(point, Random64::from(random))
     }
 
     fn pmf(&self, point: &ShadingPoint, light: u32) -> f32 {

@@ -1,15 +1,13 @@
 //! Words of a device against those of the CPU.
 
 use bytemuck::cast_slice;
-use lightbvh::{INVALID, Lights, ShadingPoint};
+use lightbvh::{INVALID, Lights, Random64, ShadingPoint};
 use lightbvh_kernels::bvh::{Node, WIDTH};
 use lightbvh_kernels::query::Query;
 
 use super::random::{Random, adversarial};
 use super::row::{Check, Row};
-use crate::backend::{
-    Backend, Bvh, CpuBackend, DeviceBackend, Follow, LightScene, PMF_RECORD, SAMPLED_RECORD,
-};
+use crate::backend::{Backend, Bvh, CpuBackend, DeviceBackend, Follow, PMF_RECORD, SAMPLED_RECORD};
 use crate::compare::{Record, compare_words};
 use crate::error::HostError;
 use crate::vulkan::{Device, VulkanError};
@@ -21,10 +19,10 @@ const ADVERSARIAL_LEVELS: u32 = 4;
 
 /// What a device is compared in.
 pub enum Compared<'a> {
-    /// A tree over triangles in the world, refitted.
-    Bvh(&'a Bvh),
-    /// Moving lights, planned but not refitted.
-    Moving(&'a LightScene),
+    /// A BVH over triangles in the world, refitted.
+    Refitted(&'a Bvh),
+    /// A BVH after edits, planned but not refitted.
+    Planned(&'a Bvh),
 }
 
 /// Compares refit, samples and probabilities. `None` where the device has no buffers as large.
@@ -54,19 +52,19 @@ fn rows(
     device: &Device,
 ) -> Result<Vec<Row>, HostError> {
     let (mut cpu, mut other, nodes, found) = match compared {
-        Compared::Bvh(bvh) => {
-            let mut cpu: CpuBackend = CpuBackend::new((*bvh).clone(), lights.clone());
-            let mut other: DeviceBackend<'_> = DeviceBackend::new(device, bvh, lights)?;
+        Compared::Refitted(bvh) => {
+            let mut cpu: CpuBackend = CpuBackend::new((*bvh).clone());
+            let mut other: DeviceBackend<'_> = DeviceBackend::new(device, bvh)?;
             other.write_nodes(&without_summaries(bvh.nodes()))?;
             let nodes = cpu.refit(lights)?.value;
             let found = other.refit(lights)?.value;
             (cpu, other, nodes, found)
         }
-        Compared::Moving(scene) => {
-            let mut cpu: CpuBackend = CpuBackend::new((*scene).clone(), lights.clone());
-            let mut other: DeviceBackend<'_> = DeviceBackend::of_scene(device, scene, lights)?;
-            cpu.follow(scene, lights)?;
-            other.follow(scene, lights)?;
+        Compared::Planned(bvh) => {
+            let mut cpu: CpuBackend = CpuBackend::new((*bvh).clone());
+            let mut other: DeviceBackend<'_> = DeviceBackend::new(device, bvh)?;
+            cpu.follow(bvh)?;
+            other.follow(bvh)?;
             let (nodes, found) = (cpu.nodes()?, other.nodes()?);
             (cpu, other, nodes, found)
         }
@@ -89,12 +87,21 @@ fn rows(
         cast_slice(&found),
     )?);
     let count = lights.triangles().len() as u32;
+    let live = cpu.bvh().tree().live > 0;
+    let instance_of = |light: u32| {
+        if live {
+            lights.triangles()[light as usize].mesh
+        } else {
+            INVALID
+        }
+    };
     for (i, (query, sampled)) in (0..).zip(queries.iter_mut().zip(&sampled)) {
         let any = sampled.light == INVALID || i % 2 == 1;
-        query.random_or_light = if any {
-            lightbvh::exact::hash(i) % count
+        query.words = if any {
+            let light = lightbvh::exact::hash(i) % count;
+            [light, instance_of(light)]
         } else {
-            sampled.light
+            [sampled.light, sampled.instance]
         };
     }
     let (pmfs, found) = (cpu.pmf(&queries)?.value, other.pmf(&queries)?.value);
@@ -126,9 +133,10 @@ fn queries(points: &[ShadingPoint]) -> Vec<Query> {
         let numbers = (0..NUMBERS)
             .map(|_| random.bits())
             .chain(adversarial(ADVERSARIAL_LEVELS));
-        out.extend(numbers.map(|random_or_light| Query {
-            point,
-            random_or_light,
+        out.extend(numbers.map(|random| {
+            let number = Random64::from(random);
+            let words = [number.high, number.low];
+            Query { point, words }
         }));
     }
     out

@@ -1,23 +1,14 @@
 //! The choice of a light for a shading point.
 
 use lightbvh::exact::pow2;
-use lightbvh::{INVALID, ShadingPoint};
+use lightbvh::{INVALID, SampledLight, ShadingPoint};
 
 use super::trace::NONE;
-
-/// A chosen light.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Picked {
-    /// Index of the emissive triangle, or `u32::MAX` for none: no light contributes, or the way ended in broken data.
-    pub light: u32,
-    /// The probability it was chosen with, exactly that; in (0, 1] for a light, 0 for none.
-    pub pmf: f32,
-}
 
 /// A way to choose lights.
 pub trait PickLight {
     /// Chooses a light for `point` with 32 uniformly distributed random bits.
-    fn pick(&self, point: &ShadingPoint, random: u32) -> Picked;
+    fn pick(&self, point: &ShadingPoint, random: u32) -> SampledLight;
 
     /// The probability with which [`pick`](Self::pick) returns `light` for `point`: to the bit the pmf that comes with the
     /// light when it is picked, 0 where it never is. `mesh` is the light's [`mesh`](lightbvh::EmissiveTriangle::mesh);
@@ -53,10 +44,11 @@ impl Uniform {
 impl PickLight for Uniform {
     /// Light `floor(r n / 2^24)` for the random number `r`.
     #[inline]
-    fn pick(&self, point: &ShadingPoint, random: u32) -> Picked {
+    fn pick(&self, point: &ShadingPoint, random: u32) -> SampledLight {
         let count = self.pickable();
         let light = multiply_shift(random >> (32 - RANDOM_BITS), count);
-        Picked {
+        SampledLight {
+            instance: INVALID,
             light: if count == 0 { NONE } else { light },
             pmf: self.pmf(point, light, INVALID),
         }
@@ -116,7 +108,7 @@ pub struct Power<'a> {
 
 impl PickLight for Power<'_> {
     #[inline]
-    fn pick(&self, point: &ShadingPoint, random: u32) -> Picked {
+    fn pick(&self, point: &ShadingPoint, random: u32) -> SampledLight {
         let entries = self.thresholds.len() as u32;
         let random = random >> (32 - RANDOM_BITS);
         let mut low = 0;
@@ -131,7 +123,8 @@ impl PickLight for Power<'_> {
             }
         }
         let pmf = self.pmf(point, low, INVALID);
-        Picked {
+        SampledLight {
+            instance: INVALID,
             light: if pmf > 0.0 { low } else { NONE },
             pmf,
         }

@@ -33,11 +33,11 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
             .collect();
         for &instance in &ids {
             match random.below(12) {
-                0 => batch.push(Edit::Shine {
+                0 => batch.push(Edit::SetRadiance {
                     instance,
                     radiance: random.unit() + 0.5,
                 }),
-                1..=3 => batch.push(Edit::Move {
+                1..=3 => batch.push(Edit::SetTransform {
                     instance,
                     transform: place(&mut random),
                 }),
@@ -48,7 +48,7 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
             let (mesh, count) = meshes[random.below(6) as usize];
             let size = random.between(1.0, 9.0);
             let triangles = generate::small_triangles(count, 100, size, 0.5, false, frame);
-            batch.push(Edit::Deform { mesh, triangles });
+            batch.push(Edit::SetTriangles { mesh, triangles });
         }
         if ids.len() > 10 {
             for _ in 0..random.below(6) {

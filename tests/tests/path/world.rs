@@ -3,7 +3,7 @@
 use glam::Vec3;
 use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, ShadingPoint, exact};
 use lightbvh_host::render::{RayBvh, power_thresholds};
-use lightbvh_kernels::bvh::{BvhPicker, Node, Standard, WIDTH};
+use lightbvh_kernels::bvh::{Node, Standard, TreeOf, WIDTH};
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::path::path_radiance;
 use lightbvh_kernels::shading::pick::{PickLight, Picked, Power, Uniform};
@@ -112,7 +112,7 @@ impl World {
         };
         let one = LightBvh::<Node, WIDTH>::single_level(&lights, &BuildParams::default());
         let two = LightBvh::<Node, WIDTH>::two_level(&lights, &BuildParams::default());
-        let [one, two] = [&one, &two].map(|bvh| BvhPicker::<Standard, WIDTH>::new(bvh.tree()));
+        let [one, two] = [&one, &two].map(|bvh| bvh.tree());
         vec![
             ("uniform", self.paths(&uniform, ray, 0.0, bounces, count)),
             ("power", self.paths(&power, ray, 0.0, bounces, count)),

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use bytemuck::{Pod, bytes_of};
 use lightbvh::{EmissiveTriangle, Instance};
-use lightbvh_kernels::bvh::{BvhPicker, Choice, Standard, TreePush, WIDTH};
+use lightbvh_kernels::bvh::{Choice, Standard, TreeOf, TreePush, WIDTH};
 use lightbvh_kernels::restir::RestirPush;
 use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::material::Material;
@@ -92,20 +92,17 @@ impl<N: Pod> SourceBuffers<N> {
         device: &Device,
         source: CandidateSource,
         scene: &SceneArrays,
-        bvh: &BvhPicker<'_, C, W>,
+        tree: &TreeOf<'_, C, W>,
     ) -> Result<Self, VulkanError> {
         Ok(match source {
             CandidateSource::Power => Self::Power(device.upload(&scene.thresholds)?),
-            CandidateSource::LightBvh => {
-                let tree = bvh.tree;
-                Self::LightBvh(Box::new(TreeBuffers {
-                    nodes: device.upload(tree.nodes)?,
-                    instances: device.upload(tree.instances)?,
-                    trails: device.upload(tree.trails)?,
-                    push: TreePush::of(&tree),
-                    kernel: format!("restir_initial_bvh{}", C::SUFFIX),
-                }))
-            }
+            CandidateSource::LightBvh => Self::LightBvh(Box::new(TreeBuffers {
+                nodes: device.upload(tree.nodes)?,
+                instances: device.upload(tree.instances)?,
+                trails: device.upload(tree.trails)?,
+                push: TreePush::of(tree),
+                kernel: format!("restir_initial_bvh{}", C::SUFFIX),
+            })),
         })
     }
 
@@ -219,7 +216,7 @@ impl<C: Choice<W>, const W: usize> Restir<C, W> for DeviceRestir<'_, C, W> {
         let mut params = params(&self.options, frame);
         let pixels = frame.width as usize * frame.height as usize;
         let scene = SceneBuffers::upload(device, frame.scene)?;
-        let source = SourceBuffers::upload(device, self.options.source, frame.scene, &frame.bvh)?;
+        let source = SourceBuffers::upload::<C, W>(device, self.options.source, frame.scene, &frame.bvh)?;
         let gbuffer = device.output::<Surface>(pixels)?;
         let mut reservoirs = device.output::<PixelReservoir>(pixels)?;
         let none = TreePush::default();

@@ -10,7 +10,7 @@ pub use device::DeviceRestir;
 
 use std::sync::Arc;
 
-use lightbvh_kernels::bvh::{BvhPicker, Choice, Standard, WIDTH};
+use lightbvh_kernels::bvh::{Choice, Standard, TreeOf, WIDTH};
 use lightbvh_kernels::shading::restir::surface::Surface;
 use lightbvh_kernels::shading::restir::{PixelReservoir, RestirParams};
 use lightbvh_kernels::shading::trace::NONE;
@@ -166,7 +166,7 @@ pub struct RestirFrame<'a, C: Choice<W> = Standard, const W: usize = WIDTH> {
     /// The scene; kept until the next frame, which asks what it hid from whom.
     pub scene: &'a Arc<SceneArrays>,
     /// The light BVH over its lights; used by [`CandidateSource::LightBvh`] only.
-    pub bvh: BvhPicker<'a, C, W>,
+    pub bvh: TreeOf<'a, C, W>,
     /// Columns.
     pub width: u32,
     /// Rows.

@@ -6,9 +6,9 @@ mod world;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use lightbvh::scene::RebuildParams;
+use lightbvh::bvh::RebuildParams;
 use lightbvh::{BuildParams, Edit, Instance, LightBvh};
-use lightbvh_kernels::bvh::{Node, WIDTH};
+use lightbvh_kernels::bvh::Node;
 
 pub(super) use self::report::print;
 use self::report::{Report, Row, Spread};
@@ -130,7 +130,9 @@ fn swapping(world: &mut World, change: Change, changed: u32) -> [Spread; 3] {
         rebuild.push(timed(|| built = Some(world.scene.rebuild(&params).run())));
         let edits = world.edits(change, changed, (WARM + FRAMES + frame) as u32);
         swap.push(timed(|| {
-            built.into_iter().for_each(|built| world.scene.adopt(built))
+            for built in built {
+                world.scene.install(built).expect("of the same light BVH");
+            }
         }));
         refit.push(frame_of(world, edits).1);
     }
@@ -141,7 +143,7 @@ fn swapping(world: &mut World, change: Change, changed: u32) -> [Spread; 3] {
 fn frame_of(world: &mut World, edits: Vec<Edit>) -> (Duration, Duration) {
     let scene = &mut world.scene;
     let update = timed(|| {
-        scene.update(edits).expect("the edits are within the domain");
+        scene.apply(edits).expect("the edits are within the domain");
     });
     (update, timed(|| scene.refit()))
 }
@@ -154,22 +156,17 @@ fn device(
     opened: &Opened,
     scale: &Scale,
 ) -> Result<Row, HostError> {
-    let lights = world.lights();
-    let mut backend: DeviceBackend<'_> = DeviceBackend::of_scene(&opened.device, &world.scene, &lights)?;
+    let mut backend: DeviceBackend<'_> = DeviceBackend::new(&opened.device, &world.scene)?;
     let (mut update, mut refit) = (Vec::new(), Vec::new());
     let mut nodes = 0;
     // The first frame compiles.
     for frame in 0..=DEVICE_FRAMES {
         let edits = world.edits(change, changed, frame as u32);
         let update_time = timed(|| {
-            world
-                .scene
-                .update(edits)
-                .expect("the edits are within the domain");
+            world.scene.apply(edits).expect("the edits are within the domain");
         });
         nodes = world.scene.plan().computed();
-        let lights = world.lights();
-        let time = backend.follow(&world.scene, &lights)?.time;
+        let time = backend.follow(&world.scene)?.time;
         world.scene.refit();
         if frame > 0 {
             update.push(update_time);
@@ -214,8 +211,9 @@ fn row(
 /// Refit of one tree over all triangles in the world by one thread, as without instances.
 fn single_level(world: &World, one: &rayon::ThreadPool) -> Spread {
     let lights = world.lights();
-    let mut bvh: LightBvh<Node, WIDTH> = LightBvh::single_level(&lights, &BuildParams::default());
-    let times = (0..SINGLE_LEVEL).map(|_| one.install(|| timed(|| bvh.refit(&lights))));
+    let mut bvh = LightBvh::single_level(&lights, &BuildParams::default());
+    let times = (0..SINGLE_LEVEL)
+        .map(|_| one.install(|| timed(|| bvh.follow(&lights).expect("the lights that it was built over"))));
     Spread::of(times.collect())
 }
 
@@ -224,7 +222,7 @@ fn copy(world: &mut World) -> (Spread, usize) {
     let all = world.instance_count();
     let edits: Vec<Edit> = world.edits(Change::Move, all, 0);
     let scene = &mut world.scene;
-    scene.update(edits).expect("the edits are within the domain");
+    scene.apply(edits).expect("the edits are within the domain");
     scene.refit();
     let work = scene.work();
     let nodes: Vec<Node> = work

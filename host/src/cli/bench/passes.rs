@@ -9,7 +9,6 @@ use rayon::prelude::*;
 
 use crate::backend::{Backend, Bvh};
 use crate::error::HostError;
-use crate::stability::Importance;
 
 /// Samples of a batch that one thread takes.
 const BATCH: usize = 4096;
@@ -41,7 +40,7 @@ pub(super) fn passes(
             .iter()
             .zip(&sampled.value)
             .map(|(query, sampled)| Query {
-                random_or_light: sampled.light,
+                words: [sampled.light, sampled.instance],
                 ..*query
             })
             .collect();
@@ -59,15 +58,15 @@ pub(super) fn passes(
 pub(super) fn library_passes(mut bvh: Bvh, lights: &Lights, queries: &[Query]) -> Times {
     let mut sampled = vec![SampledLight::NONE; queries.len()];
     let mut pmfs = vec![0.0; queries.len()];
-    let refit = measure(|| bvh.refit(lights));
+    let refit = measure(|| bvh.follow(lights).expect("the lights that it was built over"));
     let sample = measure(|| {
         for (query, out) in queries.iter().zip(&mut sampled) {
-            *out = bvh.sample::<Importance>(&query.point, query.random_or_light);
+            *out = bvh.sample(&query.point, number(query));
         }
     });
     let pmf = measure(|| {
         for ((query, sampled), out) in queries.iter().zip(&sampled).zip(&mut pmfs) {
-            *out = bvh.pmf::<Importance>(lights, &query.point, sampled.light);
+            *out = bvh.pmf(&query.point, sampled.light, sampled.instance);
         }
     });
     black_box((&sampled, &pmfs));
@@ -77,18 +76,25 @@ pub(super) fn library_passes(mut bvh: Bvh, lights: &Lights, queries: &[Query]) -
 /// Samples in batches, by the threads of the current pool.
 pub(super) fn batches(bvh: &Bvh, queries: &[Query]) -> Vec<Duration> {
     let points: Vec<ShadingPoint> = queries.iter().map(|query| query.point).collect();
-    let random = |query: &Query| Random64::from(query.random_or_light);
-    let randoms: Vec<Random64> = queries.iter().map(random).collect();
+    let randoms: Vec<Random64> = queries.iter().map(number).collect();
     let mut sampled = vec![SampledLight::NONE; queries.len()];
     let times = measure(|| {
         let of_points = points.par_chunks(BATCH).zip(randoms.par_chunks(BATCH));
         let parts = of_points.zip(sampled.par_chunks_mut(BATCH));
         parts.for_each(|((points, randoms), sampled)| {
-            bvh.sample_batch::<Importance>(points, randoms, sampled);
+            bvh.sample_batch(points, randoms, sampled);
         });
     });
     black_box(&sampled);
     times
+}
+
+/// The number of a query of `sample`.
+fn number(query: &Query) -> Random64 {
+    Random64 {
+        high: query.words[0],
+        low: query.words[1],
+    }
 }
 
 pub(super) fn measure(mut work: impl FnMut()) -> Vec<Duration> {

@@ -1,7 +1,7 @@
 //! Lights and points of the speed bar.
 
 use lightbvh::exact::{hash, unit_f32};
-use lightbvh::{EmissiveTriangle, Lights, ShadingPoint};
+use lightbvh::{EmissiveTriangle, Lights, Random64, ShadingPoint};
 use lightbvh_kernels::query::Query;
 
 /// Side of the box that the lights lie in and edge of a light, metres.
@@ -52,12 +52,13 @@ pub(in crate::cli) fn random_queries(count: u32) -> Vec<Query> {
             let p = std::array::from_fn(|k| draw(k as u32) * SIDE);
             let d: [f32; 3] = std::array::from_fn(|k| 2.0 * draw(3 + k as u32) - 1.0);
             let length = d.iter().map(|x| x * x).sum::<f32>().sqrt().max(1e-6);
+            let number = Random64::from(hash(i));
             Query {
                 point: ShadingPoint {
                     p,
                     n: d.map(|x| x / length),
                 },
-                random_or_light: hash(i),
+                words: [number.high, number.low],
             }
         })
         .collect()

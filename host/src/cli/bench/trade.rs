@@ -7,12 +7,13 @@ use std::time::Instant;
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::node::{FullMomentNode, LeanMomentNode};
 use lightbvh::{
-    BuildParams, CompactNode, Defensive, EmissiveTriangle, Eq4, FluxOverDistance, FullNode, ImportanceModel,
-    LightBvh, LightNode, Lights, MomentNode, Moments, ShadingPoint,
+    BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, FluxOverDistance, FullNode,
+    ImportanceModel, LightNode, Lights, MomentNode, Moments, ShadingPoint,
 };
 use serde::Serialize;
 
 use crate::cli::table;
+use crate::workload::instance_of;
 
 /// Lamps of the scene, triangles of each, and points where the variance is taken.
 const LAMPS: u32 = 64;
@@ -81,9 +82,9 @@ impl By<'_> {
         } = self;
         let params = BuildParams::default();
         let bvh = if two_level {
-            LightBvh::<N, W>::two_level(lights, &params)
+            Bvh::<N, I, W>::two_level(lights, &params)
         } else {
-            LightBvh::<N, W>::single_level(lights, &params)
+            Bvh::<N, I, W>::single_level(lights, &params)
         };
         let (mut variance, mut counted) = (0.0, 0);
         for point in points {
@@ -92,7 +93,8 @@ impl By<'_> {
                 let light = diffuse(triangle, point);
                 if light > 0.0 {
                     mean += light;
-                    square += light * light / f64::from(bvh.pmf::<I>(lights, point, i as u32));
+                    square += light * light
+                        / f64::from(bvh.pmf(point, i as u32, instance_of(&bvh, lights, i as u32)));
                 }
             }
             if mean > 0.0 {
@@ -105,7 +107,7 @@ impl By<'_> {
                 let start = Instant::now();
                 let mut sum = 0.0;
                 for i in 0..20_000u32 {
-                    sum += bvh.sample::<I>(&points[(i % POINTS) as usize], hash(i)).pmf;
+                    sum += bvh.sample(&points[(i % POINTS) as usize], hash(i)).pmf;
                 }
                 std::hint::black_box(sum);
                 start.elapsed().as_nanos() as f64 / 20_000.0

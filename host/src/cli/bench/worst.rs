@@ -6,16 +6,14 @@ use std::cell::Cell;
 use std::hint::black_box;
 use std::time::Instant;
 
-use lightbvh::traverse::{pmf, sample};
-use lightbvh::{
-    BuildParams, INVALID, ImportanceModel, LightBvh, LightNode, LightTree, Random64, ShadingPoint,
-};
+use lightbvh::{BuildParams, INVALID, ImportanceModel, LightNode, LightTree, Random64, ShadingPoint};
 use lightbvh_kernels::bvh::{Choice, Paper, Standard};
 use serde::Serialize;
 use serde_json::json;
 
 use self::scenes::{Scene, hostile, scenes};
 use super::super::{Context, Outcome, table};
+use crate::backend::Bvh;
 use crate::error::HostError;
 
 /// Samples, and pmfs, of each scene.
@@ -76,9 +74,9 @@ pub(super) fn run(context: &Context) -> Result<Outcome, HostError> {
 }
 
 fn measure<C: Choice<W>, const W: usize>(scene: &Scene) -> Vec<Case> {
-    let mut bvh = LightBvh::<C::Node, W>::single_level(&scene.lights, &BuildParams::default());
+    let mut bvh = Bvh::<C, W>::single_level(&scene.lights, &BuildParams::default());
     if scene.hostile {
-        hostile::<C::Node, W>(&mut bvh);
+        hostile(&mut bvh);
     }
     let tree = bvh.tree();
     let lights = scene.lights.triangles().len() as u32;
@@ -90,10 +88,10 @@ fn measure<C: Choice<W>, const W: usize>(scene: &Scene) -> Vec<Case> {
             let point = scene.point(i);
             let (random, light) = scene.random(i);
             EVALUATED.with(|count| count.set(0));
-            ask::<C::Node, Counting<C::Importance>, W>(what, &tree, &point, random, light);
+            ask(what, &tree.by::<Counting<C::Importance>>(), &point, random, light);
             nodes.push(f64::from(EVALUATED.with(Cell::get)));
             let start = Instant::now();
-            ask::<C::Node, C::Importance, W>(what, &tree, &point, random, light);
+            ask(what, &tree, &point, random, light);
             times.push(start.elapsed().as_nanos() as f64);
         }
         for (unit, mut values) in [("nodes", nodes), ("ns", times)] {
@@ -118,15 +116,15 @@ fn measure<C: Choice<W>, const W: usize>(scene: &Scene) -> Vec<Case> {
 
 fn ask<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     what: &str,
-    tree: &LightTree<'_, N>,
+    tree: &LightTree<'_, N, I, W>,
     point: &ShadingPoint,
     random: u32,
     light: u32,
 ) {
     if what == "sample" {
-        black_box(sample::<N, I, W>(tree, point, Random64::from(random)));
+        black_box(tree.sample(point, Random64::from(random)));
     } else {
-        black_box(pmf::<N, I, W>(tree, point, light, INVALID));
+        black_box(tree.pmf(point, light, INVALID));
     }
 }
 

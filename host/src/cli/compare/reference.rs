@@ -101,7 +101,7 @@ fn half(
     frames.prepare(frame, true)?;
     let arrays = frames.arrays(frame);
     let bvh: Bvh = build(&arrays.lights, Sampler::TwoLevel, &BuildParams::default());
-    let mut cpu: CpuBackend = CpuBackend::new(bvh, arrays.lights.clone());
+    let mut cpu: CpuBackend = CpuBackend::new(bvh);
     let all = plan.reference_samples / 2;
     let mut sum = vec![[0.0_f64; 3]; plan.width as usize * plan.height as usize];
     for (pass, first) in (0..).zip((0..all).step_by(PASS as usize)) {

@@ -154,7 +154,7 @@ impl Lane<'_> {
                 let found = nodes(&mut **device)?;
                 tally.take(Kind::Nodes, &what("refit"), &record, &expected, &found)?;
             }
-            let lights = arrays.lights.triangles().len() as u32;
+            let lights = (arrays.lights.triangles(), method.is_single_level());
             compare_queries(
                 &what,
                 cpu,

@@ -27,7 +27,7 @@ impl<'d> Side<'d> {
         targets: &[Target<'d>],
     ) -> Result<Self, HostError> {
         let bvh: Bvh<C, W> = build(lights, sampler, params);
-        let on = |target: &Target<'d>| target.backend::<C, W>(bvh.clone(), lights);
+        let on = |target: &Target<'d>| target.backend::<C, W>(bvh.clone());
         Ok(Self {
             name: format!("{} {}", sampler.name(), C::NAME),
             cpu: on(&Target::Cpu)?,

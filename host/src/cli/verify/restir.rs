@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use bytemuck::cast_slice;
 use lightbvh::exact::hash;
-use lightbvh_kernels::bvh::{BvhPicker, Choice};
+use lightbvh_kernels::bvh::Choice;
 
 use super::structures::Subject;
 use super::tally::{Kind, Tally};
@@ -50,7 +50,7 @@ pub(super) fn compare<C: Choice<W>, const W: usize>(
             for (number, (arrays, bvh)) in (0..).zip(&frames) {
                 let frame = RestirFrame {
                     scene: arrays,
-                    bvh: BvhPicker::new(bvh.tree()),
+                    bvh: bvh.tree(),
                     width: shot.width,
                     height: shot.height,
                     seed: hash(shot.seed).wrapping_add(number),

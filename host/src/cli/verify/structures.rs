@@ -67,10 +67,10 @@ impl Structures {
         let what = |kernel: &str| subject.says(kernel);
         let lights = lights_at(scene, BUILD_FRAME)?;
         let bvh: Bvh<C, W> = build(&lights, subject.sampler, &subject.params);
-        let mut cpu = CpuBackend::<C, W>::new(bvh.clone(), lights.clone());
+        let mut cpu = CpuBackend::<C, W>::new(bvh.clone());
         let mut devices = opened
             .iter()
-            .map(|o| DeviceBackend::<C, W>::new(&o.device, &bvh, &lights))
+            .map(|o| DeviceBackend::<C, W>::new(&o.device, &bvh))
             .collect::<Result<Vec<_>, _>>()?;
 
         for frame in REFIT_FRAMES {
@@ -96,7 +96,7 @@ impl Structures {
             let batch = u64::min(count - first, BATCH.into()) as u32;
             let asked = queries(&arrays, hash(seed), first as u32, batch);
             let mut devices: Vec<&mut dyn Backend> = devices.iter_mut().map(|d| d as _).collect();
-            let lights = arrays.lights.triangles().len() as u32;
+            let lights = (arrays.lights.triangles(), bvh.is_single_level());
             let (tallies, own) = (&mut self.tallies, &mut self.cpu);
             compare_queries(&what, &mut cpu, &mut devices, asked, lights, tallies, own)?;
             self.progress.inc(batch.into());

@@ -1,7 +1,6 @@
 //! What is lit: points on lights, in boxes and at their centres, far away, grazing and behind.
 
 use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, LightNode, Lights, ShadingPoint, Summary, exact};
-use lightbvh_kernels::bvh::{Node, WIDTH};
 
 use super::super::case::Case;
 use super::super::random::Random;
@@ -54,7 +53,7 @@ fn in_boxes(lights: &[EmissiveTriangle]) -> Vec<ShadingPoint> {
     let Ok(lights) = Lights::new(lights.to_vec()) else {
         return Vec::new();
     };
-    let bvh = LightBvh::<Node, WIDTH>::single_level(&lights, &BuildParams::default());
+    let bvh = LightBvh::single_level(&lights, &BuildParams::default());
     let mut points = Vec::new();
     for node in bvh.nodes().iter().step_by(2) {
         for slot in 0..2 {

@@ -38,9 +38,9 @@ pub(in crate::cli::bench) struct Row {
     pub backend: String,
     pub threads: usize,
     pub frames: usize,
-    /// [`lightbvh::Scene::update`]: the edits, checked and done.
+    /// [`lightbvh::Bvh::update`]: the edits, checked and done.
     pub update_ms: Spread,
-    /// [`lightbvh::Scene::refit`], or the passes on a device.
+    /// [`lightbvh::Bvh::refit`], or the passes on a device.
     pub refit_ms: Spread,
     /// In frames that swap in a rebuilt top level: its rebuild, beside the frame before; its swap-in; the refit then.
     pub rebuild_ms: Option<Spread>,

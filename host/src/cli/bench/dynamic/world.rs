@@ -3,7 +3,7 @@
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::{Edit, EmissiveTriangle, InstanceId, Lights, MeshId, Transform};
 
-use crate::backend::LightScene;
+use crate::backend::Bvh;
 
 /// Side of the box that instances lie in, metres.
 const SIDE: f32 = 100.0;
@@ -38,7 +38,7 @@ impl Change {
 
 /// A scene and what is in it.
 pub(super) struct World {
-    pub scene: LightScene,
+    pub scene: Bvh,
     meshes: Vec<MeshId>,
     instances: Vec<InstanceId>,
     /// Triangles of a mesh.
@@ -60,7 +60,7 @@ impl World {
 
     fn new(count: u32, per_mesh: u32, side: f32) -> Self {
         let mut world = Self {
-            scene: lightbvh::Scene::default(),
+            scene: lightbvh::Bvh::default(),
             meshes: Vec::new(),
             instances: Vec::new(),
             per_mesh,
@@ -71,14 +71,14 @@ impl World {
         });
         let meshes: Vec<Edit> = meshes.collect();
         let within = "the scene is made within the domain";
-        world.meshes = world.scene.update(meshes).expect(within).meshes;
+        world.meshes = world.scene.apply(meshes).expect(within).meshes;
         let add = (0..count).map(|i| Edit::AddInstance {
             mesh: world.meshes[(i % MESHES) as usize],
             transform: transform(i, 0),
             radiance: 1.0,
         });
         let add: Vec<Edit> = add.collect();
-        world.instances = world.scene.update(add).expect(within).instances;
+        world.instances = world.scene.apply(add).expect(within).instances;
         world.scene.refit();
         world
     }
@@ -98,18 +98,18 @@ impl World {
         let spread = |k: u32| (u64::from(k) * u64::from(count) / u64::from(changed.max(1))) as u32;
         match change {
             Change::Move => (0..changed)
-                .map(|k| Edit::Move {
+                .map(|k| Edit::SetTransform {
                     instance: self.instances[spread(k) as usize],
                     transform: transform(spread(k), frame + 1),
                 })
                 .collect(),
             Change::Shine => (0..changed)
-                .map(|k| Edit::Shine {
+                .map(|k| Edit::SetRadiance {
                     instance: self.instances[spread(k) as usize],
                     radiance: 1.0 + unit_f32(hash(k ^ hash(frame))),
                 })
                 .collect(),
-            Change::Deform => vec![Edit::Deform {
+            Change::Deform => vec![Edit::SetTriangles {
                 mesh: self.meshes[0],
                 triangles: self.mesh(0, frame + 1),
             }],

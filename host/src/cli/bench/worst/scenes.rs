@@ -2,7 +2,7 @@
 
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::node::kind;
-use lightbvh::{EmissiveTriangle, LightBvh, LightNode, Lights, ShadingPoint};
+use lightbvh::{Bvh, EmissiveTriangle, LightNode, Lights, ShadingPoint};
 
 /// Lights, and where they are looked at from.
 pub(super) struct Scene {
@@ -174,7 +174,7 @@ fn exponential() -> Vec<EmissiveTriangle> {
 }
 
 /// Links every inner child to the next node of a ring, so that no walk would end by itself.
-pub(super) fn hostile<N: LightNode<W>, const W: usize>(bvh: &mut LightBvh<N, W>) {
+pub(super) fn hostile<N: LightNode<W>, I, const W: usize>(bvh: &mut Bvh<N, I, W>) {
     let count = bvh.nodes().len() as u32;
     for (i, node) in (0u32..).zip(bvh.nodes_mut()) {
         for slot in 0..W {

@@ -1,10 +1,11 @@
 //! Rebuilds beside the frame (paper section 3.5): what to build is taken out of the scene, built anywhere, and swapped in.
 
 use alloc::vec::Vec;
+use core::fmt;
 use core::marker::PhantomData;
 use core::ops::Range;
 
-use super::Scene;
+use super::Bvh;
 use super::blas::Blas;
 use super::top::TopTree;
 use crate::build::{self, BuildParams, Topology, build_over, drift};
@@ -36,7 +37,7 @@ impl Default for RebuildParams {
     }
 }
 
-/// Work for any thread: a copy of what is to be built anew.
+/// RefitPlan for any thread: a copy of what is to be built anew.
 #[derive(Clone, Debug)]
 pub struct Rebuild<N, const W: usize> {
     params: BuildParams,
@@ -49,7 +50,8 @@ pub struct Rebuild<N, const W: usize> {
 /// When a copy was taken: the scene's counts of edits and of refits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Taken {
-    clock: u64,
+    tree: u32,
+    epoch: u64,
     refits: u64,
 }
 
@@ -67,12 +69,12 @@ struct TopLeaves {
 #[derive(Clone, Debug)]
 struct Bottom {
     blas: u32,
-    born: u64,
+    created: u64,
     range: Range<u32>,
     triangles: Vec<EmissiveTriangle>,
 }
 
-/// What a [`Rebuild`] gives: trees to be swapped in by [`Scene::adopt`].
+/// What a [`Rebuild`] gives: trees to be swapped in by [`Bvh::install`].
 #[derive(Debug)]
 pub struct Rebuilt<N, const W: usize> {
     taken: Taken,
@@ -80,6 +82,21 @@ pub struct Rebuilt<N, const W: usize> {
     top: Option<TopTree<N>>,
     bottoms: Vec<(Bottom, Topology<N>)>,
 }
+
+/// What was built belongs to another light BVH.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Foreign;
+
+impl fmt::Display for Foreign {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "the rebuild was taken from another light BVH; give each its own rebuilder"
+        )
+    }
+}
+
+impl core::error::Error for Foreign {}
 
 impl<N: LightNode<W>, const W: usize> Rebuild<N, W> {
     /// Whether there is nothing to build.
@@ -141,7 +158,7 @@ fn build_top<N: LightNode<W>, const W: usize>(leaves: &TopLeaves, params: &Build
     TopTree::new::<W>(topology, levels)
 }
 
-impl<N: LightNode<W>, const W: usize> Scene<N, W> {
+impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// Takes a copy of what `params` wants built anew, as it stands after a [`refit`](Self::refit).
     #[must_use]
     pub fn rebuild(&self, params: &RebuildParams) -> Rebuild<N, W> {
@@ -165,7 +182,9 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
                 .collect(),
         });
         let drifted = refitted.into_iter().filter(|&blas| {
-            let own = &self.blases[blas as usize];
+            let Some(own) = self.blases.get(blas as usize) else {
+                return false;
+            };
             let nodes = &self.nodes[own.nodes.start as usize..own.nodes.end as usize];
             params.drift.is_finite()
                 && !nodes.is_empty()
@@ -177,7 +196,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             let range = own.triangles.clone();
             Bottom {
                 blas,
-                born: own.born,
+                created: own.created,
                 triangles: self.triangles[range.start as usize..range.end as usize].to_vec(),
                 range,
             }
@@ -192,35 +211,43 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     }
 
     /// Swaps in what was built. Edits since the [`rebuild`](Self::rebuild) are not lost: instances removed meanwhile leave
-    /// empty slots, added ones are grafted on, bottom levels replaced meanwhile stay as they are. Comes before the next
-    /// frame's [`update`](Self::update) or after it, but before its [`refit`](Self::refit).
-    pub fn adopt(&mut self, rebuilt: Rebuilt<N, W>) {
+    /// empty slots, added ones are put beside it, bottom levels replaced meanwhile stay as they are. Comes before the next
+    /// frame's [`apply`](Self::apply) or after it, but before its [`refit`](Self::refit).
+    ///
+    /// # Errors
+    /// [`Foreign`] where it was taken from another light BVH; this one is as before then.
+    pub fn install(&mut self, rebuilt: Rebuilt<N, W>) -> Result<(), Foreign> {
+        if rebuilt.taken.tree != self.id {
+            return Err(Foreign);
+        }
         self.unplan();
         // Words computed from the instances of then are those of now unless something came between: any edit does, also one whose
         // refit is still to come.
         let stale = rebuilt.taken != self.now() || !self.pending.instances.is_empty();
         for (bottom, topology) in &rebuilt.bottoms {
-            let same = |own: &Blas| own.born == bottom.born && own.triangles == bottom.range;
+            let same = |own: &Blas| own.created == bottom.created && own.triangles == bottom.range;
             if self.blases.get(bottom.blas as usize).is_some_and(same) {
                 self.place_blas(bottom.blas, topology);
-                self.reroot(bottom.blas);
+                self.update_root(bottom.blas);
             }
         }
         if let Some(top) = rebuilt.top {
-            self.replace_top_by(top, rebuilt.taken.clock);
+            self.replace_top_by(top, rebuilt.taken.epoch);
             let added: Vec<u32> = (0..)
                 .zip(&self.placed)
                 .filter(|(_, placed)| placed.live && placed.node == INVALID)
                 .map(|(index, _)| index)
                 .collect();
-            self.graft(&added);
+            self.insert_instances(&added);
             self.pending.whole_top |= stale;
         }
+        Ok(())
     }
 
     fn now(&self) -> Taken {
         Taken {
-            clock: self.clock,
+            tree: self.id,
+            epoch: self.epoch,
             refits: self.refits,
         }
     }

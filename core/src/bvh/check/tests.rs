@@ -7,7 +7,7 @@ use crate::light::LightError;
 use crate::transform::TransformError;
 use crate::{CompactNode, InstanceId};
 
-type Tree = Scene<CompactNode<4>, 4>;
+type Tree = Bvh<CompactNode<4>, crate::Eq4, 4>;
 
 /// Triangles of the one mesh.
 const COUNT: usize = 1 << 12;
@@ -29,9 +29,9 @@ fn triangles(count: usize, size: f32) -> Vec<EmissiveTriangle> {
 fn scene(count: usize) -> (Tree, MeshId, InstanceId) {
     let mut scene = Tree::default();
     let triangles = triangles(count, 1.0);
-    let added = scene.update(vec![Edit::AddMesh { triangles }]).expect("a mesh");
+    let added = scene.apply(vec![Edit::AddMesh { triangles }]).expect("a mesh");
     let mesh = added.meshes[0];
-    let added = scene.update(vec![add(mesh)]).expect("an instance");
+    let added = scene.apply(vec![add(mesh)]).expect("an instance");
     (scene, mesh, added.instances[0])
 }
 
@@ -44,7 +44,7 @@ fn add(mesh: MeshId) -> Edit {
 }
 
 fn move_to(instance: InstanceId, x: f32) -> Edit {
-    Edit::Move {
+    Edit::SetTransform {
         instance,
         transform: Transform::at([x, 0.0, 0.0]),
     }
@@ -85,7 +85,7 @@ fn lights_are_limited() {
 #[test]
 fn edits_know_of_those_before() {
     let (scene, mesh, instance) = scene(2);
-    let deform = |size| Edit::Deform {
+    let deform = |size| Edit::SetTriangles {
         mesh,
         triangles: triangles(2, size),
     };

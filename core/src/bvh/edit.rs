@@ -9,6 +9,7 @@ use crate::transform::{Transform, TransformError};
 /// A mesh of emissive triangles; stays the same as long as the mesh is in the scene, and never means another one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct MeshId {
+    pub(super) tree: u32,
     pub(super) index: u32,
     pub(super) generation: u32,
 }
@@ -16,12 +17,13 @@ pub struct MeshId {
 /// A mesh's place in the world; stays the same as long as the instance is in the scene, and never means another one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct InstanceId {
+    pub(super) tree: u32,
     pub(super) index: u32,
     pub(super) generation: u32,
 }
 
 impl InstanceId {
-    /// Index of the instance among [`Scene::instances`](super::Scene::instances), and of the mesh light that its triangles
+    /// Index of the instance among [`Bvh::instances`](super::Bvh::instances), and of the mesh light that its triangles
     /// belong to.
     #[must_use]
     pub fn index(self) -> u32 {
@@ -47,21 +49,21 @@ pub enum Edit {
         radiance: f32,
     },
     /// An instance moved.
-    Move {
+    SetTransform {
         /// Which one.
         instance: InstanceId,
         /// Where to.
         transform: Transform,
     },
     /// An instance made brighter, dimmed, or turned off.
-    Shine {
+    SetRadiance {
         /// Which one.
         instance: InstanceId,
         /// Factor on the mesh's radiance: 0, or from 2^-60 to 2^60.
         radiance: f32,
     },
     /// New vertices or new emission of a mesh, in all its instances.
-    Deform {
+    SetTriangles {
         /// Which mesh.
         mesh: MeshId,
         /// As many triangles as before.
@@ -87,10 +89,11 @@ pub struct EditError {
 
 /// What is wrong with an edit.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum EditReason {
-    /// No mesh has that id, or none any more.
+    /// No mesh has that id: it was removed, or is one of another light BVH.
     UnknownMesh(MeshId),
-    /// No instance has that id, or none any more.
+    /// No instance has that id: it was removed, or is one of another light BVH.
     UnknownInstance(InstanceId),
     /// A mesh has no triangle.
     EmptyMesh,
@@ -122,6 +125,8 @@ pub enum EditReason {
     },
     /// More than 2^30 lights or triangles.
     TooMany,
+    /// A single-level BVH has one mesh and one instance, which stay.
+    SingleLevel,
 }
 
 impl fmt::Display for EditError {
@@ -135,12 +140,12 @@ impl fmt::Display for EditReason {
         match self {
             Self::UnknownMesh(id) => write!(
                 f,
-                "no mesh {} of generation {}; it was removed, or belongs to another scene",
+                "no mesh {} of generation {}; it was removed, or belongs to another light BVH",
                 id.index, id.generation
             ),
             Self::UnknownInstance(id) => write!(
                 f,
-                "no instance {} of generation {}; it was removed, or belongs to another scene",
+                "no instance {} of generation {}; it was removed, or belongs to another light BVH",
                 id.index, id.generation
             ),
             Self::EmptyMesh => write!(f, "a mesh without emissive triangles; leave it out"),
@@ -158,6 +163,10 @@ impl fmt::Display for EditReason {
                 write!(f, "the mesh still has {instances} instances; remove them first")
             }
             Self::TooMany => write!(f, "more than 2^30 triangles or lights; split the scene"),
+            Self::SingleLevel => write!(
+                f,
+                "a single-level light BVH takes new triangles of its mesh and nothing else; build one of two levels"
+            ),
         }
     }
 }

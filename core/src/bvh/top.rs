@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::Scene;
+use super::Bvh;
 use crate::build::{Topology, build_top};
 use crate::levels::Levels;
 use crate::node::{LightNode, kind};
@@ -108,7 +108,7 @@ impl<N> TopTree<N> {
     }
 }
 
-impl<N: LightNode<W>, const W: usize> Scene<N, W> {
+impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// A top level without instances: one empty node.
     pub(super) fn empty_top(&mut self) {
         self.replace_top(&[without_children::<N, W>()]);
@@ -122,7 +122,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     }
 
     /// As [`replace_top`](Self::replace_top), with a tree that knows where everything in it is, but not what became of its
-    /// instances since the scene's clock stood at `since`: those gone leave empty slots.
+    /// instances since the scene's epoch stood at `since`: those gone leave empty slots.
     pub(super) fn replace_top_by(&mut self, tree: TopTree<N>, since: u64) {
         let range = self.place_top(&tree.nodes);
         if !self.place_instances(&tree.places, range.start, since) {
@@ -131,7 +131,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
                     let own = &mut self.nodes[node as usize];
                     if own.kind(slot) == kind::MESH {
                         let placed = self.placed.get(own.link(slot) as usize);
-                        if !placed.is_some_and(|placed| placed.live && placed.born <= since) {
+                        if !placed.is_some_and(|placed| placed.live && placed.created <= since) {
                             own.set_child(slot, kind::EMPTY, 0);
                         }
                     }
@@ -153,7 +153,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     }
 
     /// Notes for every instance where it is a leaf, the nodes of `places` counting from `first`; false where one of them is
-    /// no instance, or not the one that was there when the clock stood at `since`.
+    /// no instance, or not the one that was there when the epoch stood at `since`.
     fn place_instances(&mut self, places: &[Place], first: u32, since: u64) -> bool {
         let mut places = places.iter().peekable();
         for (index, (placed, instance)) in (0..).zip(self.placed.iter_mut().zip(&mut self.instances)) {
@@ -161,7 +161,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
                 placed.node = INVALID;
                 continue;
             };
-            if !placed.live || placed.born > since {
+            if !placed.live || placed.created > since {
                 return false;
             }
             placed.node = first + place.node;
@@ -202,7 +202,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
 
     /// Puts a tree over `added` instances beside the top level, below a new root. Where that would be too deep, everything
     /// is built anew.
-    pub(super) fn graft(&mut self, added: &[u32]) {
+    pub(super) fn insert_instances(&mut self, added: &[u32]) {
         if added.is_empty() {
             return;
         }
@@ -232,7 +232,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     }
 
     /// Takes the leaf of an instance out; its slot stays empty until the next rebuild.
-    pub(super) fn prune(&mut self, index: u32) {
+    pub(super) fn remove_leaf(&mut self, index: u32) {
         let (node, slot) = {
             let placed = &self.placed[index as usize];
             (placed.node, placed.slot)
@@ -307,7 +307,7 @@ fn without_children<N: LightNode<W>, const W: usize>() -> N {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::RebuildParams;
+    use crate::bvh::RebuildParams;
     use crate::{CompactNode, Edit, EmissiveTriangle, Transform};
     use alloc::vec;
 
@@ -320,10 +320,10 @@ mod tests {
             mesh: 0,
             flags: 0,
         };
-        let mut scene = Scene::<CompactNode<4>, 4>::default();
+        let mut scene = Bvh::<CompactNode<4>, crate::Eq4, 4>::default();
         let triangles = vec![triangle];
         let mesh = scene
-            .update(vec![Edit::AddMesh { triangles }])
+            .apply(vec![Edit::AddMesh { triangles }])
             .expect("a mesh")
             .meshes[0];
         for count in [0u16, 1, 2, 3, 50, 300] {
@@ -332,17 +332,17 @@ mod tests {
                 transform: Transform::at([f32::from(k * 37 % 97), f32::from(k % 7), f32::from(k)]),
                 radiance: 1.0,
             });
-            let added = scene.update(add.collect()).expect("instances").instances;
+            let added = scene.apply(add.collect()).expect("instances").instances;
             // Gaps among the indices.
             let gone = added
                 .iter()
                 .skip(1)
                 .step_by(3)
                 .map(|&id| Edit::RemoveInstance(id));
-            scene.update(gone.collect()).expect("they are there");
+            scene.apply(gone.collect()).expect("they are there");
             scene.refit();
             let rebuilt = scene.rebuild(&RebuildParams::default()).run();
-            scene.adopt(rebuilt);
+            scene.install(rebuilt).expect("its own");
             let (noted, instances) = (
                 alloc::format!("{:?}{:?}", scene.top, scene.placed),
                 scene.instances.clone(),

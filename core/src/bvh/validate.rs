@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::Scene;
+use super::Bvh;
 use crate::node::{LightNode, kind};
 use crate::refit;
 use crate::trail::{BitTrail, max_levels};
@@ -12,7 +12,7 @@ use crate::validate::{Violation, What, contained, equal, same_words};
 
 /// What a valid scene consists of.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SceneStats {
+pub struct Stats {
     /// Nodes in use.
     pub nodes: u32,
     /// Instances in use.
@@ -34,7 +34,7 @@ struct Found {
     depth: u32,
 }
 
-impl<N: LightNode<W>, const W: usize> Scene<N, W> {
+impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// Checks every invariant, after a [`refit`](Self::refit):
     /// - each node in use is reached once, through links that are in range, and knows its parent;
     /// - each live instance is a leaf of the top level exactly once, each triangle of a bottom level a leaf of it exactly
@@ -46,7 +46,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     ///
     /// # Errors
     /// The first [`Violation`].
-    pub fn validate(&self) -> Result<SceneStats, Violation> {
+    pub fn validate(&self) -> Result<Stats, Violation> {
         let mut seen = alloc::vec![false; self.nodes.len()];
         let mut again: Vec<N> = alloc::vec![N::EMPTY; self.nodes.len()];
         let mut used_triangles: Vec<Range<u32>> = Vec::new();
@@ -136,7 +136,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
                 self.check_children(index)?;
             }
         }
-        Ok(SceneStats {
+        Ok(Stats {
             nodes,
             instances,
             blases,

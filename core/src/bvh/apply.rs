@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::blas::put;
 use super::edit::{Edit, EditError, InstanceId, MeshId};
-use super::{Mesh, Placed, Scene};
+use super::{Bvh, InstanceState, Mesh};
 use crate::instance::Instance;
 use crate::light::EmissiveTriangle;
 use crate::node::LightNode;
@@ -13,61 +13,60 @@ use crate::tree::INVALID;
 
 /// What a batch of edits made.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Updated {
+pub struct Added {
     /// Ids of the meshes added, in the order of their edits.
     pub meshes: Vec<MeshId>,
     /// Ids of the instances added, in the order of their edits.
     pub instances: Vec<InstanceId>,
 }
 
-impl<N: LightNode<W>, const W: usize> Scene<N, W> {
+impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// Does a batch of edits, all or none. Sampling sees them after the next [`refit`](Self::refit).
     ///
     /// # Errors
     /// [`EditError`] naming the first edit that cannot be done; the scene is as before then.
-    pub fn update(&mut self, mut edits: Vec<Edit>) -> Result<Updated, EditError> {
+    pub fn apply(&mut self, mut edits: Vec<Edit>) -> Result<Added, EditError> {
         let mut deformed = self.check(&mut edits)?.into_iter();
         self.unplan();
-        self.removed_lights.clear();
-        let mut updated = Updated::default();
+        let mut updated = Added::default();
         let mut added = Vec::new();
         for edit in edits {
             match edit {
-                Edit::AddMesh { triangles } => updated.meshes.push(self.add_mesh(&triangles)),
+                Edit::AddMesh { triangles } => updated.meshes.push(self.insert_mesh(&triangles)),
                 Edit::AddInstance {
                     mesh,
                     transform,
                     radiance,
                 } => {
-                    let id = self.add_instance(mesh, transform, radiance);
+                    let id = self.insert_instance(mesh, transform, radiance);
                     added.push(id.index);
                     updated.instances.push(id);
                 }
-                Edit::Move { instance, transform } => {
+                Edit::SetTransform { instance, transform } => {
                     self.placed[instance.index as usize].transform = transform;
                     self.place(instance.index);
                 }
-                Edit::Shine { instance, radiance } => {
+                Edit::SetRadiance { instance, radiance } => {
                     self.placed[instance.index as usize].radiance = radiance;
                     self.place(instance.index);
                 }
-                Edit::Deform { mesh, triangles } => {
+                Edit::SetTriangles { mesh, triangles } => {
                     let extent = deformed.next().unwrap_or_else(|| Extent::of(&triangles));
                     self.deform(mesh, &triangles, extent);
                 }
-                Edit::RemoveInstance(id) => self.remove_instance(id.index),
-                Edit::RemoveMesh(id) => self.remove_mesh(id.index),
+                Edit::RemoveInstance(id) => self.take_instance(id.index),
+                Edit::RemoveMesh(id) => self.take_mesh(id.index),
             }
         }
         // One may be gone again, and its index taken by another.
         added.retain(|&index| self.placed[index as usize].live);
         added.sort_unstable();
         added.dedup();
-        self.graft(&added);
+        self.insert_instances(&added);
         Ok(updated)
     }
 
-    fn add_mesh(&mut self, triangles: &[EmissiveTriangle]) -> MeshId {
+    pub(super) fn insert_mesh(&mut self, triangles: &[EmissiveTriangle]) -> MeshId {
         let index = self.mesh_ranges.take(1).start;
         let blas = self.add_blas(index, triangles);
         let generation = match self.meshes.get(index as usize) {
@@ -81,27 +80,36 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             users: Vec::new(),
         };
         put(&mut self.meshes, index, mesh.clone(), &mesh);
-        MeshId { index, generation }
+        MeshId {
+            tree: self.id,
+            index,
+            generation,
+        }
     }
 
-    fn remove_mesh(&mut self, index: u32) {
+    fn take_mesh(&mut self, index: u32) {
         self.meshes[index as usize].live = false;
         self.remove_blas(self.meshes[index as usize].blas);
         self.mesh_ranges.give(index..index + 1);
     }
 
-    fn add_instance(&mut self, mesh: MeshId, transform: Transform, radiance: f32) -> InstanceId {
+    pub(super) fn insert_instance(
+        &mut self,
+        mesh: MeshId,
+        transform: Transform,
+        radiance: f32,
+    ) -> InstanceId {
         let index = self.placed_ranges.take(1).start;
         let generation = match self.placed.get(index as usize) {
             Some(old) => old.generation + 1,
             None => 0,
         };
-        self.clock += 1;
+        self.epoch += 1;
         let users = &mut self.meshes[mesh.index as usize].users;
         let user = users.len() as u32;
         users.push(index);
         let blas = self.meshes[mesh.index as usize].blas;
-        let placed = Placed {
+        let placed = InstanceState {
             live: true,
             generation,
             mesh: mesh.index,
@@ -114,7 +122,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
                 .take(self.blases[blas as usize].triangles.len() as u32),
             node: INVALID,
             slot: 0,
-            born: self.clock,
+            created: self.epoch,
         };
         put(&mut self.placed, index, placed.clone(), &placed);
         // The record may hold an entry of the list, which is not this instance's to take.
@@ -127,12 +135,16 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         self.live.push(index);
         self.list(self.live.len() as u32 - 1);
         self.place(index);
-        InstanceId { index, generation }
+        InstanceId {
+            tree: self.id,
+            index,
+            generation,
+        }
     }
 
-    fn remove_instance(&mut self, index: u32) {
-        self.clock += 1;
-        self.prune(index);
+    fn take_instance(&mut self, index: u32) {
+        self.epoch += 1;
+        self.remove_leaf(index);
         let placed = &mut self.placed[index as usize];
         placed.live = false;
         placed.node = INVALID;
@@ -154,8 +166,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             ..NO_INSTANCE
         };
         self.pending.written_instances.push(index);
-        self.lights.give(lights.clone());
-        self.removed_lights.push(lights);
+        self.retire_lights(lights);
         self.placed_ranges.give(index..index + 1);
     }
 
@@ -190,7 +201,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     }
 
     /// After a bottom level got other nodes: its instances must know the root.
-    pub(super) fn reroot(&mut self, blas: u32) {
+    pub(super) fn update_root(&mut self, blas: u32) {
         let mesh = self.blases[blas as usize].mesh;
         let users = self.meshes[mesh as usize].users.clone();
         let root = self.roots[blas as usize].node;

@@ -5,7 +5,7 @@ use alloc::vec;
 use super::*;
 use crate::{CompactNode, Edit, EmissiveTriangle, Transform};
 
-type Tree = Scene<CompactNode<2>, 2>;
+type Tree = Bvh<CompactNode<2>, crate::Eq4, 2>;
 
 /// Two meshes of 5 and 4 triangles; three instances of each, one of them stretched; levels to spare.
 fn scene() -> Tree {
@@ -22,7 +22,7 @@ fn scene() -> Tree {
     let meshes = [5, 4].map(|count| Edit::AddMesh {
         triangles: (0..count).map(lamp).collect(),
     });
-    let meshes = scene.update(meshes.into()).expect("meshes").meshes;
+    let meshes = scene.apply(meshes.into()).expect("meshes").meshes;
     let mut adds = vec![];
     for (i, &mesh) in meshes.iter().chain(&meshes).chain(&meshes).enumerate() {
         let mut transform = Transform::at([0.0, 3.0 * i as f32, 0.0]);
@@ -35,7 +35,7 @@ fn scene() -> Tree {
             radiance: 1.0,
         });
     }
-    scene.update(adds).expect("instances");
+    scene.apply(adds).expect("instances");
     scene.refit();
     scene
 }
@@ -58,7 +58,7 @@ fn a_sound_scene_is_counted() {
         .chain(&scene.top.ranges);
     assert_eq!(
         stats,
-        SceneStats {
+        Stats {
             nodes: used.map(|range| range.end - range.start).sum(),
             instances: 6,
             blases: 2,

@@ -4,7 +4,7 @@ use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::Scene;
+use super::Bvh;
 use crate::levels::Levels;
 use crate::node::LightNode;
 use crate::refit;
@@ -75,7 +75,7 @@ impl Pending {
 /// nodes the same. Copy first, then run [`refit::bottom`], [`refit::root`] and [`refit::top`] over the lists in this order,
 /// each range of levels by itself.
 #[derive(Clone, Debug, Default)]
-pub struct Work {
+pub struct RefitPlan {
     /// Nodes whose links or kinds changed.
     pub written_nodes: Vec<Range<u32>>,
     /// Triangles that changed.
@@ -89,13 +89,13 @@ pub struct Work {
     /// The same nodes by bottom level, each range in depth-first order: swept from its last node to its first, it reads memory in
     /// one direction.
     pub trees: Vec<Range<u32>>,
-    /// Bottom levels whose root changed: another node, or another summary. A mirror takes the node from [`Scene::roots`].
+    /// Bottom levels whose root changed: another node, or another summary. A mirror takes the node from [`Bvh::roots`].
     pub roots: Vec<u32>,
     /// Nodes of the top level with instances that changed, and those above them.
     pub top: Levels,
 }
 
-impl Work {
+impl RefitPlan {
     /// Number of nodes and roots that the passes compute.
     #[must_use]
     pub fn computed(&self) -> usize {
@@ -103,10 +103,10 @@ impl Work {
     }
 }
 
-impl<N: LightNode<W>, const W: usize> Scene<N, W> {
+impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// Turns the edits since the last [`refit`](Self::refit) into the lists of [`work`](Self::work), which a mirror on a device
     /// may follow before, after or instead of a refit here.
-    pub fn plan(&mut self) -> &Work {
+    pub fn plan(&mut self) -> &RefitPlan {
         if !self.planned {
             self.planned = true;
             self.gather();
@@ -120,6 +120,20 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             self.planned = false;
             let taken = core::mem::take(&mut self.taken);
             self.pending.join(taken);
+        }
+    }
+
+    /// A refit of everything, for a mirror that has just taken all arrays over.
+    #[must_use]
+    pub fn plan_of_everything(&self) -> RefitPlan {
+        let used = || (0..).zip(&self.blases).filter(|(_, blas)| !blas.nodes.is_empty());
+        let levels: Vec<&Levels> = used().map(|(_, blas)| &blas.levels).collect();
+        RefitPlan {
+            bottom: Levels::join(&levels),
+            trees: used().map(|(_, blas)| blas.nodes.clone()).collect(),
+            roots: used().map(|(index, _)| index).collect(),
+            top: self.top.levels.clone(),
+            ..RefitPlan::default()
         }
     }
 
@@ -155,7 +169,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
 
     /// What was planned last: what the last [`refit`](Self::refit) did, or the next one will do.
     #[must_use]
-    pub fn work(&self) -> &Work {
+    pub fn work(&self) -> &RefitPlan {
         &self.work
     }
 
@@ -170,12 +184,12 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             list.sort_unstable();
             list.dedup();
         }
-        let mut work = Work {
+        let mut work = RefitPlan {
             written_nodes: pending.written_nodes.clone(),
             written_triangles: pending.written_triangles.clone(),
             written_trails: pending.written_trails.clone(),
             written_instances: joined(pending.written_instances.clone()),
-            ..Work::default()
+            ..RefitPlan::default()
         };
         let mut instances = pending.instances.clone();
         let mut lists = Vec::new();
@@ -202,7 +216,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     }
 
     /// The leaves of the given instances, the given nodes, and all nodes above them.
-    fn dirty_top(&mut self, instances: &[u32], nodes: &[u32], work: &mut Work) {
+    fn dirty_top(&mut self, instances: &[u32], nodes: &[u32], work: &mut RefitPlan) {
         let leaves = instances.iter().map(|&i| self.placed[i as usize].node);
         let mut pairs = Vec::new();
         self.top.mark += 1;

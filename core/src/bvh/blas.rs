@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::Scene;
+use super::Bvh;
 use crate::build::{Topology, build_over, drift};
 use crate::levels::Levels;
 use crate::light::EmissiveTriangle;
@@ -30,10 +30,10 @@ pub(super) struct Blas {
     /// Its cost when it was built; see [`drift`].
     pub cost: f64,
     /// When its topology was made.
-    pub born: u64,
+    pub created: u64,
 }
 
-impl<N: LightNode<W>, const W: usize> Scene<N, W> {
+impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// A bottom level over `triangles`, at least one; returns its index.
     pub(super) fn add_blas(&mut self, mesh: u32, triangles: &[EmissiveTriangle]) -> u32 {
         let index = self.blas_ranges.take(1).start;
@@ -46,7 +46,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             depth: 0,
             extent: Extent::of(triangles),
             cost: 0.0,
-            born: 0,
+            created: 0,
         };
         put(&mut self.blases, index, empty.clone(), &empty);
         put(
@@ -114,13 +114,13 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
             .written_trails
             .push(self.blases[index as usize].triangles.clone());
         let levels = Levels::gather(topology.leveled(nodes.start));
-        self.clock += 1;
-        let born = self.clock;
+        self.epoch += 1;
+        let created = self.epoch;
         let blas = &mut self.blases[index as usize];
         blas.nodes = nodes.clone();
         blas.levels = levels;
         blas.depth = topology.depth;
-        blas.born = born;
+        blas.created = created;
         self.roots[index as usize].node = nodes.start;
 
         let range = nodes.start as usize..nodes.end as usize;

@@ -3,8 +3,8 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
+use super::Bvh;
 use super::edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
-use super::{Scene, live};
 use crate::light::EmissiveTriangle;
 use crate::lights::MAX_LIGHTS;
 use crate::node::LightNode;
@@ -33,14 +33,14 @@ struct Batch {
     deformed: Vec<Extent>,
 }
 
-impl<N: LightNode<W>, const W: usize> Scene<N, W> {
+impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// Brings all triangles of the batch into the domain, or says which edit cannot be done. Returns the new extents of the
     /// deformed meshes, in the order of their edits.
     pub(super) fn check(&self, edits: &mut [Edit]) -> Result<Vec<Extent>, EditError> {
         let mut batch = Batch {
             lights: self.lights.end() as usize,
             triangles: self.triangles.len(),
-            deforms: edits.iter().any(|edit| matches!(edit, Edit::Deform { .. })),
+            deforms: edits.iter().any(|edit| matches!(edit, Edit::SetTriangles { .. })),
             ..Batch::default()
         };
         for (index, edit) in edits.iter_mut().enumerate() {
@@ -51,6 +51,9 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
     }
 
     fn check_one(&self, batch: &mut Batch, edit: &mut Edit) -> Result<(), EditReason> {
+        if self.single && !matches!(edit, Edit::SetTriangles { .. }) {
+            return Err(EditReason::SingleLevel);
+        }
         match edit {
             Edit::AddMesh { triangles } => {
                 checked(triangles)?;
@@ -72,7 +75,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
                 }
                 batch.lights += count;
             }
-            &mut Edit::Move { instance, transform } => {
+            &mut Edit::SetTransform { instance, transform } => {
                 let mesh = self.known_instance(batch, instance)?;
                 transform
                     .check(&self.extent(batch, mesh))
@@ -81,11 +84,11 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
                     batch.transforms.insert(instance, transform);
                 }
             }
-            &mut Edit::Shine { instance, radiance } => {
+            &mut Edit::SetRadiance { instance, radiance } => {
                 self.known_instance(batch, instance)?;
                 factor(radiance)?;
             }
-            Edit::Deform { mesh, triangles } => {
+            Edit::SetTriangles { mesh, triangles } => {
                 let expected = self.known_mesh(batch, *mesh)?;
                 if triangles.len() != expected {
                     let found = triangles.len();
@@ -96,6 +99,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
                 for &index in &self.meshes[mesh.index as usize].users {
                     let placed = &self.placed[index as usize];
                     let id = InstanceId {
+                        tree: self.id,
                         index,
                         generation: placed.generation,
                     };
@@ -138,7 +142,7 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
         let known = self
             .meshes
             .get(id.index as usize)
-            .is_some_and(|mesh| mesh.live && mesh.generation == id.generation);
+            .is_some_and(|mesh| mesh.live && id.tree == self.id && mesh.generation == id.generation);
         if known && !batch.removed_meshes.contains(&id) {
             Ok(self.mesh_len(id))
         } else {
@@ -148,8 +152,9 @@ impl<N: LightNode<W>, const W: usize> Scene<N, W> {
 
     /// The mesh of an instance that is there.
     fn known_instance(&self, batch: &Batch, id: InstanceId) -> Result<MeshId, EditReason> {
-        match live(&self.placed, id) {
+        match self.live(id) {
             Some(placed) if !batch.removed_instances.contains(&id) => Ok(MeshId {
+                tree: self.id,
                 index: placed.mesh,
                 generation: self.meshes[placed.mesh as usize].generation,
             }),

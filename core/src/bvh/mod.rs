@@ -1,0 +1,414 @@
+//! The light BVH that owns its arrays: meshes shared by instances, changed by edits, refitted where they changed.
+//!
+//! Bottom levels (BLAS) lie in the space of their mesh and serve all its instances;
+//! the top level (TLAS) lies in the world, its leaves are instances (paper section 3.2, with the instancing that it leaves
+//! out). A frame is
+//!
+//! 1. [`update`](Bvh::apply) with what changed, checked as a whole before any of it is done;
+//! 2. [`refit`](Bvh::refit), which computes just the nodes that this touches (paper section 3.4), or the same on a device
+//!    by the lists of [`plan`](Bvh::plan);
+//! 3. [`rebuild`](Bvh::rebuild) for the next frame: a [`Rebuild`] is self-contained work for any thread, whose result
+//!    [`install`](Bvh::install) swaps in (paper section 3.5). With the feature `std` a `Rebuilder` does so on a thread beside
+//!    the frame.
+//!
+//! | change | costs |
+//! |---|---|
+//! | any affine motion, brightness | the instance's leaf and the nodes above it |
+//! | vertices or emission of a mesh | its bottom level, and the leaves of its instances |
+//! | added or removed instance | a node on top of the top level, or an emptied slot, until the next rebuild |
+
+mod apply;
+mod blas;
+mod check;
+mod construct;
+mod edit;
+mod ranges;
+mod rebuild;
+mod refit;
+mod top;
+mod validate;
+
+use alloc::vec::Vec;
+use core::marker::PhantomData;
+use core::ops::Range;
+use core::sync::atomic::{AtomicU32, Ordering};
+
+pub use apply::Added;
+pub use edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
+pub use rebuild::{Foreign, Rebuild, RebuildParams, Rebuilt};
+pub use refit::RefitPlan;
+pub use validate::Stats;
+
+use self::blas::Blas;
+use self::ranges::Ranges;
+use self::top::Top;
+use crate::build::BuildParams;
+use crate::importance::{Defensive, ImportanceModel, Moments};
+use crate::instance::Instance;
+use crate::light::EmissiveTriangle;
+use crate::node::{LightNode, MomentNode};
+use crate::point::ShadingPoint;
+use crate::refit::BlasRoot;
+use crate::transform::Transform;
+use crate::traverse::{Random64, SampledLight};
+use crate::tree::{INVALID, LightTree};
+
+/// A light BVH that owns its arrays: two levels over instances of emissive meshes, with nodes of layout `N` and width `W`, whose
+/// children are chosen by `I`.
+#[derive(Clone, Debug)]
+pub struct Bvh<N, I, const W: usize> {
+    /// What its ids belong to.
+    id: u32,
+    params: BuildParams,
+    nodes: Vec<N>,
+    node_ranges: Ranges,
+    /// By node: the node above it in the same tree, or [`INVALID`].
+    parents: Vec<u32>,
+    /// In the space of their meshes, grouped by bottom level.
+    triangles: Vec<EmissiveTriangle>,
+    triangle_ranges: Ranges,
+    trails: Vec<u32>,
+    trail_words: u32,
+    blases: Vec<Blas>,
+    blas_ranges: Ranges,
+    roots: Vec<BlasRoot>,
+    meshes: Vec<Mesh>,
+    mesh_ranges: Ranges,
+    placed: Vec<InstanceState>,
+    placed_ranges: Ranges,
+    instances: Vec<Instance>,
+    /// Indices of the instances in use.
+    live: Vec<u32>,
+    lights: Ranges,
+    top: Top,
+    work: RefitPlan,
+    pending: refit::Pending,
+    /// Whether `work` is what the next refit does.
+    planned: bool,
+    /// What `work` was planned from, until a refit has done it.
+    taken: refit::Pending,
+    /// Numbers of lights that are no more, not yet taken by the caller nor given again.
+    removed_lights: Vec<Range<u32>>,
+    /// How many they are.
+    waiting_lights: usize,
+    /// Greatest number of levels of a bottom level so far.
+    bottom_depth: u32,
+    /// Counts what comes, goes or is built, so that a rebuild can tell who came after it began.
+    epoch: u64,
+    /// Counts refits that changed something.
+    refits: u64,
+    /// Whether it is one mesh alone, walked from the root of its bottom level.
+    single: bool,
+    importance: PhantomData<I>,
+}
+
+/// The light BVH with what measured best for its time: moments on packed nodes of 8 children, 1/64 of uniform choice.
+pub type LightBvh = Bvh<MomentNode<8>, Defensive<Moments, 6>, 8>;
+
+/// A mesh: the bottom level that its instances share.
+#[derive(Clone, Debug)]
+struct Mesh {
+    live: bool,
+    generation: u32,
+    blas: u32,
+    /// Indices of its instances.
+    users: Vec<u32>,
+}
+
+/// An instance as the CPU knows it.
+#[derive(Clone, Debug)]
+struct InstanceState {
+    live: bool,
+    generation: u32,
+    mesh: u32,
+    /// Its place in the mesh's list of users.
+    user: u32,
+    transform: Transform,
+    radiance: f32,
+    /// Its place in the list of instances in use.
+    listed: u32,
+    lights: Range<u32>,
+    /// Where in the top level it is a leaf.
+    node: u32,
+    slot: u32,
+    /// When it came into the scene.
+    created: u64,
+}
+
+/// Most numbers of removed lights that wait to be taken.
+const MOST_WAITING: usize = 1 << 24;
+
+/// The next BVH's.
+static NEXT_ID: AtomicU32 = AtomicU32::new(0);
+
+impl<N: LightNode<W>, I, const W: usize> Default for Bvh<N, I, W> {
+    fn default() -> Self {
+        Self::new(BuildParams::default())
+    }
+}
+
+impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+    /// A BVH without lights, whose trees will be built by `params`.
+    #[must_use]
+    pub fn new(params: BuildParams) -> Self {
+        let mut scene = Self {
+            id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
+            params,
+            nodes: Vec::new(),
+            node_ranges: Ranges::default(),
+            parents: Vec::new(),
+            triangles: Vec::new(),
+            triangle_ranges: Ranges::default(),
+            trails: Vec::new(),
+            trail_words: 1,
+            blases: Vec::new(),
+            blas_ranges: Ranges::default(),
+            roots: Vec::new(),
+            meshes: Vec::new(),
+            mesh_ranges: Ranges::default(),
+            placed: Vec::new(),
+            placed_ranges: Ranges::default(),
+            instances: Vec::new(),
+            live: Vec::new(),
+            lights: Ranges::default(),
+            top: Top::default(),
+            work: RefitPlan::default(),
+            pending: refit::Pending::default(),
+            planned: false,
+            taken: refit::Pending::default(),
+            removed_lights: Vec::new(),
+            waiting_lights: 0,
+            bottom_depth: 0,
+            epoch: 0,
+            refits: 0,
+            single: false,
+            importance: PhantomData,
+        };
+        scene.empty_top();
+        scene
+    }
+
+    /// The arrays as traversal takes them.
+    #[must_use]
+    pub fn tree(&self) -> LightTree<'_, N, I, W> {
+        let mut tree = LightTree {
+            nodes: &self.nodes,
+            root: self.top.root,
+            instances: &self.instances,
+            trails: &self.trails,
+            trail_words: self.trail_words,
+            live: self.live.len() as u32,
+            lights: 0,
+            depth: self.depth(),
+            importance: PhantomData,
+        };
+        if self.single && !self.roots.is_empty() {
+            tree.root = self.roots[0].node;
+            tree.live = 0;
+            tree.lights = self.lights.end();
+        }
+        tree
+    }
+
+    /// The same tree, walked by another importance.
+    #[must_use]
+    pub fn by<J>(&self) -> LightTree<'_, N, J, W> {
+        self.tree().by()
+    }
+
+    /// All nodes, those not in use included.
+    #[must_use]
+    pub fn nodes(&self) -> &[N] {
+        &self.nodes
+    }
+
+    /// The nodes, for tests that put wrong words into them.
+    #[doc(hidden)]
+    pub fn nodes_mut(&mut self) -> &mut [N] {
+        &mut self.nodes
+    }
+
+    /// By node: the node above it in the same tree, or [`INVALID`].
+    #[must_use]
+    pub fn parents(&self) -> &[u32] {
+        &self.parents
+    }
+
+    /// The bounds of the bottom levels.
+    #[must_use]
+    pub fn roots(&self) -> &[BlasRoot] {
+        &self.roots
+    }
+
+    /// The instances by index; those not in use are in no leaf.
+    #[must_use]
+    pub fn instances(&self) -> &[Instance] {
+        &self.instances
+    }
+
+    /// The triangles of all bottom levels, in the spaces of their meshes.
+    #[must_use]
+    pub fn triangles(&self) -> &[EmissiveTriangle] {
+        &self.triangles
+    }
+
+    /// The lights of an instance: numbered without gaps, triangle by triangle, the same as long as the instance lives.
+    #[must_use]
+    pub fn lights_of(&self, instance: InstanceId) -> Option<Range<u32>> {
+        self.live(instance).map(|placed| placed.lights.clone())
+    }
+
+    /// One more than the greatest number of a light.
+    #[must_use]
+    pub fn light_end(&self) -> u32 {
+        self.lights.end()
+    }
+
+    /// Light `light` of the instance of index `instance` in the world, as a [`SampledLight`](crate::SampledLight) names them; `None` where there is
+    /// no such. In a single-level BVH, where samples name no instance, that is not looked at.
+    #[must_use]
+    pub fn triangle(&self, light: u32, instance: u32) -> Option<EmissiveTriangle> {
+        let index = if self.single { 0 } else { instance };
+        let placed = self
+            .placed
+            .get(index as usize)
+            .filter(|placed| placed.live && placed.lights.contains(&light))?;
+        let own = &self.instances[index as usize];
+        let triangle = self.blas_of(placed).triangles.start + (light - placed.lights.start);
+        Some(own.triangle(&self.triangles[triangle as usize], index))
+    }
+
+    /// The id of the instance of index `instance`, as a [`SampledLight`](crate::SampledLight) names it; `None` where there is no such.
+    #[must_use]
+    pub fn instance_id(&self, instance: u32) -> Option<InstanceId> {
+        let placed = self.placed.get(instance as usize).filter(|placed| placed.live)?;
+        Some(InstanceId {
+            tree: self.id,
+            index: instance,
+            generation: placed.generation,
+        })
+    }
+
+    /// All lights in the world by number; numbers not in use get triangles without radiance. Their `mesh` is the index of
+    /// the instance.
+    #[must_use]
+    pub fn world_lights(&self) -> Vec<EmissiveTriangle> {
+        let dark = EmissiveTriangle {
+            p: [[0.0; 3]; 3],
+            radiance: [0.0; 3],
+            mesh: INVALID,
+            flags: 0,
+        };
+        let mut out = alloc::vec![dark; self.lights.end() as usize];
+        for (index, placed) in self.placed.iter().enumerate().filter(|(_, placed)| placed.live) {
+            let own = &self.instances[index];
+            let range = self.blas_of(placed).triangles.clone();
+            let local = &self.triangles[range.start as usize..range.end as usize];
+            let lights = placed.lights.start as usize..placed.lights.end as usize;
+            for (light, triangle) in out[lights].iter_mut().zip(local) {
+                *light = own.triangle(triangle, index as u32);
+            }
+        }
+        out
+    }
+
+    /// Number of lights in the world.
+    #[must_use]
+    pub fn light_count(&self) -> usize {
+        let placed = self.placed.iter().filter(|placed| placed.live);
+        placed.map(|placed| placed.lights.len()).sum()
+    }
+
+    /// Numbers of lights that are no more, until [`take_removed_lights`](Self::take_removed_lights): what a temporal method must
+    /// forget before it looks at the next frame. Every other light keeps its number.
+    #[must_use]
+    pub fn removed_lights(&self) -> &[Range<u32>] {
+        &self.removed_lights
+    }
+
+    /// Takes the numbers of lights that are no more since they were taken last. From now on new lights may get them; before, none
+    /// does, but where 2^24 of them wait to be taken: then all are free.
+    pub fn take_removed_lights(&mut self) -> Vec<Range<u32>> {
+        let removed = core::mem::take(&mut self.removed_lights);
+        for range in &removed {
+            self.lights.give(range.clone());
+        }
+        self.waiting_lights = 0;
+        removed
+    }
+
+    /// Lights that are no more.
+    fn retire_lights(&mut self, lights: Range<u32>) {
+        self.waiting_lights += lights.len();
+        self.removed_lights.push(lights);
+        if self.waiting_lights > MOST_WAITING {
+            self.take_removed_lights();
+        }
+    }
+
+    /// The instance of an id, if it is there.
+    fn live(&self, id: InstanceId) -> Option<&InstanceState> {
+        self.placed
+            .get(id.index as usize)
+            .filter(|placed| placed.live && id.tree == self.id && placed.generation == id.generation)
+    }
+
+    /// Bytes that sampling and pmf read, unused parts included.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        size_of_val(&*self.nodes) + size_of_val(&*self.instances) + size_of_val(&*self.trails)
+    }
+
+    fn blas_of(&self, placed: &InstanceState) -> &Blas {
+        &self.blases[self.blas_index(placed) as usize]
+    }
+
+    fn blas_index(&self, placed: &InstanceState) -> u32 {
+        self.meshes[placed.mesh as usize].blas
+    }
+
+    /// Greatest number of nodes on a path from the root to a light.
+    #[must_use]
+    pub fn depth(&self) -> u32 {
+        if self.single {
+            self.bottom_depth
+        } else {
+            self.top.depth + self.bottom_depth
+        }
+    }
+
+    /// Whether it has no top level: see [`single_level`](Self::single_level).
+    #[must_use]
+    pub fn is_single_level(&self) -> bool {
+        self.single
+    }
+
+    /// What is known of all lights together, as of the last refit.
+    #[must_use]
+    pub fn summary(&self) -> N::Summary {
+        self.nodes[self.tree().root as usize].merged()
+    }
+}
+
+impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
+    /// Chooses a light for `point`, which is within the domain of [`ShadingPoint::checked`]; see [`LightTree::sample`]. Without
+    /// lights none is chosen.
+    #[must_use]
+    pub fn sample(&self, point: &ShadingPoint, random: impl Into<Random64>) -> SampledLight {
+        debug_assert!(point.is_within_reach(), "not a shading point: {point:?}");
+        self.tree().sample(point, random.into())
+    }
+
+    /// Chooses a light for each of `points`, points as for [`sample`](Self::sample); see [`LightTree::sample_batch`].
+    pub fn sample_batch(&self, points: &[ShadingPoint], randoms: &[Random64], sampled: &mut [SampledLight]) {
+        self.tree().sample_batch(points, randoms, sampled);
+    }
+
+    /// Probability with which [`sample`](Self::sample) returns `light` of `instance`, as a [`SampledLight`] names them, at `point`:
+    /// to the bit the one that comes with the sample. 0 where there is no such light.
+    #[must_use]
+    pub fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {
+        debug_assert!(point.is_within_reach(), "not a shading point: {point:?}");
+        self.tree().pmf(point, light, instance)
+    }
+}
