@@ -5,9 +5,9 @@ mod model;
 mod placing;
 
 use arbitrary::{Result, Unstructured};
-use lightbvh::scene::{Rebuild, RebuildParams, Rebuilt};
+use lightbvh::bvh::{Rebuild, RebuildParams, Rebuilt};
 use lightbvh::{
-    CompactNode, Eq4, FullNode, INVALID, ImportanceModel, InstanceId, LightNode, MomentNode, Moments, Scene,
+    Bvh, CompactNode, Eq4, FullNode, INVALID, ImportanceModel, InstanceId, LightNode, MomentNode, Moments,
 };
 
 use self::model::Model;
@@ -41,7 +41,7 @@ fn frames<N: LightNode<W> + std::fmt::Debug, I: ImportanceModel<N, W>, const W: 
     u: &mut Unstructured<'_>,
     forms: Forms,
 ) -> Result<()> {
-    let mut scene = Scene::<N, W>::new(input::params(u)?);
+    let mut scene = Bvh::<N, (), W>::new(input::params(u)?);
     let mut model = Model::default();
     let mut flying: Vec<Flying<N, W>> = Vec::new();
     let count = 1 + u.arbitrary::<u8>()? % 6;
@@ -89,7 +89,7 @@ fn frames<N: LightNode<W> + std::fmt::Debug, I: ImportanceModel<N, W>, const W: 
 
 /// Swaps in the first rebuild, or the last.
 fn land<N: LightNode<W>, const W: usize>(
-    scene: &mut Scene<N, W>,
+    scene: &mut Bvh<N, (), W>,
     flying: &mut Vec<Flying<N, W>>,
     last: bool,
 ) {
@@ -97,13 +97,13 @@ fn land<N: LightNode<W>, const W: usize>(
         return;
     }
     match flying.remove(if last { flying.len() - 1 } else { 0 }) {
-        Flying::Planned(rebuild) => scene.adopt(rebuild.run()),
-        Flying::Built(rebuilt) => scene.adopt(rebuilt),
+        Flying::Planned(rebuild) => scene.install(rebuild.run()).expect("its own"),
+        Flying::Built(rebuilt) => scene.install(rebuilt).expect("its own"),
     }
 }
 
 /// Every invariant, and every light against the model.
-fn check<N: LightNode<W>, const W: usize>(model: &Model, scene: &Scene<N, W>) {
+fn check<N: LightNode<W>, const W: usize>(model: &Model, scene: &Bvh<N, (), W>) {
     let stats = scene.validate().unwrap_or_else(|violation| panic!("{violation}"));
     assert_eq!(stats.instances as usize, model.instances.len());
     assert_eq!(stats.lights as usize, scene.light_count());
@@ -116,7 +116,7 @@ fn check<N: LightNode<W>, const W: usize>(model: &Model, scene: &Scene<N, W>) {
 fn sampled<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     u: &mut Unstructured<'_>,
     model: &Model,
-    scene: &Scene<N, W>,
+    scene: &Bvh<N, (), W>,
 ) -> Result<()> {
     let mut world = scene.world_lights();
     if world.is_empty() {
@@ -133,7 +133,7 @@ fn sampled<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     let mut any = false;
     for instance in &model.instances {
         for (light, local) in instance.lights.clone().zip(model.triangles(instance.mesh)) {
-            let pmf = scene.pmf::<I>(&point, light, instance.id);
+            let pmf = scene.by::<I>().pmf(&point, light, instance.id.index());
             let shines = instance.radiance > 0.0 && input::shines::<N, W>(local);
             assert_eq!(pmf > 0.0, shines, "light {light} at {point:?}");
             any |= shines;
@@ -142,14 +142,13 @@ fn sampled<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     }
     for &gone in &model.gone_instances {
         assert_eq!(scene.lights_of(gone), None);
-        assert_eq!(scene.pmf::<I>(&point, 0, gone), 0.0);
-        assert_eq!(scene.light(0, gone), None);
+        assert_ne!(scene.instance_id(gone.index()), Some(gone));
     }
     if any {
         input::sum_is_one(&pmfs, 0);
     }
     for i in 0..4_u32 {
-        let sampled = scene.sample::<I>(&point, random.wrapping_add(i.wrapping_mul(0x9e37_79b9)));
+        let sampled = scene.by::<I>().sample(&point, random.wrapping_add(i.wrapping_mul(0x9e37_79b9)));
         if any {
             assert_ne!(sampled.light, INVALID, "{point:?}");
             assert_eq!(

@@ -3,7 +3,9 @@
 use arbitrary::{Error, Result, Unstructured};
 use lightbvh::build::Effort;
 use lightbvh::exact::pow2;
-use lightbvh::{BuildParams, EmissiveTriangle, Heuristic, LightNode, Lights, ShadingPoint, Summary};
+use lightbvh::{
+    BuildParams, Bvh, EmissiveTriangle, Heuristic, INVALID, ImportanceModel, LightNode, Lights, ShadingPoint, Summary,
+};
 
 /// Most triangles of an input: enough for several levels.
 const MOST: u8 = 40;
@@ -216,4 +218,18 @@ pub fn sum_is_one(pmfs: &[f32], halvings: u32) {
     };
     let tolerance = pmfs.len() as f64 * 2f64.powi(-53) + uniform;
     assert!((sum - 1.0).abs() <= tolerance, "sum {sum}");
+}
+
+/// The probability of light `light` of a BVH that was built over `lights`.
+pub fn pmf_of<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    bvh: &Bvh<N, (), W>,
+    lights: &Lights,
+    point: &ShadingPoint,
+    light: u32,
+) -> f32 {
+    let instance = match lights.triangles().get(light as usize) {
+        Some(triangle) if !bvh.is_single_level() => triangle.mesh,
+        _ => INVALID,
+    };
+    bvh.by::<I>().pmf(point, light, instance)
 }

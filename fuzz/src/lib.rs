@@ -8,7 +8,7 @@ mod edits;
 mod exact;
 #[cfg(feature = "gltf")]
 mod gltf;
-mod input;
+pub mod input;
 mod node_words;
 mod refit_equals_rebuild;
 mod sample_pmf;

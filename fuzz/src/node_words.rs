@@ -2,11 +2,13 @@
 
 use std::cell::Cell;
 
+use std::marker::PhantomData;
+
 use arbitrary::{Result, Unstructured};
 use lightbvh::trail::max_levels;
 use lightbvh::{
     CompactNode, Eq4, INVALID, ImportanceModel, Instance, LightNode, LightTree, MomentNode, Moments,
-    ShadingPoint, refit, traverse,
+    ShadingPoint, refit,
 };
 
 use crate::{Forms, input};
@@ -16,7 +18,7 @@ thread_local! {
 }
 
 /// An importance that counts how many nodes it is asked about, with a share of 1/4 of uniform choice.
-struct Counting<I>(std::marker::PhantomData<I>);
+struct Counting<I>(PhantomData<I>);
 
 impl<N, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W> for Counting<I> {
     const UNIFORM_HALVINGS: u32 = 2;
@@ -67,13 +69,14 @@ pub fn node_words(data: &[u8], forms: Forms) {
             live,
             lights,
             depth: u32::from(depth),
+            importance: PhantomData::<Counting<I>>,
         };
         let counted = |pmf: f32| {
             assert!(NODES.take() <= u32::from(depth).min(2 * max_levels(W)));
             assert!((0.0..=1.0).contains(&pmf), "{pmf}");
         };
         NODES.set(0);
-        let sampled = traverse::sample::<_, Counting<I>, W>(&tree, &point, random.into());
+        let sampled = tree.sample(&point, random);
         counted(sampled.pmf);
         for (light, instance) in [
             (sampled.light, instance),
@@ -81,7 +84,7 @@ pub fn node_words(data: &[u8], forms: Forms) {
             (light & 7, instance & 3),
             (sampled.light, INVALID),
         ] {
-            counted(traverse::pmf::<_, Counting<I>, W>(&tree, &point, light, instance));
+            counted(tree.pmf(&point, light, instance));
         }
         for i in 0..nodes.len() as u32 {
             let _ = refit::bottom(&nodes, &triangles, i);

@@ -1,7 +1,7 @@
 //! Lights that move: a refitted tree against a tree built anew.
 
 use arbitrary::{Result, Unstructured};
-use lightbvh::{BuildParams, CompactNode, FullNode, LightBvh, LightNode, Lights, MomentNode};
+use lightbvh::{BuildParams, CompactNode, FullNode, Bvh, LightNode, Lights, MomentNode};
 
 use crate::{Forms, input};
 
@@ -25,20 +25,20 @@ pub fn refit_equals_rebuild(data: &[u8], forms: Forms) {
 }
 
 fn refitted<N: LightNode<W>, const W: usize>(lights: &Lights, moved: &Lights, params: &BuildParams) {
-    let mut bvh = LightBvh::<N, W>::two_level(lights, params);
+    let mut bvh = Bvh::<N, (), W>::two_level(lights, params);
     let first = bvh.nodes().to_vec();
-    bvh.refit(moved);
-    bvh.validate(moved)
+    bvh.follow(moved).expect("as many lights");
+    bvh.validate()
         .unwrap_or_else(|violation| panic!("{violation}"));
-    bvh.refit(lights);
+    bvh.follow(lights).expect("as many lights");
     let words = |nodes: &[N]| bytemuck::cast_slice::<N, u32>(nodes).to_vec();
     assert_eq!(words(&first), words(bvh.nodes()));
 }
 
 fn bounded_alike(lights: &Lights, moved: &Lights, params: &BuildParams) {
-    let mut full = LightBvh::<FullNode<2>, 2>::single_level(lights, params);
-    full.refit(moved);
-    let anew = LightBvh::<FullNode<2>, 2>::single_level(moved, params);
+    let mut full = Bvh::<FullNode<2>, (), 2>::single_level(lights, params);
+    full.follow(moved).expect("as many lights");
+    let anew = Bvh::<FullNode<2>, (), 2>::single_level(moved, params);
     // Without quantisation boxes do not depend on the order of merges; flux does, by its rounding.
     let (a, b) = (full.summary(), anew.summary());
     assert_eq!((a.min, a.max), (b.min, b.max));

@@ -2,7 +2,7 @@
 
 use arbitrary::{Result, Unstructured};
 use lightbvh::{
-    CompactNode, Defensive, Eq4, INVALID, ImportanceModel, LightBvh, LightNode, Lights, MomentNode, Moments,
+    CompactNode, Defensive, Eq4, INVALID, ImportanceModel, Bvh, LightNode, Lights, MomentNode, Moments,
     Random64, ShadingPoint,
 };
 
@@ -21,15 +21,15 @@ pub fn sample_pmf(data: &[u8], forms: Forms) {
         for form in forms.of(data, 3) {
             match form {
                 0 => {
-                    let bvh = LightBvh::<CompactNode<2>, 2>::two_level(&lights, &params);
+                    let bvh = Bvh::<CompactNode<2>, (), 2>::two_level(&lights, &params);
                     distributions::<_, Eq4, 2>(&bvh, &lights, &points, random);
                 }
                 1 => {
-                    let bvh = LightBvh::<CompactNode<4>, 4>::single_level(&lights, &params);
+                    let bvh = Bvh::<CompactNode<4>, (), 4>::single_level(&lights, &params);
                     distributions::<_, Eq4, 4>(&bvh, &lights, &points, random);
                 }
                 _ => {
-                    let bvh = LightBvh::<MomentNode<8>, 8>::two_level(&lights, &params);
+                    let bvh = Bvh::<MomentNode<8>, (), 8>::two_level(&lights, &params);
                     distributions::<_, Defensive<Moments, 6>, 8>(&bvh, &lights, &points, random);
                 }
             }
@@ -40,7 +40,7 @@ pub fn sample_pmf(data: &[u8], forms: Forms) {
 }
 
 fn distributions<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    bvh: &LightBvh<N, W>,
+    bvh: &Bvh<N, (), W>,
     lights: &Lights,
     points: &[ShadingPoint],
     random: u32,
@@ -49,14 +49,14 @@ fn distributions<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     for point in points {
         let count = lights.triangles().len() as u32;
         let pmfs: Vec<f32> = (0..count)
-            .map(|light| bvh.pmf::<I>(lights, point, light))
+            .map(|light| input::pmf_of::<_, I, _>(bvh, lights, point, light))
             .collect();
         for (pmf, shines) in pmfs.iter().zip(&shines) {
             assert!((0.0..=1.0).contains(pmf));
             assert_eq!(*pmf > 0.0, *shines || I::UNIFORM_HALVINGS > 0);
         }
         let sampled = |number: Random64| {
-            let sampled = bvh.sample::<I>(point, number);
+            let sampled = bvh.by::<I>().sample(point, number);
             if sampled.light == INVALID {
                 assert!(!shines.contains(&true) && sampled.pmf == 0.0, "{sampled:?}");
             } else {

@@ -33,12 +33,12 @@ fn every_extreme_is_survived_on_the_cpu() {
     }
 }
 
-fn rows(break_it: impl Fn(&mut LightBvh<Node, WIDTH>)) -> Vec<Row> {
+fn rows(break_it: impl Fn(&mut LightBvh)) -> Vec<Row> {
     let lights = Lights::new(scattered(100, 1)).expect("within the domain");
-    let mut bvh = LightBvh::<Node, WIDTH>::single_level(&lights, &BuildParams::default());
+    let mut bvh = LightBvh::single_level(&lights, &BuildParams::default());
     break_it(&mut bvh);
     let points = case::Case::new("", lights.triangles().to_vec()).points;
-    let tree = walked::<_, Importance, WIDTH>(&bvh, &lights);
+    let tree = walked(&bvh, &lights);
     checks::check("broken", "single-level", &tree, &points, 20_000)
 }
 
@@ -52,7 +52,8 @@ fn broken_trees_are_found() {
 
     // A child without flux: weights starve its lights.
     let dark = rows(|bvh| {
-        let node = &mut bvh.nodes_mut()[0];
+        let root = bvh.tree().root as usize;
+        let node = &mut bvh.parts_mut().nodes[root];
         let mut summaries = std::array::from_fn(|slot| node.summary(slot));
         summaries[1].phi = 0.0;
         node.set_summaries(&summaries);

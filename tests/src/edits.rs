@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use lightbvh::{Edit, EmissiveTriangle, InstanceId, LightNode, MeshId, Scene, Transform};
+use lightbvh::{Bvh, Edit, EmissiveTriangle, InstanceId, LightNode, MeshId, Transform};
 
 use crate::generate::{self, Random};
 use crate::placing;
@@ -22,12 +22,12 @@ impl Model {
     /// # Panics
     /// Where the scene refuses what the model holds.
     #[must_use]
-    pub fn from_scratch<N: LightNode<W>, const W: usize>(&self) -> (Scene<N, W>, Vec<InstanceId>) {
-        let mut scene = Scene::default();
+    pub fn from_scratch<N: LightNode<W>, const W: usize>(&self) -> (Bvh<N, (), W>, Vec<InstanceId>) {
+        let mut scene = Bvh::default();
         let meshes = self.meshes.values().map(|triangles| Edit::AddMesh {
             triangles: triangles.clone(),
         });
-        let added = scene.update(meshes.collect()).expect("sound meshes").meshes;
+        let added = scene.apply(meshes.collect()).expect("sound meshes").meshes;
         let ids: BTreeMap<MeshId, MeshId> = self.meshes.keys().copied().zip(added).collect();
         let instances = self
             .instances
@@ -38,7 +38,7 @@ impl Model {
                 radiance,
             });
         let added = scene
-            .update(instances.collect())
+            .apply(instances.collect())
             .expect("sound instances")
             .instances;
         scene.refit();
@@ -51,11 +51,11 @@ impl Model {
 /// # Panics
 /// Where the scene refuses it.
 pub fn add_mesh<N: LightNode<W>, const W: usize>(
-    scene: &mut Scene<N, W>,
+    scene: &mut Bvh<N, (), W>,
     triangles: Vec<EmissiveTriangle>,
 ) -> MeshId {
     let add = Edit::AddMesh { triangles };
-    scene.update(vec![add]).expect("a mesh").meshes[0]
+    scene.apply(vec![add]).expect("a mesh").meshes[0]
 }
 
 /// A new instance of `mesh`, as bright as the mesh itself.
@@ -63,7 +63,7 @@ pub fn add_mesh<N: LightNode<W>, const W: usize>(
 /// # Panics
 /// Where the scene refuses it.
 pub fn add_instance<N: LightNode<W>, const W: usize>(
-    scene: &mut Scene<N, W>,
+    scene: &mut Bvh<N, (), W>,
     mesh: MeshId,
     transform: Transform,
 ) -> InstanceId {
@@ -72,7 +72,7 @@ pub fn add_instance<N: LightNode<W>, const W: usize>(
         transform,
         radiance: 1.0,
     };
-    scene.update(vec![add]).expect("an instance").instances[0]
+    scene.apply(vec![add]).expect("an instance").instances[0]
 }
 
 /// A mesh of up to twelve triangles around its origin.
@@ -109,7 +109,7 @@ fn pick<K: Copy + Ord, V>(random: &mut Random, map: &BTreeMap<K, V>) -> Option<K
 pub fn edits<N: LightNode<W>, const W: usize>(
     random: &mut Random,
     model: &mut Model,
-    scene: &mut Scene<N, W>,
+    scene: &mut Bvh<N, (), W>,
     reach: f32,
 ) {
     let mut batch = Vec::new();
@@ -164,7 +164,7 @@ pub fn edits<N: LightNode<W>, const W: usize>(
             _ => {}
         }
     }
-    let updated = scene.update(batch.clone()).expect("sound edits");
+    let updated = scene.apply(batch.clone()).expect("sound edits");
     let (mut meshes, mut instances) = (updated.meshes.into_iter(), updated.instances.into_iter());
     for edit in batch {
         match edit {

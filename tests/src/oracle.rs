@@ -5,10 +5,11 @@ use glam::DVec3;
 use lightbvh::cone::Cone;
 use lightbvh::node::kind;
 use lightbvh::{
-    EmissiveTriangle, ImportanceModel, LightBounds, LightBvh, LightNode, LightTree, Lights, ShadingPoint,
+    Bvh, EmissiveTriangle, ImportanceModel, LightBounds, LightNode, LightTree, Lights, ShadingPoint,
     Transform,
 };
 pub use lightbvh_host::stability::geometry::{Triangle, can_contribute, vector};
+use lightbvh_host::workload::instance_of;
 
 /// The angle between two vectors of any length, precise at every angle.
 #[must_use]
@@ -31,14 +32,24 @@ pub fn cone_excess(outer: (DVec3, f32), inner: (DVec3, f32)) -> f64 {
     (reach - half_angle(outer.1)).max(0.0)
 }
 
+/// Probability of light `light` of a BVH built over `lights`, at `point`.
+pub fn pmf_of<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    bvh: &Bvh<N, impl Sized, W>,
+    lights: &Lights,
+    point: &ShadingPoint,
+    light: u32,
+) -> f32 {
+    bvh.by::<I>().pmf(point, light, instance_of(bvh, lights, light))
+}
+
 /// Probability of every light at `point`.
 pub fn all_pmfs<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    bvh: &LightBvh<N, W>,
+    bvh: &Bvh<N, impl Sized, W>,
     lights: &Lights,
     point: &ShadingPoint,
 ) -> Vec<f32> {
     (0..lights.triangles().len() as u32)
-        .map(|i| bvh.pmf::<I>(lights, point, i))
+        .map(|i| pmf_of::<_, I, _>(bvh, lights, point, i))
         .collect()
 }
 
@@ -82,7 +93,7 @@ pub fn assert_sum_is_one<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usi
 
 /// The leaves of a tree in the order of its slots: (triangle, instance), without an instance in a single-level tree.
 #[must_use]
-pub fn leaves<N: LightNode<W>, const W: usize>(tree: &LightTree<'_, N>) -> Vec<(u32, Option<u32>)> {
+pub fn leaves<N: LightNode<W>, I, const W: usize>(tree: &LightTree<'_, N, I, W>) -> Vec<(u32, Option<u32>)> {
     let (mut found, mut stack) = (Vec::new(), vec![(tree.root, None)]);
     while let Some((index, instance)) = stack.pop() {
         if index & LEAF != 0 {

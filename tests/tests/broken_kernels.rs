@@ -66,8 +66,8 @@ fn different<C: Choice<W>, const W: usize>(device: &Device) -> [u64; 3] {
     let scene = Scene::open("street").expect("a built-in scene");
     let lights = lights_at(&scene, 0).expect("lights");
     let bvh: Bvh<C, W> = build(&lights, Sampler::TwoLevel, &BuildParams::default());
-    let mut cpu = CpuBackend::<C, W>::new(bvh.clone(), lights.clone());
-    let mut other = DeviceBackend::<C, W>::new(device, &bvh, &lights).expect("an upload");
+    let mut cpu = CpuBackend::<C, W>::new(bvh.clone());
+    let mut other = DeviceBackend::<C, W>::new(device, &bvh).expect("an upload");
     let lights = lights_at(&scene, 40).expect("lights");
     let nodes = cpu.refit(&lights).expect("a refit").value;
     let found = other.refit(&lights).expect("a refit").value;
@@ -81,7 +81,7 @@ fn different<C: Choice<W>, const W: usize>(device: &Device) -> [u64; 3] {
     let of_samples =
         compare_words(&SAMPLED_RECORD, cast_slice(&sampled), cast_slice(&found)).expect("whole records");
     for (query, sampled) in asked.iter_mut().zip(&sampled) {
-        query.random_or_light = sampled.light;
+        query.words = [sampled.light, sampled.instance];
     }
     let pmfs = cpu.pmf(&asked).expect("pmfs").value;
     let found = other.pmf(&asked).expect("pmfs").value;

@@ -2,8 +2,8 @@
 
 use lightbvh::trail::max_levels;
 use lightbvh::{
-    BuildParams, CompactNode, EmissiveTriangle, Eq4, Heuristic, INVALID, ImportanceModel, LightBvh,
-    LightNode, Lights, ShadingPoint, exact,
+    BuildParams, Bvh, CompactNode, EmissiveTriangle, Eq4, Heuristic, INVALID, ImportanceModel, LightNode,
+    Lights, ShadingPoint, exact,
 };
 use lightbvh_tests::each_layout;
 use lightbvh_tests::generate::{self, Random, split};
@@ -64,12 +64,12 @@ fn point(random: &mut Random) -> ShadingPoint {
 
 /// A valid tree within the levels of a trail, whose pmfs sum to one and are those of its samples.
 fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    bvh: &LightBvh<N, W>,
+    bvh: &Bvh<N, (), W>,
     lights: &Lights,
     seed: u32,
 ) {
-    bvh.validate(lights).unwrap_or_else(|v| panic!("{v}"));
-    let levels = if bvh.is_two_level() { 2 } else { 1 };
+    bvh.validate().unwrap_or_else(|v| panic!("{v}"));
+    let levels = if bvh.is_single_level() { 1 } else { 2 };
     assert!(bvh.depth() <= levels * max_levels(W), "depth {}", bvh.depth());
     let random = &mut Random::new(seed);
     for _ in 0..12 {
@@ -78,7 +78,7 @@ fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         assert_sum_is_one::<N, I, W>(pmfs.iter().copied(), &point);
         assert!(pmfs.iter().all(|&p| p > 0.0), "a starved light at {point:?}");
         for _ in 0..64 {
-            let sampled = bvh.sample::<I>(&point, random.bits());
+            let sampled = bvh.by::<I>().sample(&point, random.bits());
             assert_ne!(sampled.light, INVALID);
             assert_eq!(sampled.pmf.to_bits(), pmfs[sampled.light as usize].to_bits());
         }
@@ -90,9 +90,9 @@ fn every_layout<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     params: &BuildParams,
     deepest: &mut u32,
 ) {
-    let one = LightBvh::<N, W>::single_level(lights, params);
+    let one = Bvh::<N, (), W>::single_level(lights, params);
     check::<N, I, W>(&one, lights, 1);
-    check::<N, I, W>(&LightBvh::two_level(lights, params), lights, 2);
+    check::<N, I, W>(&Bvh::two_level(lights, params), lights, 2);
     *deepest = one.depth().max(*deepest);
 }
 
@@ -120,12 +120,12 @@ fn more_halvings_than_levels() {
     let lights = shrinking(130, 130, false);
     for heuristic in [Heuristic::Sah, Heuristic::Saoh] {
         let params = split(heuristic, 2);
-        let bvh = LightBvh::<CompactNode<2>, 2>::single_level(&lights, &params);
+        let bvh = Bvh::<CompactNode<2>, (), 2>::single_level(&lights, &params);
         assert!((33..=64).contains(&bvh.depth()), "depth {}", bvh.depth());
-        bvh.validate(&lights).unwrap_or_else(|v| panic!("{v}"));
-        let wide = LightBvh::<CompactNode<16>, 16>::single_level(&lights, &params);
+        bvh.validate().unwrap_or_else(|v| panic!("{v}"));
+        let wide = Bvh::<CompactNode<16>, (), 16>::single_level(&lights, &params);
         assert!(wide.depth() <= max_levels(16));
-        wide.validate(&lights).unwrap_or_else(|v| panic!("{v}"));
+        wide.validate().unwrap_or_else(|v| panic!("{v}"));
     }
 }
 
@@ -138,7 +138,7 @@ fn nested_boxes() {
 fn deep_in_both_levels() {
     let lights = deep_in_both(48, 48);
     let params = split(Heuristic::Sah, 2);
-    let bvh = LightBvh::<CompactNode<2>, 2>::two_level(&lights, &params);
+    let bvh = Bvh::<CompactNode<2>, (), 2>::two_level(&lights, &params);
     assert!(bvh.depth() > 2 * 33, "only {} levels", bvh.depth());
     assert_eq!(bvh.tree().trail_words, 2);
     check::<_, Eq4, 2>(&bvh, &lights, 1);
@@ -156,7 +156,7 @@ fn deep_in_both_levels() {
 
 /// Observed frequencies against evaluated probabilities, tail 1e-6.
 fn frequencies_match<N: LightNode<W>, const W: usize>(
-    bvh: &LightBvh<N, W>,
+    bvh: &Bvh<N, (), W>,
     lights: &Lights,
     point: &ShadingPoint,
     samples: u32,
@@ -170,7 +170,7 @@ where
     let expected: Vec<f64> = pmfs.into_iter().map(f64::from).collect();
     let mut observed = vec![0_u64; expected.len()];
     for _ in 0..samples {
-        observed[bvh.sample::<Eq4>(point, random.bits()).light as usize] += 1;
+        observed[bvh.by::<Eq4>().sample(point, random.bits()).light as usize] += 1;
     }
     let (statistic, degrees) = chi_squared(&observed, &expected);
     let threshold = chi_squared_quantile(degrees, 1e-6);
@@ -186,7 +186,7 @@ where
 fn frequencies_below_32_levels() {
     let lights = shrinking(78, 78, false);
     let params = split(Heuristic::Sah, 2);
-    let bvh = LightBvh::<CompactNode<2>, 2>::single_level(&lights, &params);
+    let bvh = Bvh::<CompactNode<2>, (), 2>::single_level(&lights, &params);
     assert!(bvh.depth() > 33);
     // About as far from the origin as the sixtieth light: it and its neighbours are drawn most.
     let d = exact::pow2(38 - 60);
@@ -221,9 +221,9 @@ fn one_light_outshines_all() {
         };
         let params = BuildParams::default();
         let (two, one, wide) = (
-            LightBvh::<CompactNode<2>, 2>::two_level(&lights, &params),
-            LightBvh::<CompactNode<2>, 2>::single_level(&lights, &params),
-            LightBvh::<CompactNode<4>, 4>::two_level(&lights, &params),
+            Bvh::<CompactNode<2>, (), 2>::two_level(&lights, &params),
+            Bvh::<CompactNode<2>, (), 2>::single_level(&lights, &params),
+            Bvh::<CompactNode<4>, (), 4>::two_level(&lights, &params),
         );
         let samples = if k == 12 { 1u32 << 20 } else { 100_000 };
         let observed = [
@@ -260,7 +260,7 @@ fn one_light_outshines_all() {
             p: [0.0; 3],
             n: [0.0; 3],
         };
-        let bvh = LightBvh::<CompactNode<2>, 2>::two_level(&turned, &params);
+        let bvh = Bvh::<CompactNode<2>, (), 2>::two_level(&turned, &params);
         frequencies_match(&bvh, &turned, &behind, 100_000, 4);
         let pmfs = all_pmfs::<_, Eq4, 2>(&bvh, &turned, &behind);
         assert!(pmfs.iter().all(|&p| p > 0.0), "a starved light: {pmfs:?}");
@@ -275,8 +275,8 @@ fn flux_over_sixty_decades() {
         let params = BuildParams::default();
         let random = &mut Random::new(1);
         for bvh in [
-            LightBvh::<N, W>::two_level(lights, &params),
-            LightBvh::single_level(lights, &params),
+            Bvh::<N, (), W>::two_level(lights, &params),
+            Bvh::single_level(lights, &params),
         ] {
             for _ in 0..40 {
                 let point = generate::point(random, 1.0);

@@ -1,7 +1,7 @@
 //! Scenes whose trees become deeper than a word of trail is long, while shallow ones are there already.
 
 use lightbvh::{
-    CompactNode, EmissiveTriangle, Eq4, FullNode, Heuristic, ImportanceModel, LightNode, Scene, ShadingPoint,
+    Bvh, CompactNode, EmissiveTriangle, Eq4, FullNode, Heuristic, ImportanceModel, LightNode, ShadingPoint,
     Transform, exact,
 };
 use lightbvh_tests::edits::{add_instance, add_mesh};
@@ -26,7 +26,7 @@ fn check<N: LightNode<W>, const W: usize>()
 where
     Eq4: ImportanceModel<N, W>,
 {
-    let mut scene = Scene::<N, W>::new(split(Heuristic::Sah, 2));
+    let mut scene = Bvh::<N, (), W>::new(split(Heuristic::Sah, 2));
     let mut random = Random::new(1);
     let mut instances = Vec::new();
     for (count, words) in [(5, 1), (60, 2), (7, 2)] {
@@ -53,14 +53,14 @@ where
             let mut pmfs = Vec::new();
             for &id in &instances {
                 for light in scene.lights_of(id).expect("it is there") {
-                    pmfs.push(scene.pmf::<Eq4>(&point, light, id));
+                    pmfs.push(scene.by::<Eq4>().pmf(&point, light, id.index()));
                 }
             }
             assert_sum_is_one::<N, Eq4, W>(pmfs, &point);
-            let sampled = scene.sample::<Eq4>(&point, random.bits());
+            let sampled = scene.by::<Eq4>().sample(&point, random.bits());
             let pmf = instances
                 .iter()
-                .map(|&id| scene.pmf::<Eq4>(&point, sampled.light, id));
+                .map(|&id| scene.by::<Eq4>().pmf(&point, sampled.light, id.index()));
             assert_eq!(pmf.fold(0.0, f32::max).to_bits(), sampled.pmf.to_bits());
         }
     }

@@ -2,13 +2,14 @@
 //! is deep, nor more than two trails have levels.
 
 use std::cell::Cell;
+use std::marker::PhantomData;
 
 use glam::Vec3;
 use lightbvh::node::kind;
 use lightbvh::trail::max_levels;
 use lightbvh::{
     EmissiveTriangle, INVALID, ImportanceModel, Instance, LightNode, LightTree, Lights, LightsError,
-    Random64, ShadingPoint, Summary, refit, traverse,
+    Random64, SampledLight, ShadingPoint, Summary, refit,
 };
 use lightbvh_tests::each_layout;
 use lightbvh_tests::generate::{self, Random, extreme_triangle};
@@ -19,7 +20,7 @@ thread_local! {
 }
 
 /// An importance that counts how many nodes it is asked about.
-struct Counting<I>(std::marker::PhantomData<I>);
+struct Counting<I>(PhantomData<I>);
 
 impl<N, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W> for Counting<I> {
     const UNIFORM_HALVINGS: u32 = I::UNIFORM_HALVINGS;
@@ -32,7 +33,7 @@ impl<N, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W> for Coun
 
 /// Samples, one by one and at once, and evaluates pmfs; returns the greatest number of nodes of one call.
 fn walk<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    tree: &LightTree<'_, N>,
+    tree: &LightTree<'_, N, I, W>,
     random: &mut Random,
     calls: u32,
 ) -> u32 {
@@ -54,17 +55,17 @@ fn walk<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
             high: random.bits(),
             low: random.bits(),
         };
-        let sampled = traverse::sample::<N, Counting<I>, W>(tree, &point, number);
+        let sampled = tree.by::<Counting<I>>().sample(&point, number);
         counted(sampled.pmf);
-        let mut many = [traverse::SampledLight::NONE; 3];
-        traverse::sample_batch::<N, I, W>(tree, &[point; 3], &[number; 3], &mut many);
+        let mut many = [SampledLight::NONE; 3];
+        tree.sample_batch(&[point; 3], &[number; 3], &mut many);
         assert!(
             many.iter()
                 .all(|one| one.light == sampled.light && one.pmf.to_bits() == sampled.pmf.to_bits())
         );
         for light in [sampled.light, random.below(16), random.bits()] {
             for instance in [INVALID, random.below(4), random.bits()] {
-                counted(traverse::pmf::<N, Counting<I>, W>(tree, &point, light, instance));
+                counted(tree.by::<Counting<I>>().pmf(&point, light, instance));
             }
         }
     }
@@ -177,6 +178,7 @@ fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32) {
         live: count(random),
         lights: count(random),
         depth: count(random),
+        importance: PhantomData::<I>,
     };
     walk::<N, I, W>(&tree, random, 4);
     refit_all(&nodes, &instances, random);
@@ -261,6 +263,7 @@ fn cycles_end<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>() {
                     live: instances.len() as u32,
                     lights: 8,
                     depth,
+                    importance: PhantomData::<I>,
                 };
                 let steps = walk::<N, I, W>(&tree, &mut random, 60);
                 assert!(steps <= longest, "{name}: {steps}");

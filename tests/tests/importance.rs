@@ -4,8 +4,8 @@ use glam::{DVec3, Vec3};
 use lightbvh::importance::Cluster;
 use lightbvh::node::kind;
 use lightbvh::{
-    BoundsNode, BuildParams, CompactNode, EmissiveTriangle, Eq4, FluxOverDistance, FullNode, ImportanceModel,
-    LightBounds, LightBvh, LightNode, Lights, ShadingPoint, Summary, exact,
+    BoundsNode, BuildParams, Bvh, CompactNode, EmissiveTriangle, Eq4, FluxOverDistance, FullNode,
+    ImportanceModel, LightBounds, LightNode, Lights, ShadingPoint, Summary, exact,
 };
 use lightbvh_tests::each_layout;
 use lightbvh_tests::generate::{self, Random, any_bounds, extreme_triangle, log_uniform};
@@ -143,13 +143,13 @@ fn same_pmfs<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     let params = BuildParams::default();
     let (a, b) = if random.below(2) == 0 {
         (
-            LightBvh::<N, W>::two_level(lights, &params),
-            LightBvh::<N, W>::two_level(scaled, &params),
+            Bvh::<N, (), W>::two_level(lights, &params),
+            Bvh::<N, (), W>::two_level(scaled, &params),
         )
     } else {
         (
-            LightBvh::<N, W>::single_level(lights, &params),
-            LightBvh::<N, W>::single_level(scaled, &params),
+            Bvh::<N, (), W>::single_level(lights, &params),
+            Bvh::<N, (), W>::single_level(scaled, &params),
         )
     };
     for _ in 0..4 {

@@ -5,7 +5,7 @@ use lightbvh::exact::pow2;
 use lightbvh::light::MAX_COORDINATE;
 use lightbvh::summary::Lanes;
 use lightbvh::{
-    CompactNode, Edit, EmissiveTriangle, ImportanceModel, Instance, LightBounds, LightNode, Scene,
+    Bvh, CompactNode, Edit, EmissiveTriangle, ImportanceModel, Instance, LightBounds, LightNode,
     ShadingPoint, Summary, Transform,
 };
 use lightbvh_tests::each_layout;
@@ -34,7 +34,7 @@ fn map(random: &mut Random, kind: Kind, exponent: i32) -> Transform {
 
 /// The words of an instance, as a scene makes them.
 fn placed(transform: Transform) -> Instance {
-    let mut scene = Scene::<CompactNode<2>, 2>::default();
+    let mut scene = Bvh::<CompactNode<2>, (), 2>::default();
     let mesh = add_mesh(&mut scene, generate::small_triangles(1, 1, 1.0, 0.1, false, 1));
     let id = add_instance(&mut scene, mesh, transform);
     scene.instances()[id.index() as usize]
@@ -84,7 +84,7 @@ fn point(random: &mut Random, lights: &[EmissiveTriangle]) -> ShadingPoint {
 /// A light of an instance has a probability at any point wherever its triangle shines in the mesh and it is not turned off.
 fn no_light_is_lost<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32, kind: Kind) {
     let random = &mut Random::new(seed);
-    let mut scene = Scene::<N, W>::default();
+    let mut scene = Bvh::<N, (), W>::default();
     let mut expected = Vec::new();
     for _ in 0..1 + random.below(3) {
         let local = triangles(random);
@@ -98,7 +98,7 @@ fn no_light_is_lost<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(s
                 transform,
                 radiance,
             };
-            let id = scene.update(vec![add]).expect("within the domain").instances[0];
+            let id = scene.apply(vec![add]).expect("within the domain").instances[0];
             expected.push((id, local.clone(), transform, radiance));
         }
     }
@@ -114,7 +114,7 @@ fn no_light_is_lost<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(s
         for (id, local, transform, radiance) in &expected {
             let lights = scene.lights_of(*id).expect("it is there");
             for (light, local) in lights.zip(local) {
-                let pmf = scene.pmf::<I>(&point, light, *id);
+                let pmf = scene.by::<I>().pmf(&point, light, id.index());
                 let shines = *radiance > 0.0 && N::Summary::of_triangle(local).phi() > 0.0;
                 assert_eq!(
                     pmf > 0.0,
@@ -130,7 +130,7 @@ fn no_light_is_lost<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(s
         if any {
             assert_sum_is_one::<N, I, W>(pmfs.iter().copied(), &point);
             for _ in 0..8 {
-                let sampled = scene.sample::<I>(&point, random.bits());
+                let sampled = scene.by::<I>().sample(&point, random.bits());
                 assert_eq!(sampled.pmf.to_bits(), pmfs[sampled.light as usize].to_bits());
             }
         }

@@ -156,7 +156,7 @@ fn holds_what_it_is_named_after<C: Choice<W>, const W: usize>(name: &str) {
         let asked = tree
             .pmfs
             .iter()
-            .position(|q| q.point == query.point && q.random_or_light == light);
+            .position(|q| q.point == query.point && q.words[0] == light);
         if let Some(asked) = asked {
             assert_eq!(
                 sampled.pmf.to_bits(),

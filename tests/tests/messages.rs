@@ -2,12 +2,12 @@
 
 use std::error::Error;
 
+use lightbvh::bvh::{EditError, EditReason};
 use lightbvh::light::MAX_RADIANCE;
-use lightbvh::scene::{EditError, EditReason};
 use lightbvh::transform::TransformError;
 use lightbvh::validate::{Violation, What};
 use lightbvh::{
-    CompactNode, Edit, EmissiveTriangle, INVALID, LightError, Lights, LightsError, RebuildError, Scene,
+    Bvh, CompactNode, Edit, EmissiveTriangle, INVALID, LightError, Lights, LightsError, RebuildError,
     Transform,
 };
 use lightbvh_tests::edits::add_mesh;
@@ -95,7 +95,7 @@ fn lights() {
 
 #[test]
 fn edits() {
-    let mut scene = Scene::<CompactNode<4>, 4>::default();
+    let mut scene = Bvh::<CompactNode<4>, (), 4>::default();
     let triangles = vec![LAMP; 3];
     let mesh = add_mesh(&mut scene, triangles);
     let add = |transform, radiance| Edit::AddInstance {
@@ -104,10 +104,10 @@ fn edits() {
         radiance,
     };
     let here = Transform::IDENTITY;
-    let instance = scene.update(vec![add(here, 1.0)]).expect("an instance").instances[0];
+    let instance = scene.apply(vec![add(here, 1.0)]).expect("an instance").instances[0];
     let mut refused = |edit: Edit, words: &[&str]| {
         // After one that is sound, so that its index shows.
-        let error = scene.update(vec![add(here, 1.0), edit]).expect_err("refused");
+        let error = scene.apply(vec![add(here, 1.0), edit]).expect_err("refused");
         assert_eq!(error.edit, 1);
         says(&error, &["edit 1: "]);
         says(&error, words);
@@ -156,8 +156,8 @@ fn edits() {
     };
     assert!((metres - 2.0e12).abs() < 1e7, "{metres}");
 
-    let mut scene = Scene::<CompactNode<4>, 4>::default();
-    let error = scene.update(vec![Edit::RemoveMesh(mesh)]).expect_err("no mesh");
+    let mut scene = Bvh::<CompactNode<4>, (), 4>::default();
+    let error = scene.apply(vec![Edit::RemoveMesh(mesh)]).expect_err("no mesh");
     assert_eq!(
         error,
         EditError {
@@ -167,7 +167,7 @@ fn edits() {
     );
     says(&error, &["edit 0: no mesh 0 of generation 0"]);
     let error = scene
-        .update(vec![Edit::RemoveInstance(instance)])
+        .apply(vec![Edit::RemoveInstance(instance)])
         .expect_err("no instance");
     says(&error, &["no instance 0 of generation 0"]);
     says(

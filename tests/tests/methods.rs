@@ -67,7 +67,7 @@ fn a_rebuilt_tree_is_a_new_tree_and_a_refitted_one_is_not() {
     let arrays = arrays_at(&scene, LAST, SHOT.width, SHOT.height).expect("a frame");
     let params = BuildParams::paper(Heuristic::Saoh);
     let bvh: Bvh<Paper, 4> = build(&arrays.lights, Sampler::SingleLevel, &params);
-    let mut cpu = CpuBackend::<Paper, 4>::new(bvh, arrays.lights.clone());
+    let mut cpu = CpuBackend::<Paper, 4>::new(bvh);
     let params = SHOT.params(scene.data().background);
     let new = cpu
         .render(&arrays, &params, Sampler::SingleLevel)

@@ -24,8 +24,8 @@ fn same_words<C: Choice<W>, const W: usize>() {
     on_each_device(Options::default(), |device| {
         for sampler in Sampler::ALL {
             let bvh: Bvh<C, W> = build(&arrays.lights, sampler, &BuildParams::default());
-            let mut cpu = CpuBackend::<C, W>::new(bvh.clone(), arrays.lights.clone());
-            let mut other = DeviceBackend::<C, W>::new(device, &bvh, &arrays.lights).expect("a backend");
+            let mut cpu = CpuBackend::<C, W>::new(bvh.clone());
+            let mut other = DeviceBackend::<C, W>::new(device, &bvh).expect("a backend");
             for bounces in [0, 1, 7] {
                 let expected = cpu
                     .render_path(&arrays, &params, bounces, sampler)

@@ -5,11 +5,11 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::Duration;
 
+use lightbvh::bvh::{RebuildParams, Rebuilt};
 use lightbvh::rebuilder::Swap;
-use lightbvh::scene::{RebuildParams, Rebuilt};
 use lightbvh::{
-    Edit, EmissiveTriangle, Eq4, InstanceId, LightBounds, MeshId, RebuildError, Rebuilder, RebuilderParams,
-    Scene, Transform,
+    Bvh, Edit, EmissiveTriangle, Eq4, InstanceId, LightBounds, MeshId, RebuildError, Rebuilder,
+    RebuilderParams, Transform,
 };
 use lightbvh_tests::edits::{Model, edits};
 use lightbvh_tests::generate::{self, Random};
@@ -17,7 +17,7 @@ use lightbvh_tests::oracle::assert_sum_is_one;
 use lightbvh_tests::placing::{self, Kind};
 use lightbvh_tests::slowed::{self, Pace, Slowed};
 
-type Tree<const TEST: usize> = Scene<Slowed<TEST>, 4>;
+type Tree<const TEST: usize> = Bvh<Slowed<TEST>, (), 4>;
 
 const REACH: f32 = 20.0;
 const FRAMES: usize = 60;
@@ -53,7 +53,7 @@ fn words<const TEST: usize>(scene: &Tree<TEST>, ids: &[InstanceId], seed: u32) -
         let point = generate::point(random, REACH);
         ids.iter().flat_map(move |&id| {
             let lights = scene.lights_of(id).expect("it is there");
-            lights.map(move |light| scene.pmf::<Eq4>(&point, light, id).to_bits())
+            lights.map(move |light| scene.by::<Eq4>().pmf(&point, light, id.index()).to_bits())
         })
     });
     Words {
@@ -85,14 +85,14 @@ fn check_pmfs<const TEST: usize>(scene: &Tree<TEST>, model: &Model, random: &mut
         for (&id, (mesh, _, radiance)) in &model.instances {
             let lights = scene.lights_of(id).expect("it is there");
             for (light, local) in lights.zip(&model.meshes[mesh]) {
-                let pmf = scene.pmf::<Eq4>(&point, light, id);
+                let pmf = scene.by::<Eq4>().pmf(&point, light, id.index());
                 let shines = *radiance > 0.0 && LightBounds::of_triangle(local).phi > 0.0;
                 assert_eq!(pmf > 0.0, shines, "light {light} at {point:?}");
                 any |= shines;
                 pmfs.push(pmf);
             }
         }
-        assert_eq!(scene.sample::<Eq4>(&point, random.bits()).pmf > 0.0, any);
+        assert_eq!(scene.by::<Eq4>().sample(&point, random.bits()).pmf > 0.0, any);
         if any {
             assert_sum_is_one::<Slowed<TEST>, Eq4, 4>(pmfs, &point);
         }
@@ -135,7 +135,7 @@ fn animate_inline<const TEST: usize>(seed: u32) -> Vec<Words> {
     (0..FRAMES)
         .map(|frame| {
             if let Some(rebuilt) = flying.take() {
-                scene.adopt(rebuilt);
+                scene.install(rebuilt).expect("its own");
             }
             edits(random, &mut model, &mut scene, REACH);
             scene.refit();
@@ -210,7 +210,7 @@ fn add<const TEST: usize>(
     let batch = vec![Edit::AddMesh {
         triangles: triangles.clone(),
     }];
-    let mesh = scene.update(batch).expect("a mesh").meshes[0];
+    let mesh = scene.apply(batch).expect("a mesh").meshes[0];
     model.meshes.insert(mesh, triangles);
     let transforms: Vec<Transform> = (0..count)
         .map(|_| placing::transform(random, Kind::Similar, REACH))
@@ -220,7 +220,7 @@ fn add<const TEST: usize>(
         transform,
         radiance: 1.0,
     });
-    let added = scene.update(batch.collect()).expect("instances").instances;
+    let added = scene.apply(batch.collect()).expect("instances").instances;
     for (id, transform) in added.into_iter().zip(transforms) {
         model.instances.insert(id, (mesh, transform, 1.0));
     }
@@ -288,7 +288,9 @@ fn a_panic_is_told_once_and_the_next_rebuild_is_sound() {
                     Ok(start) => assert!(!start.swapped),
                 }
             };
-            let RebuildError::Panicked { message } = &error;
+            let RebuildError::Panicked { message } = &error else {
+                panic!("{error}");
+            };
             assert_eq!(message, "told to panic");
             assert!(error.to_string().contains("told to panic"));
             assert!(!rebuilder.is_busy());
@@ -362,7 +364,7 @@ fn a_mesh_bent_while_a_rebuild_is_under_way_is_built_anew_by_the_next() {
                 mesh,
                 triangles: triangles.clone(),
             }];
-            scene.update(batch).expect("as many as before");
+            scene.apply(batch).expect("as many as before");
             model.meshes.insert(mesh, triangles);
         }
         scene.refit();
@@ -414,7 +416,7 @@ fn rebuilds_stop_when_nothing_changes() {
     let mut swaps = Vec::new();
     for _ in 0..6 {
         swaps.push(rebuilder.begin_frame(&mut scene).expect("no panic").swapped);
-        scene.update(Vec::new()).expect("nothing");
+        scene.apply(Vec::new()).expect("nothing");
         scene.refit();
         rebuilder.end_frame(&scene);
     }

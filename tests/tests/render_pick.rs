@@ -175,14 +175,14 @@ fn evaluated_pmfs_are_those_of_the_pick() {
 
     let lights = Lights::new(triangles).expect("within the domain");
     for bvh in [
-        LightBvh::<Node, WIDTH>::single_level(&lights, &BuildParams::default()),
-        LightBvh::<Node, WIDTH>::two_level(&lights, &BuildParams::default()),
+        LightBvh::single_level(&lights, &BuildParams::default()),
+        LightBvh::two_level(&lights, &BuildParams::default()),
     ] {
         let picker = bvh.tree();
-        let what = if bvh.is_two_level() {
-            "two-level"
-        } else {
+        let what = if bvh.is_single_level() {
             "single-level"
+        } else {
+            "two-level"
         };
         let tolerance = sum_tolerance::<Node, <Standard as Choice<WIDTH>>::Importance, WIDTH>(300);
         pmf_is_of_the_pick(what, &picker, lights.triangles(), tolerance);

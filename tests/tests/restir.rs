@@ -13,7 +13,6 @@ use lightbvh_host::render::RayBvh;
 use lightbvh_host::scene::Scene;
 use lightbvh_host::vulkan::{Device, Options};
 use lightbvh_host::workload::arrays_at;
-use lightbvh_kernels::bvh::TreeOf;
 use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::restir::combine::Unbiased;
 use lightbvh_kernels::shading::restir::shade::shade;

@@ -33,7 +33,7 @@ fn independent(case: &Case, sampler: Sampler, samples: u32, seed: u32) -> Vec<[f
         samples,
         seed,
     };
-    let mut cpu = CpuBackend::<Standard, WIDE>::new(bvh.clone(), arrays.lights.clone());
+    let mut cpu = CpuBackend::<Standard, WIDE>::new(bvh.clone());
     let params = shot.params(case.background);
     cpu.render(arrays, &params, sampler).expect("an image").value
 }

@@ -9,7 +9,6 @@ use lightbvh_host::backend::{
     Bvh, CandidateSource, Combination, CpuRestir, LightRemap, Restir, RestirFrame, RestirOptions, SceneArrays,
 };
 use lightbvh_host::render::{RayBvh, View, camera};
-use lightbvh_kernels::bvh::TreeOf;
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 use lightbvh_tests::direct::{Reference, brute_force};

@@ -1,25 +1,21 @@
 //! Sampling against an exhaustive oracle: the probabilities of all lights, evaluated one by one.
 
 use lightbvh::{
-    BuildParams, CompactNode, Defensive, EmissiveTriangle, Eq4, Heuristic, INVALID, ImportanceModel,
-    LightBvh, LightNode, Lights, Random64, SampledLight, ShadingPoint, Summary,
+    BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, Heuristic, INVALID, ImportanceModel,
+    LightNode, Lights, Random64, SampledLight, ShadingPoint, Summary,
 };
 use lightbvh_host::stability::geometry::contribution;
 use lightbvh_tests::each_layout;
 use lightbvh_tests::generate::{self, Random};
-use lightbvh_tests::oracle::{all_pmfs, assert_sum_is_one, leaves};
+use lightbvh_tests::oracle::{all_pmfs, assert_sum_is_one, leaves, pmf_of};
 use lightbvh_tests::statistics::{chi_squared, chi_squared_quantile};
 use proptest::prelude::*;
 
-fn built<N: LightNode<W>, const W: usize>(
-    lights: &Lights,
-    params: &BuildParams,
-    two: bool,
-) -> LightBvh<N, W> {
+fn built<N: LightNode<W>, const W: usize>(lights: &Lights, params: &BuildParams, two: bool) -> Bvh<N, (), W> {
     if two {
-        LightBvh::two_level(lights, params)
+        Bvh::two_level(lights, params)
     } else {
-        LightBvh::single_level(lights, params)
+        Bvh::single_level(lights, params)
     }
 }
 
@@ -66,9 +62,9 @@ fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
             assert_eq!(pmf > 0.0, expected, "{} {W}: light {light} at {point:?}", N::NAME);
         }
         let count = pmfs.len() as u32;
-        assert_eq!(bvh.pmf::<I>(lights, &point, count), 0.0);
+        assert_eq!(pmf_of::<_, I, _>(&bvh, lights, &point, count), 0.0);
         for _ in 0..32 {
-            let sampled = bvh.sample::<I>(&point, number(random));
+            let sampled = bvh.by::<I>().sample(&point, number(random));
             assert!(!any || sampled.light < count, "no light at {point:?}");
             let expected = pmfs.get(sampled.light as usize).copied().unwrap_or(0.0);
             assert_eq!(
@@ -116,7 +112,7 @@ fn a_defensive_mixture_keeps_the_uniform_share() {
                 } else {
                     0.01
                 };
-                let pmf = f64::from(bvh.pmf::<Defensive<Eq4, H>>(&lights, &point, light));
+                let pmf = f64::from(pmf_of::<_, Defensive<Eq4, H>, _>(&bvh, &lights, &point, light));
                 // Two divisions and a sum, each within 2^-24. By the tree's own share a probability lies between none
                 // and 1 − 2^-H of all.
                 let least = share * uniform * (1.0 - 3.0 * 2f64.powi(-24));
@@ -128,7 +124,7 @@ fn a_defensive_mixture_keeps_the_uniform_share() {
             }
             // The first 2^-H of the numbers choose uniformly, the others by importance.
             let end = 1u64 << (64 - H);
-            let light = |bits: u64| bvh.sample::<Defensive<Eq4, H>>(&point, bits).light;
+            let light = |bits: u64| bvh.by::<Defensive<Eq4, H>>().sample(&point, bits).light;
             assert_eq!(light(0), if two { bvh.tree().instances[0].first } else { 0 });
             assert_eq!(light(end - 1), 99);
             let first = leaves(&bvh.tree())
@@ -158,11 +154,11 @@ fn darkness() {
         for _ in 0..50 {
             let point = generate::point(random, 10.0);
             let bits = random.bits();
-            let sampled = bvh.sample::<I>(&point, bits);
+            let sampled = bvh.by::<I>().sample(&point, bits);
             if I::UNIFORM_HALVINGS == 0 || bits >> (32 - I::UNIFORM_HALVINGS) > 0 {
                 assert_eq!(sampled, SampledLight::NONE);
             }
-            let pmf = bvh.pmf::<I>(&lights, &point, random.below(40));
+            let pmf = pmf_of::<_, I, _>(&bvh, &lights, &point, random.below(40));
             assert_eq!(pmf > 0.0, I::UNIFORM_HALVINGS > 0);
         }
     }
@@ -171,7 +167,7 @@ fn darkness() {
 }
 
 /// Lights by their place in the order of the slots; the order of numbers is that of the lights.
-fn places<N: LightNode<W>, const W: usize>(bvh: &LightBvh<N, W>, lights: &Lights) -> Vec<usize> {
+fn places<N: LightNode<W>, const W: usize>(bvh: &Bvh<N, (), W>, lights: &Lights) -> Vec<usize> {
     let mut places = vec![usize::MAX; lights.triangles().len()];
     for (place, (triangle, _)) in leaves(&bvh.tree()).into_iter().enumerate() {
         places[triangle as usize] = place;
@@ -205,7 +201,7 @@ fn numbers_are_ordered<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize
     let random = &mut Random::new(22);
     for _ in 0..3 {
         let point = generate::point(random, 10.0);
-        let place = |bits: u64| places[bvh.sample::<I>(&point, bits).light as usize];
+        let place = |bits: u64| places[bvh.by::<I>().sample(&point, bits).light as usize];
         let mut numbers: Vec<u64> = (0..4000)
             .map(|_| u64::from(random.bits()) << 32 | u64::from(random.bits()))
             .collect();
@@ -216,7 +212,7 @@ fn numbers_are_ordered<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize
         // The same by the upper half, whose lower half a hash fills in.
         let halves: Vec<usize> = numbers
             .iter()
-            .map(|&bits| places[bvh.sample::<I>(&point, (bits >> 32) as u32).light as usize])
+            .map(|&bits| places[bvh.by::<I>().sample(&point, (bits >> 32) as u32).light as usize])
             .collect();
         assert!(halves.is_sorted(), "{} {W} at {point:?}", N::NAME);
 
@@ -238,7 +234,7 @@ fn numbers_are_ordered<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize
         let ends: Vec<u128> = (0..=order.len()).map(first).collect();
         for (wanted, &light) in order.iter().enumerate() {
             let interval = ends[wanted + 1] - ends[wanted];
-            let pmf = bvh.pmf::<I>(&lights, &point, light);
+            let pmf = pmf_of::<_, I, _>(&bvh, &lights, &point, light);
             // Exact in f64: 24 bits times a power of two. Where it is no whole number, the numbers run out of bits, and the
             // interval's two ends are cut off below 2^-64 of all.
             let expected = f64::from(pmf) * 2f64.powi(64);
@@ -275,7 +271,7 @@ fn frequencies_match<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         let expected: Vec<f64> = pmfs.into_iter().map(f64::from).collect();
         let mut observed = vec![0; expected.len()];
         for _ in 0..SAMPLES {
-            observed[bvh.sample::<I>(&point, random.bits()).light as usize] += 1;
+            observed[bvh.by::<I>().sample(&point, random.bits()).light as usize] += 1;
         }
         let (statistic, degrees) = chi_squared(&observed, &expected);
         let threshold = chi_squared_quantile(degrees, 1e-6);
@@ -300,7 +296,7 @@ fn frequencies() {
 fn all_words() {
     use rayon::prelude::*;
     let lights = scene(1000, 31);
-    let bvh = LightBvh::<CompactNode<4>, 4>::two_level(&lights, &BuildParams::default());
+    let bvh = Bvh::<CompactNode<4>, (), 4>::two_level(&lights, &BuildParams::default());
     let point = ShadingPoint {
         p: [4.0, 1.0, 5.0],
         n: [0.0, 1.0, 0.0],
@@ -313,7 +309,7 @@ fn all_words() {
         for block in 0..1u32 << 8 {
             let first = piece << 20 | block << 12;
             let numbers: [Random64; 4096] = std::array::from_fn(|k| Random64::from(first | k as u32));
-            bvh.sample_batch::<Eq4>(&points, &numbers, &mut sampled);
+            bvh.by::<Eq4>().sample_batch(&points, &numbers, &mut sampled);
             sampled.iter().for_each(|one| counts[one.light as usize] += 1);
         }
         counts
@@ -354,7 +350,7 @@ fn floor() -> Lights {
 
 /// Mean squared error of the mean of 64 estimates, relative to the sum of all; by `numbers`, which gives 64 for each trial.
 fn squared_error<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    bvh: &LightBvh<N, W>,
+    bvh: &Bvh<N, (), W>,
     lights: &Lights,
     numbers: impl Fn(&mut Random) -> [u32; 64],
 ) -> f64 {
@@ -377,7 +373,7 @@ fn squared_error<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
             .collect();
         let sum: f64 = contributions.iter().sum();
         let estimates = numbers(random).map(|number| {
-            let sampled = bvh.sample::<I>(&point, number);
+            let sampled = bvh.by::<I>().sample(&point, number);
             contributions[sampled.light as usize] / f64::from(sampled.pmf)
         });
         let off = estimates.iter().sum::<f64>() / 64.0 / sum - 1.0;
@@ -432,11 +428,15 @@ fn batches_are_single_samples<N: LightNode<W>, I: ImportanceModel<N, W>, const W
     for count in (0..=40).chain([1000]) {
         let points: Vec<ShadingPoint> = (0..count).map(|_| generate::point(random, 10.0)).collect();
         let numbers: Vec<Random64> = (0..count).map(|_| number(random)).collect();
-        let untouched = SampledLight { light: 7, pmf: -1.0 };
+        let untouched = SampledLight {
+            light: 7,
+            instance: 5,
+            pmf: -1.0,
+        };
         let mut sampled = vec![untouched; count + 3];
-        bvh.sample_batch::<I>(&points, &numbers, &mut sampled);
+        bvh.by::<I>().sample_batch(&points, &numbers, &mut sampled);
         for k in 0..count {
-            let expected = bvh.sample::<I>(&points[k], numbers[k]);
+            let expected = bvh.by::<I>().sample(&points[k], numbers[k]);
             assert_eq!(sampled[k], expected, "{k} of {count}");
         }
         assert_eq!(sampled[count..], [untouched; 3]);
@@ -449,7 +449,7 @@ fn batches_are_single_samples<N: LightNode<W>, I: ImportanceModel<N, W>, const W
         .map(|(p, n, o)| (&points[..p], &numbers[..n], o))
         {
             let mut few = vec![untouched; outs];
-            bvh.sample_batch::<I>(points, numbers, &mut few);
+            bvh.by::<I>().sample_batch(points, numbers, &mut few);
             assert_eq!(few[..shorter], sampled[..shorter]);
             assert!(few[shorter..].iter().all(|&found| found == untouched));
         }

@@ -1,9 +1,9 @@
 //! Scenes under random edits: every invariant after every frame, against a scene built from scratch, and against the maps of the
 //! lights in f64.
 
-use lightbvh::scene::{RebuildParams, Rebuilt};
+use lightbvh::bvh::{RebuildParams, Rebuilt};
 use lightbvh::{
-    EmissiveTriangle, INVALID, ImportanceModel, InstanceId, LightNode, Scene, ShadingPoint, Summary,
+    Bvh, EmissiveTriangle, INVALID, ImportanceModel, InstanceId, LightNode, ShadingPoint, Summary,
 };
 use lightbvh_tests::each_layout;
 use lightbvh_tests::edits::{Model, edits};
@@ -31,7 +31,7 @@ fn points(random: &mut Random, lights: &[EmissiveTriangle], reach: f32) -> Vec<S
 /// one, and samples come with them. `ids` are the instances of the model in `scene`.
 fn check_sampling<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     model: &Model,
-    scene: &Scene<N, W>,
+    scene: &Bvh<N, (), W>,
     ids: &[InstanceId],
     random: &mut Random,
     reach: f32,
@@ -48,7 +48,7 @@ fn check_sampling<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         for (&id, (mesh, _, radiance)) in ids.iter().zip(model.instances.values()) {
             let lights = scene.lights_of(id).expect("it is there");
             for (light, local) in lights.zip(&model.meshes[mesh]) {
-                let pmf = scene.pmf::<I>(&point, light, id);
+                let pmf = scene.by::<I>().pmf(&point, light, id.index());
                 let shines = *radiance > 0.0 && N::Summary::of_triangle(local).phi() > 0.0;
                 assert_eq!(
                     pmf > 0.0,
@@ -65,7 +65,7 @@ fn check_sampling<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
             assert_sum_is_one::<N, I, W>(pmfs.iter().copied(), &point);
         }
         for _ in 0..16 {
-            let sampled = scene.sample::<I>(&point, random.bits());
+            let sampled = scene.by::<I>().sample(&point, random.bits());
             assert!(!any || sampled.light != INVALID, "no light at {point:?}");
             let expected = pmfs.get(sampled.light as usize).copied().unwrap_or(0.0);
             assert_eq!(sampled.pmf.to_bits(), expected.to_bits(), "{point:?}");
@@ -73,12 +73,12 @@ fn check_sampling<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     }
 }
 
-fn check_lights<N: LightNode<W>, const W: usize>(model: &Model, scene: &Scene<N, W>) {
+fn check_lights<N: LightNode<W>, const W: usize>(model: &Model, scene: &Bvh<N, (), W>) {
     for (&id, (mesh, transform, radiance)) in &model.instances {
         let lights = scene.lights_of(id).expect("it is there");
         assert_eq!(lights.len(), model.meshes[mesh].len());
         for (light, local) in lights.zip(&model.meshes[mesh]) {
-            let found = scene.light(light, id).expect("one of its lights");
+            let found = scene.triangle(light, id.index()).expect("one of its lights");
             assert_mapped(transform, local, &found);
             let shine = local.radiance.map(|x| x * radiance);
             assert!(found.radiance == shine || found.radiance == [0.0; 3], "{found:?}");
@@ -89,7 +89,7 @@ fn check_lights<N: LightNode<W>, const W: usize>(model: &Model, scene: &Scene<N,
 
 fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32, reach: f32) {
     let random = &mut Random::new(seed);
-    let (mut scene, mut model) = (Scene::<N, W>::default(), Model::default());
+    let (mut scene, mut model) = (Bvh::<N, (), W>::default(), Model::default());
     let mut flying: Option<(u32, Rebuilt<N, W>)> = None;
     for _ in 0..12 {
         // A rebuild that ends some frames after it began, before or after the edits of its last frame.
@@ -100,11 +100,11 @@ fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32, r
         let before = random.below(2) == 0;
         let (early, late) = if before { (due, None) } else { (None, due) };
         if let Some((_, rebuilt)) = early {
-            scene.adopt(rebuilt);
+            scene.install(rebuilt).expect("its own");
         }
         edits(random, &mut model, &mut scene, reach);
         if let Some((_, rebuilt)) = late {
-            scene.adopt(rebuilt);
+            scene.install(rebuilt).expect("its own");
         }
         scene.refit();
         let stats = scene.validate().unwrap_or_else(|violation| panic!("{violation}"));

@@ -1,12 +1,12 @@
 //! Single edits of scenes: what they cost, what they leave, and what is refused.
 
-use lightbvh::scene::{EditReason, RebuildParams};
-use lightbvh::{CompactNode, Edit, Eq4, INVALID, Scene, Transform};
+use lightbvh::bvh::{EditReason, RebuildParams};
+use lightbvh::{Bvh, CompactNode, Edit, Eq4, INVALID, Transform};
 use lightbvh_tests::edits::{add_instance, add_mesh, mesh};
 use lightbvh_tests::generate::{self, Random};
 use lightbvh_tests::placing::{self, Kind};
 
-type Tree = Scene<CompactNode<4>, 4>;
+type Tree = Bvh<CompactNode<4>, (), 4>;
 
 /// Whatever the map, it is the instance's leaf and the nodes above it.
 #[test]
@@ -20,12 +20,12 @@ fn motion_costs_one_way_up_and_no_bottom_level() {
         radiance: 1.0,
     };
     let batch = (0..1000).map(|_| add(random)).collect();
-    let ids = scene.update(batch).expect("instances").instances;
+    let ids = scene.apply(batch).expect("instances").instances;
     scene.refit();
     let stats = scene.validate().expect("valid");
     assert_eq!(stats.blases, 1, "one bottom level serves all");
 
-    scene.update(Vec::new()).expect("nothing");
+    scene.apply(Vec::new()).expect("nothing");
     scene.refit();
     assert_eq!(scene.work().computed(), 0, "nothing changed");
 
@@ -40,7 +40,7 @@ fn motion_costs_one_way_up_and_no_bottom_level() {
     ] {
         let transform = placing::transform(random, kind, 50.0);
         scene
-            .update(vec![Edit::SetTransform { instance, transform }])
+            .apply(vec![Edit::SetTransform { instance, transform }])
             .expect("moved");
         scene.refit();
         let work = scene.work();
@@ -83,7 +83,7 @@ fn instances_in_use_are_listed() {
                 ));
             }
         }
-        ids.extend(scene.update(batch).expect("sound edits").instances);
+        ids.extend(scene.apply(batch).expect("sound edits").instances);
         scene.refit();
         let tree = scene.tree();
         assert_eq!(tree.live as usize, ids.len(), "round {round}");
@@ -111,20 +111,25 @@ fn light_numbers_stay_and_removed_ones_are_told() {
         radiance: 1.0,
     };
     let ids = scene
-        .update(vec![add.clone(), add.clone(), add.clone()])
+        .apply(vec![add.clone(), add.clone(), add.clone()])
         .expect("three")
         .instances;
     let lights: Vec<_> = ids
         .iter()
         .map(|&id| scene.lights_of(id).expect("there"))
         .collect();
-    scene.update(vec![Edit::RemoveInstance(ids[1])]).expect("removed");
+    scene.apply(vec![Edit::RemoveInstance(ids[1])]).expect("removed");
     assert_eq!(scene.removed_lights().to_vec(), vec![lights[1].clone()]);
     assert_eq!(lights[1], count..2 * count);
-    let again = scene.update(vec![add]).expect("added").instances[0];
+    let again = scene.apply(vec![add]).expect("added").instances[0];
+    // Numbers come back once they are taken, not before.
+    assert_eq!(scene.lights_of(again), Some(3 * count..4 * count));
+    assert_eq!(scene.take_removed_lights(), vec![lights[1].clone()]);
     assert!(scene.removed_lights().is_empty());
     scene.refit();
-    scene.adopt(scene.rebuild(&RebuildParams::default()).run());
+    scene
+        .install(scene.rebuild(&RebuildParams::default()).run())
+        .expect("its own");
     scene.refit();
     scene.validate().expect("valid");
     assert_eq!(scene.lights_of(ids[0]), Some(lights[0].clone()));
@@ -132,7 +137,9 @@ fn light_numbers_stay_and_removed_ones_are_told() {
     assert_eq!(scene.lights_of(ids[2]), Some(lights[2].clone()));
     assert_eq!(scene.lights_of(again), Some(lights[1].clone()));
     assert_eq!(
-        scene.pmf::<Eq4>(&generate::point(random, 1.0), lights[0].start, ids[1]),
+        scene
+            .by::<Eq4>()
+            .pmf(&generate::point(random, 1.0), lights[0].start, ids[1].index()),
         0.0
     );
 }
@@ -142,20 +149,20 @@ fn the_last_light_may_go() {
     let random = &mut Random::new(7);
     let mut scene = Tree::default();
     let point = generate::point(random, 1.0);
-    assert_eq!(scene.sample::<Eq4>(&point, 1u32).light, INVALID);
+    assert_eq!(scene.by::<Eq4>().sample(&point, 1u32).light, INVALID);
     let mesh = add_mesh(&mut scene, mesh(random));
     let lamp = add_instance(&mut scene, mesh, Transform::IDENTITY);
     scene.refit();
     let flying = scene.rebuild(&RebuildParams::default()).run();
     scene
-        .update(vec![Edit::RemoveInstance(lamp), Edit::RemoveMesh(mesh)])
+        .apply(vec![Edit::RemoveInstance(lamp), Edit::RemoveMesh(mesh)])
         .expect("gone");
     scene.refit();
-    assert_eq!(scene.sample::<Eq4>(&point, 1u32).light, INVALID);
+    assert_eq!(scene.by::<Eq4>().sample(&point, 1u32).light, INVALID);
     assert_eq!(scene.validate().expect("valid").lights, 0);
-    scene.adopt(flying);
+    scene.install(flying).expect("its own");
     scene.refit();
-    assert_eq!(scene.sample::<Eq4>(&point, 1u32).light, INVALID);
+    assert_eq!(scene.by::<Eq4>().sample(&point, 1u32).light, INVALID);
     scene.validate().expect("valid");
 }
 
@@ -165,7 +172,7 @@ fn bad_edits_change_nothing() {
     let mut scene = Tree::default();
     let mesh_id = add_mesh(&mut scene, mesh(random));
     let [instance, gone] = [0; 2].map(|_| add_instance(&mut scene, mesh_id, Transform::IDENTITY));
-    scene.update(vec![Edit::RemoveInstance(gone)]).expect("removed");
+    scene.apply(vec![Edit::RemoveInstance(gone)]).expect("removed");
     scene.refit();
     let before = format!("{scene:?}");
 
@@ -233,14 +240,14 @@ fn bad_edits_change_nothing() {
             instance,
             radiance: 0.5,
         };
-        let error = scene.update(vec![good, edit]).expect_err(&text);
+        let error = scene.apply(vec![good, edit]).expect_err(&text);
         assert_eq!(error.edit, 1, "{text}");
         assert!(expected(&error.reason), "{text}: {error}");
         assert_eq!(format!("{scene:?}"), before, "{text} was half done");
     }
     // Ids that an earlier edit of the batch removed.
     let twice = vec![Edit::RemoveInstance(instance), Edit::RemoveInstance(instance)];
-    assert_eq!(scene.update(twice).expect_err("gone by then").edit, 1);
+    assert_eq!(scene.apply(twice).expect_err("gone by then").edit, 1);
     assert_eq!(format!("{scene:?}"), before);
 }
 
@@ -277,12 +284,12 @@ fn deforming_a_mesh_counts_instances_of_the_same_batch() {
         vec![near.clone(), far.clone(), deform.clone()],
     ] {
         let last = batch.len() - 1;
-        let error = scene.update(batch).expect_err("it would reach beyond 2^40 m");
+        let error = scene.apply(batch).expect_err("it would reach beyond 2^40 m");
         assert_eq!(error.edit, last);
         assert!(matches!(error.reason, EditReason::Transform(_)), "{error}");
         assert_eq!(format!("{scene:?}"), before);
     }
-    scene.update(vec![near, deform]).expect("within 2^40 m");
+    scene.apply(vec![near, deform]).expect("within 2^40 m");
     scene.refit();
     scene.validate().expect("valid");
 }
@@ -294,7 +301,7 @@ fn thousands_of_edits_in_one_frame() {
     let meshes = (0..20).map(|_| Edit::AddMesh {
         triangles: mesh(random),
     });
-    let meshes = scene.update(meshes.collect()).expect("meshes").meshes;
+    let meshes = scene.apply(meshes.collect()).expect("meshes").meshes;
     let mut ids = Vec::new();
     for round in 0..6 {
         let mut batch = Vec::new();
@@ -311,7 +318,7 @@ fn thousands_of_edits_in_one_frame() {
                 radiance: 1.0,
             });
         }
-        ids.extend(scene.update(batch).expect("sound edits").instances);
+        ids.extend(scene.apply(batch).expect("sound edits").instances);
         scene.refit();
         let stats = scene
             .validate()
@@ -333,7 +340,7 @@ fn plans_edits_and_rebuilds_come_in_any_order() {
             transform: place(k),
             radiance: if k == n / 2 { 0.0 } else { 1.0 },
         });
-        let ids = scene.update(add.collect()).expect("instances").instances;
+        let ids = scene.apply(add.collect()).expect("instances").instances;
         scene.refit();
         let point = lightbvh::ShadingPoint {
             p: [0.0, 0.0, 30.0],
@@ -346,7 +353,7 @@ fn plans_edits_and_rebuilds_come_in_any_order() {
                 instance: lamp,
                 radiance,
             };
-            scene.update(vec![shine(1.0)]).expect("it is there");
+            scene.apply(vec![shine(1.0)]).expect("it is there");
             if order & 1 != 0 {
                 scene.plan();
             }
@@ -355,30 +362,33 @@ fn plans_edits_and_rebuilds_come_in_any_order() {
                 instance: ids[3],
                 transform: place(7),
             };
-            scene.update(vec![moved]).expect("it is there");
+            scene.apply(vec![moved]).expect("it is there");
             if order & 2 != 0 {
                 scene.plan();
             }
-            scene.adopt(rebuilt);
+            scene.install(rebuilt).expect("its own");
             scene.refit();
             scene.validate().expect("valid");
             let light = scene.lights_of(lamp).expect("it is there").start;
-            assert!(scene.pmf::<Eq4>(&point, light, lamp) > 0.0, "{n}, {order}");
+            assert!(
+                scene.by::<Eq4>().pmf(&point, light, lamp.index()) > 0.0,
+                "{n}, {order}"
+            );
 
             let added = Edit::AddInstance {
                 mesh,
                 transform: place(5),
                 radiance: 1.0,
             };
-            let id = scene.update(vec![added]).expect("an instance").instances[0];
+            let id = scene.apply(vec![added]).expect("an instance").instances[0];
             assert_ne!(
-                scene.sample::<Eq4>(&point, 77_u32).light,
+                scene.by::<Eq4>().sample(&point, 77_u32).light,
                 INVALID,
                 "before the refit"
             );
             scene.plan();
             scene
-                .update(vec![Edit::RemoveInstance(id), shine(0.0)])
+                .apply(vec![Edit::RemoveInstance(id), shine(0.0)])
                 .expect("they are there");
             scene.refit();
             scene.validate().expect("valid");
@@ -387,7 +397,7 @@ fn plans_edits_and_rebuilds_come_in_any_order() {
         for instance in [ids[0], ids[9]] {
             let transform = place(2);
             scene
-                .update(vec![Edit::SetTransform { instance, transform }])
+                .apply(vec![Edit::SetTransform { instance, transform }])
                 .expect("it is there");
             let written = scene.plan().written_instances.clone();
             assert!(written.iter().any(|range| range.contains(&instance.index())));

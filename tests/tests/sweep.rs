@@ -3,8 +3,8 @@
 
 use lightbvh::refit::{self, BlasRoot};
 use lightbvh::{
-    BuildParams, CompactNode, Edit, EmissiveTriangle, Instance, LightBvh, LightNode, Lights, MomentNode,
-    Scene, Summary, sweep,
+    BuildParams, Bvh, CompactNode, Edit, EmissiveTriangle, Instance, LightNode, Lights, MomentNode, Summary,
+    sweep,
 };
 use lightbvh_tests::each_node;
 use lightbvh_tests::edits::add_mesh;
@@ -59,7 +59,7 @@ fn words<N: LightNode<W>, const W: usize>(nodes: &[N], pass: impl Fn(&mut [N])) 
 
 /// Instances as a scene places them, and ones that lead nowhere.
 fn instances(random: &mut Random) -> Vec<Instance> {
-    let mut scene = Scene::<CompactNode<2>, 2>::default();
+    let mut scene = Bvh::<CompactNode<2>, (), 2>::default();
     let triangles = generate::small_triangles(4, 4, 1.0, 0.3, true, random.bits());
     let mesh = add_mesh(&mut scene, triangles);
     let add = (0..64)
@@ -79,7 +79,7 @@ fn instances(random: &mut Random) -> Vec<Instance> {
             }
         })
         .collect();
-    scene.update(add).expect("instances");
+    scene.apply(add).expect("instances");
     let mut instances = scene.instances().to_vec();
     for instance in &mut instances {
         instance.blas = random.below(70);
@@ -130,7 +130,7 @@ fn check_trees<N: LightNode<W>, const W: usize>(count: u32) {
     ))
     .expect("lights");
     let triangles = lights.triangles();
-    let bvh = LightBvh::<N, W>::two_level(&lights, &BuildParams::default());
+    let bvh = Bvh::<N, (), W>::two_level(&lights, &BuildParams::default());
     let bare = |node: &N| {
         let mut bare = N::EMPTY;
         for slot in 0..W {
@@ -138,10 +138,13 @@ fn check_trees<N: LightNode<W>, const W: usize>(count: u32) {
         }
         bare
     };
-    let bare: Vec<N> = bvh.nodes()[..bvh.tree().root as usize].iter().map(bare).collect();
+    // The first node is the top level of the time before there were lights, the last are those of the top level.
+    let plan = bvh.plan_of_everything();
+    let end = plan.trees.iter().map(|tree| tree.end).max().expect("a tree") as usize;
+    let bare: Vec<N> = bvh.nodes()[..end].iter().map(bare).collect();
     let mut expected = bare.clone();
-    for range in bvh.bottom_levels().ranges() {
-        for &index in &bvh.bottom_levels().nodes()[range] {
+    for range in plan.bottom.ranges() {
+        for &index in &plan.bottom.nodes()[range] {
             expected[index as usize] = refit::bottom(&expected, triangles, index);
         }
     }

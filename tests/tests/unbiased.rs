@@ -102,12 +102,10 @@ fn each_picker(lights: &Lights, mut test: impl FnMut(&str, &dyn Fn(&ShadingPoint
         heuristic: Heuristic::Sah,
         ..BuildParams::default()
     };
-    let one = LightBvh::<Node, WIDTH>::single_level(lights, &BuildParams::default());
-    let two = LightBvh::<Node, WIDTH>::two_level(lights, &sah);
+    let one = LightBvh::single_level(lights, &BuildParams::default());
+    let two = LightBvh::two_level(lights, &sah);
     let [one, two] = [&one, &two].map(|bvh| bvh.tree());
-    let call = |p: &dyn Fn(&ShadingPoint, u32) -> lightbvh_kernels::shading::pick::Picked,
-                point: &ShadingPoint,
-                r| {
+    let call = |p: &dyn Fn(&ShadingPoint, u32) -> lightbvh::SampledLight, point: &ShadingPoint, r| {
         let picked = p(point, r);
         (picked.light, picked.pmf)
     };
@@ -121,9 +119,13 @@ fn each_picker(lights: &Lights, mut test: impl FnMut(&str, &dyn Fn(&ShadingPoint
 struct By<'a>(&'a dyn Fn(&ShadingPoint, u32) -> (u32, f32));
 
 impl PickLight for By<'_> {
-    fn pick(&self, point: &ShadingPoint, random: u32) -> lightbvh_kernels::shading::pick::Picked {
+    fn pick(&self, point: &ShadingPoint, random: u32) -> lightbvh::SampledLight {
         let (light, pmf) = (self.0)(point, random);
-        lightbvh_kernels::shading::pick::Picked { light, pmf }
+        lightbvh::SampledLight {
+            light,
+            instance: lightbvh::INVALID,
+            pmf,
+        }
     }
 
     fn pmf(&self, _point: &ShadingPoint, _light: u32, _mesh: u32) -> f32 {

@@ -102,6 +102,17 @@ pub struct Bvh<N, I, const W: usize> {
     importance: PhantomData<I>,
 }
 
+/// Arrays of a [`Bvh`], open to any change; `bottom` and `top` list the nodes of the first bottom level and of the top level.
+#[doc(hidden)]
+#[derive(Debug)]
+pub struct Parts<'a, N> {
+    pub nodes: &'a mut [N],
+    pub instances: &'a mut [Instance],
+    pub trails: &'a mut [u32],
+    pub bottom: &'a mut [u32],
+    pub top: &'a mut [u32],
+}
+
 /// The light BVH with what measured best for its time: moments on packed nodes of 8 children, 1/64 of uniform choice.
 pub type LightBvh = Bvh<MomentNode<8>, Defensive<Moments, 6>, 8>;
 
@@ -222,10 +233,19 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         &self.nodes
     }
 
-    /// The nodes, for tests that put wrong words into them.
+    /// The arrays that [`validate`](Self::validate) checks, for tests that put wrong words into them.
     #[doc(hidden)]
-    pub fn nodes_mut(&mut self) -> &mut [N] {
-        &mut self.nodes
+    pub fn parts_mut(&mut self) -> Parts<'_, N> {
+        Parts {
+            nodes: &mut self.nodes,
+            instances: &mut self.instances,
+            trails: &mut self.trails,
+            bottom: self
+                .blases
+                .first_mut()
+                .map_or(&mut [], |blas| &mut blas.levels.nodes),
+            top: &mut self.top.levels.nodes,
+        }
     }
 
     /// By node: the node above it in the same tree, or [`INVALID`].
@@ -396,7 +416,7 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
     #[must_use]
     pub fn sample(&self, point: &ShadingPoint, random: impl Into<Random64>) -> SampledLight {
         debug_assert!(point.is_within_reach(), "not a shading point: {point:?}");
-        self.tree().sample(point, random.into())
+        self.tree().sample(point, random)
     }
 
     /// Chooses a light for each of `points`, points as for [`sample`](Self::sample); see [`LightTree::sample_batch`].

@@ -32,8 +32,8 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> LightTree<'_, N,
     /// the share of random numbers that choose it.
     #[inline(always)]
     #[must_use]
-    pub fn sample(&self, point: &ShadingPoint, random: Random64) -> SampledLight {
-        widest::sample(self, point, random)
+    pub fn sample(&self, point: &ShadingPoint, random: impl Into<Random64>) -> SampledLight {
+        widest::sample(self, point, random.into())
     }
 
     /// Chooses a light for each point by its random number, to the same words as [`sample`](Self::sample) one at a time, but

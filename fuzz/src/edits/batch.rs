@@ -1,8 +1,8 @@
 //! A batch of edits, and what the model expects of it.
 
 use arbitrary::{Result, Unstructured};
-use lightbvh::scene::{EditReason, Updated};
-use lightbvh::{Edit, EmissiveTriangle, InstanceId, LightNode, MeshId, Scene, Transform};
+use lightbvh::bvh::{Added, EditReason};
+use lightbvh::{Bvh, Edit, EmissiveTriangle, InstanceId, LightNode, MeshId, Transform};
 
 use super::model::{Mesh, Model, Placed, within};
 use super::placing::{factor, transform};
@@ -58,7 +58,7 @@ struct Staged {
 pub fn edit<N: LightNode<W> + std::fmt::Debug, const W: usize>(
     u: &mut Unstructured<'_>,
     model: &mut Model,
-    scene: &mut Scene<N, W>,
+    scene: &mut Bvh<N, (), W>,
     first: bool,
     thorough: bool,
 ) -> Result<()> {
@@ -86,13 +86,13 @@ pub fn edit<N: LightNode<W> + std::fmt::Debug, const W: usize>(
         .filter(|placed| staged.model.gone_instances.contains(&placed.id))
         .map(|placed| placed.lights.clone())
         .collect();
-    match scene.update(edits) {
+    match scene.apply(edits) {
         Ok(updated) => {
             assert!(
                 verdicts.iter().all(|verdict| verdict.done),
                 "a wrong edit was done"
             );
-            let mut told = scene.removed_lights().to_vec();
+            let mut told = scene.take_removed_lights();
             told.sort_unstable_by_key(|range| range.start);
             let mut removed = removed;
             removed.sort_unstable_by_key(|range| range.start);
@@ -112,8 +112,8 @@ pub fn edit<N: LightNode<W> + std::fmt::Debug, const W: usize>(
 
 /// A refused batch changes nothing.
 fn assert_same<N: LightNode<W> + std::fmt::Debug, const W: usize>(
-    before: &Scene<N, W>,
-    after: &Scene<N, W>,
+    before: &Bvh<N, (), W>,
+    after: &Bvh<N, (), W>,
     thorough: bool,
 ) {
     fn words<T: bytemuck::NoUninit>(list: &[T]) -> &[u8] {
@@ -139,7 +139,7 @@ fn bit(reason: &EditReason) -> u8 {
         EditReason::Radiance { .. } => wrong::RADIANCE,
         EditReason::Count { .. } => wrong::COUNT,
         EditReason::InUse { .. } => wrong::IN_USE,
-        EditReason::TooMany => 0,
+        _ => 0,
     }
 }
 
@@ -325,7 +325,7 @@ impl Staged {
     }
 
     /// The model, once the scene has given the new ones their ids.
-    fn done<N: LightNode<W>, const W: usize>(self, updated: &Updated, scene: &Scene<N, W>) -> Model {
+    fn done<N: LightNode<W>, const W: usize>(self, updated: &Added, scene: &Bvh<N, (), W>) -> Model {
         let mut model = self.model;
         assert_eq!(updated.meshes.len(), self.meshes.len());
         assert_eq!(updated.instances.len(), self.added.len());

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use lightbvh::{Edit, EmissiveTriangle, InstanceId, LightNode, MeshId, Scene, Transform};
+use lightbvh::{Bvh, Edit, EmissiveTriangle, InstanceId, LightNode, MeshId, Transform};
 
 use super::Ids;
 
@@ -42,12 +42,12 @@ impl Model {
     }
 
     /// A scene built at once, and its instances in the order of the model's.
-    pub fn from_scratch<N: LightNode<W>, const W: usize>(&self) -> (Scene<N, W>, Ids) {
-        let mut scene = Scene::<N, W>::default();
+    pub fn from_scratch<N: LightNode<W>, const W: usize>(&self) -> (Bvh<N, (), W>, Ids) {
+        let mut scene = Bvh::<N, (), W>::default();
         let meshes = self.meshes.iter().map(|mesh| Edit::AddMesh {
             triangles: mesh.triangles.clone(),
         });
-        let added = scene.update(meshes.collect()).expect("meshes of a scene").meshes;
+        let added = scene.apply(meshes.collect()).expect("meshes of a scene").meshes;
         let instances = self.instances.iter().map(|placed| {
             let mesh = self.meshes.iter().position(|mesh| mesh.id == placed.mesh);
             Edit::AddInstance {
@@ -57,7 +57,7 @@ impl Model {
             }
         });
         let added = scene
-            .update(instances.collect())
+            .apply(instances.collect())
             .expect("instances of a scene")
             .instances;
         scene.refit();
@@ -65,7 +65,7 @@ impl Model {
     }
 
     /// The same under the names of another scene.
-    pub fn renamed<N: LightNode<W>, const W: usize>(&mut self, ids: &Ids, scene: &Scene<N, W>) {
+    pub fn renamed<N: LightNode<W>, const W: usize>(&mut self, ids: &Ids, scene: &Bvh<N, (), W>) {
         self.gone_instances.clear();
         for (placed, &id) in self.instances.iter_mut().zip(ids) {
             placed.id = id;
@@ -74,7 +74,7 @@ impl Model {
     }
 
     /// The scene's lights against the exact maps in `f64`.
-    pub fn check_lights<N: LightNode<W>, const W: usize>(&self, scene: &Scene<N, W>) {
+    pub fn check_lights<N: LightNode<W>, const W: usize>(&self, scene: &Bvh<N, (), W>) {
         let world = scene.world_lights();
         for placed in &self.instances {
             let lights = scene.lights_of(placed.id).expect("it lives");
@@ -82,7 +82,7 @@ impl Model {
             let local = self.triangles(placed.mesh);
             assert_eq!(lights.len(), local.len());
             for (light, local) in lights.zip(local) {
-                let found = scene.light(light, placed.id).expect("one of its lights");
+                let found = scene.triangle(light, placed.id.index()).expect("one of its lights");
                 assert_eq!(bytes(&found), bytes(&world[light as usize]));
                 assert_eq!(found.mesh, placed.id.index());
                 assert_eq!(found.flags, local.flags);

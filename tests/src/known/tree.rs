@@ -1,12 +1,12 @@
 //! Answers of a tree: refit pass by pass, samples, pmfs, by the functions that the kernels run or by the kernels.
 
-use bytemuck::{Zeroable, bytes_of};
+use bytemuck::bytes_of;
 use lightbvh::node::kind;
 use lightbvh::refit::{self, BlasRoot};
-use lightbvh::{EmissiveTriangle, INVALID, Instance, LightNode, LightTree, sweep};
+use lightbvh::{EmissiveTriangle, INVALID, Instance, LightNode, SampledLight, sweep};
 use lightbvh_host::vulkan::{Device, Pass};
-use lightbvh_kernels::bvh::{Choice, TreePush};
-use lightbvh_kernels::query::{Query, QueryPush, Sampled, pmf_query, sample_query};
+use lightbvh_kernels::bvh::{Choice, TreeOf, TreePush};
+use lightbvh_kernels::query::{Query, QueryPush, pmf_query, sample_query};
 use lightbvh_kernels::refit::RefitPush;
 
 use super::file::{Answer, File};
@@ -38,7 +38,7 @@ pub struct Tree<N, const W: usize> {
     pub nodes: Vec<N>,
     /// Triangles of the bottom levels.
     pub triangles: Vec<EmissiveTriangle>,
-    /// Of each light, the leaf of the top level that it belongs to.
+    /// Of each light, the leaf of the top level that it belongs to: what is asked of `pmf` beside the light.
     pub meshes_of_lights: Vec<u32>,
     /// Leaves of the top level; empty in a single level.
     pub instances: Vec<Instance>,
@@ -86,15 +86,6 @@ impl<N: LightNode<W>, const W: usize> Tree<N, W> {
         }
     }
 
-    /// The lights as `pmf` takes them: of the world's triangles it reads the mesh alone.
-    fn lights(&self) -> Vec<EmissiveTriangle> {
-        let light = |&mesh: &u32| EmissiveTriangle {
-            mesh,
-            ..EmissiveTriangle::zeroed()
-        };
-        self.meshes_of_lights.iter().map(light).collect()
-    }
-
     fn query_push(&self, queries: &[Query]) -> QueryPush {
         QueryPush {
             count: queries.len() as u32,
@@ -119,7 +110,7 @@ impl<N: LightNode<W>, const W: usize> Tree<N, W> {
         (nodes, roots)
     }
 
-    /// The nodes after a refit by [`sweep`], which `LightBvh` and `Scene` use on the CPU.
+    /// The nodes after a refit by [`sweep`], which `Bvh` uses on the CPU.
     #[must_use]
     pub fn swept(&self) -> Vec<N> {
         let (mut nodes, mut roots) = (self.nodes.clone(), self.roots.clone());
@@ -140,22 +131,19 @@ impl<N: LightNode<W>, const W: usize> Tree<N, W> {
 
     /// The tree over `nodes`, as traversal takes it.
     #[must_use]
-    pub fn tree<'a>(&'a self, nodes: &'a [N]) -> LightTree<'a, N> {
+    pub fn tree<'a, C: Choice<W, Node = N>>(&'a self, nodes: &'a [N]) -> TreeOf<'a, C, W> {
         self.push.tree(nodes, &self.instances, &self.trails)
     }
 
     /// What the CPU samples and evaluates in `nodes`.
     #[must_use]
-    pub fn queried<C: Choice<W, Node = N>>(&self, nodes: &[N]) -> (Vec<Sampled>, Vec<f32>) {
-        let (tree, lights) = (self.tree(nodes), self.lights());
+    pub fn queried<C: Choice<W, Node = N>>(&self, nodes: &[N]) -> (Vec<SampledLight>, Vec<f32>) {
+        let tree = self.tree::<C>(nodes);
         let sampled = self
             .samples
             .iter()
             .map(|query| sample_query::<C, W>(&tree, query));
-        let pmfs = self
-            .pmfs
-            .iter()
-            .map(|query| pmf_query::<C, W>(&tree, &lights, query));
+        let pmfs = self.pmfs.iter().map(|query| pmf_query::<C, W>(&tree, query));
         (sampled.collect(), pmfs.collect())
     }
 
@@ -188,7 +176,7 @@ pub fn answer<C: Choice<W>, const W: usize>(file: &File) -> Vec<Answer> {
 fn answers<N: LightNode<W>, const W: usize>(
     nodes: &[N],
     roots: &[BlasRoot],
-    sampled: &[Sampled],
+    sampled: &[SampledLight],
     pmfs: &[f32],
 ) -> Vec<Answer> {
     vec![
@@ -238,10 +226,11 @@ pub fn answer_on<C: Choice<W>, const W: usize>(device: &Device, file: &File) -> 
     }
 
     let (sample, pmf) = (kernel("sample"), kernel("pmf"));
-    let lights = device.upload(&tree.lights()).expect("an upload");
     let asked = device.upload(&tree.samples).expect("an upload");
     let asked_pmf = device.upload(&tree.pmfs).expect("an upload");
-    let sampled = device.output::<Sampled>(tree.samples.len()).expect("an output");
+    let sampled = device
+        .output::<SampledLight>(tree.samples.len())
+        .expect("an output");
     let pmfs = device.output::<f32>(tree.pmfs.len()).expect("an output");
     let (nodes_and, results) = (
         [nodes.bind(), instances.bind(), trails.bind()],
@@ -251,7 +240,7 @@ pub fn answer_on<C: Choice<W>, const W: usize>(device: &Device, file: &File) -> 
     let bindings = [&nodes_and[..], &[asked.bind(), results[0]]].concat();
     pass.dispatch(&sample, &bindings, bytes_of(&push), push.count);
     let push = tree.query_push(&tree.pmfs);
-    let bindings = [&nodes_and[..], &[lights.bind(), asked_pmf.bind(), results[1]]].concat();
+    let bindings = [&nodes_and[..], &[asked_pmf.bind(), results[1]]].concat();
     pass.dispatch(&pmf, &bindings, bytes_of(&push), push.count);
     device.run(&pass).expect("a run");
     answers(
@@ -264,6 +253,6 @@ pub fn answer_on<C: Choice<W>, const W: usize>(device: &Device, file: &File) -> 
 
 /// A sampled light, unless there is none.
 #[must_use]
-pub fn light_of(sampled: &Sampled) -> Option<u32> {
+pub fn light_of(sampled: &SampledLight) -> Option<u32> {
     (sampled.light != INVALID).then_some(sampled.light)
 }

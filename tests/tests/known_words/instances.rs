@@ -1,8 +1,8 @@
 //! Instances: summaries brought into the world, points brought into the mesh's space, and weights there.
 
 use lightbvh::{
-    CompactNode, Defensive, Eq4, FluxOverDistance, FullNode, ImportanceModel, Instance, LightBounds,
-    LightMoments, LightNode, MomentNode, Moments, Scene, ShadingPoint, Summary, exact,
+    Bvh, CompactNode, Defensive, Eq4, FluxOverDistance, FullNode, ImportanceModel, Instance, LightBounds,
+    LightMoments, LightNode, MomentNode, Moments, ShadingPoint, Summary, exact,
 };
 use lightbvh_tests::edits::{add_instance, add_mesh};
 use lightbvh_tests::generate::{self, Random, extreme_triangle};
@@ -12,7 +12,7 @@ use super::place;
 
 /// Instances of every scale and brightness.
 fn instances(random: &mut Random) -> Vec<Instance> {
-    let mut scene = Scene::<CompactNode<2>, 2>::default();
+    let mut scene = Bvh::<CompactNode<2>, (), 2>::default();
     let mesh = add_mesh(&mut scene, generate::small_triangles(3, 3, 1.0, 0.3, true, 1));
     for _ in 0..200 {
         let mut transform = place(random);

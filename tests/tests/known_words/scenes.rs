@@ -1,7 +1,7 @@
 //! Scenes of moving lights: plans, refits, rebuilds and picks, frame after frame.
 
-use lightbvh::scene::RebuildParams;
-use lightbvh::{CompactNode, Edit, Eq4, FullNode, ImportanceModel, LightNode, MomentNode, Moments, Scene};
+use lightbvh::bvh::RebuildParams;
+use lightbvh::{Bvh, CompactNode, Edit, Eq4, FullNode, ImportanceModel, LightNode, MomentNode, Moments};
 use lightbvh_tests::generate::{self, Random};
 
 use super::digest::Digest;
@@ -10,13 +10,13 @@ use super::place;
 fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) {
     let mut random = Random::new(43);
     let mut digest = Digest::new();
-    let mut scene = Scene::<N, W>::default();
+    let mut scene = Bvh::<N, (), W>::default();
     let mut meshes = Vec::new();
     for i in 0..6 {
         let triangles = generate::small_triangles(30 + i, 100, 2.0, 0.3, i % 2 == 0, i);
         meshes.push((
             scene
-                .update(vec![Edit::AddMesh { triangles }])
+                .apply(vec![Edit::AddMesh { triangles }])
                 .expect("a mesh")
                 .meshes[0],
             30 + i,
@@ -58,7 +58,7 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
             }
         }
         // What is removed was perhaps moved before in the batch; the other way round it would be unknown.
-        ids.extend(scene.update(batch).expect("sound edits").instances);
+        ids.extend(scene.apply(batch).expect("sound edits").instances);
         let work = scene.plan().clone();
         for list in [
             &work.written_nodes,
@@ -98,20 +98,20 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
         .for_each(|word| digest.word(word));
         for _ in 0..30 {
             let point = generate::point(&mut random, 20.0);
-            let sampled = scene.sample::<I>(&point, random.bits());
+            let sampled = scene.by::<I>().sample(&point, random.bits());
             digest.word(sampled.light);
             digest.float(sampled.pmf);
         }
         let world = scene.world_lights();
         for &id in &ids {
             for light in scene.lights_of(id).expect("it is there") {
-                assert_eq!(scene.light(light, id), Some(world[light as usize]));
+                assert_eq!(scene.triangle(light, id.index()), Some(world[light as usize]));
             }
         }
         for &id in &ids {
             let lights = scene.lights_of(id).expect("it is there");
             let point = generate::point(&mut random, 20.0);
-            digest.float(scene.pmf::<I>(&point, lights.start + frame % 30, id));
+            digest.float(scene.by::<I>().pmf(&point, lights.start + frame % 30, id.index()));
         }
         if frame % 4 == 3 {
             let rebuilt = scene
@@ -120,7 +120,7 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
                     drift: 1.1,
                 })
                 .run();
-            scene.adopt(rebuilt);
+            scene.install(rebuilt).expect("its own");
         }
     }
     digest.is(known, N::NAME);

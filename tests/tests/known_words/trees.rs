@@ -2,11 +2,12 @@
 
 use lightbvh::build::Effort;
 use lightbvh::{
-    BuildParams, CompactNode, Defensive, EmissiveTriangle, Eq4, FluxOverDistance, FullNode, Heuristic,
-    ImportanceModel, LightBvh, LightNode, Lights, MomentNode, Moments, Random64, SampledLight, ShadingPoint,
-    exact,
+    BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, FluxOverDistance, FullNode, Heuristic,
+    ImportanceModel, LightNode, Lights, MomentNode, Moments, Random64, SampledLight, ShadingPoint, exact,
 };
 use lightbvh_tests::generate::{self, Random, extreme_triangle, moved, split};
+
+use lightbvh_tests::oracle::pmf_of;
 
 use super::digest::Digest;
 
@@ -62,7 +63,7 @@ fn points() -> Vec<ShadingPoint> {
     points
 }
 
-fn tree<N: LightNode<W>, const W: usize>(digest: &mut Digest, bvh: &LightBvh<N, W>) {
+fn tree<N: LightNode<W>, const W: usize>(digest: &mut Digest, bvh: &Bvh<N, (), W>) {
     let tree = bvh.tree();
     digest.words(tree.nodes);
     digest.words(tree.instances);
@@ -75,11 +76,11 @@ fn tree<N: LightNode<W>, const W: usize>(digest: &mut Digest, bvh: &LightBvh<N, 
         tree.lights,
         bvh.depth(),
         bvh.bytes() as u32,
-        bvh.refit_bytes() as u32,
     ]
     .into_iter()
     .for_each(|word| digest.word(word));
-    for levels in [bvh.bottom_levels(), bvh.top_levels()] {
+    let plan = bvh.plan_of_everything();
+    for levels in [&plan.bottom, &plan.top] {
         digest.words(levels.nodes());
         levels.ranges().for_each(|range| digest.word(range.end as u32));
     }
@@ -88,7 +89,7 @@ fn tree<N: LightNode<W>, const W: usize>(digest: &mut Digest, bvh: &LightBvh<N, 
 
 fn picks<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     digest: &mut Digest,
-    bvh: &LightBvh<N, W>,
+    bvh: &Bvh<N, (), W>,
     lights: &Lights,
 ) {
     let mut random = Random::new(29);
@@ -98,17 +99,17 @@ fn picks<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
             low: random.bits(),
         });
         let mut sampled = [SampledLight::NONE; 6];
-        bvh.sample_batch::<I>(&[point; 6], &numbers, &mut sampled);
+        bvh.by::<I>().sample_batch(&[point; 6], &numbers, &mut sampled);
         for (number, sampled) in numbers.into_iter().zip(sampled) {
-            assert_eq!(bvh.sample::<I>(&point, number), sampled);
+            assert_eq!(bvh.by::<I>().sample(&point, number), sampled);
             digest.word(sampled.light);
             digest.float(sampled.pmf);
         }
-        let sampled = bvh.sample::<I>(&point, random.bits());
+        let sampled = bvh.by::<I>().sample(&point, random.bits());
         digest.word(sampled.light);
         for _ in 0..6 {
             let light = random.below(lights.triangles().len() as u32);
-            digest.float(bvh.pmf::<I>(lights, &point, light));
+            digest.float(pmf_of::<_, I, _>(bvh, lights, &point, light));
         }
     }
 }
@@ -132,16 +133,16 @@ fn bvh<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: [u64; 3
             };
             for two in [false, true] {
                 let mut bvh = if two {
-                    LightBvh::<N, W>::two_level(&lights, &params)
+                    Bvh::<N, (), W>::two_level(&lights, &params)
                 } else {
-                    LightBvh::<N, W>::single_level(&lights, &params)
+                    Bvh::<N, (), W>::single_level(&lights, &params)
                 };
                 tree(&mut built, &bvh);
                 if buckets != 16 {
                     continue;
                 }
                 picks::<N, I, W>(&mut picked, &bvh, &lights);
-                bvh.refit(&later);
+                bvh.follow(&later).expect("as many lights");
                 tree(&mut refitted, &bvh);
                 picks::<N, I, W>(&mut picked, &bvh, &later);
                 picks::<N, FluxOverDistance, W>(&mut picked, &bvh, &later);

@@ -1,12 +1,12 @@
 //! Small worlds, paths in them by every way of finding lights, and comparisons of their means.
 
 use glam::Vec3;
-use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, ShadingPoint, exact};
+use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, SampledLight, ShadingPoint, exact};
 use lightbvh_host::render::{RayBvh, power_thresholds};
 use lightbvh_kernels::bvh::{Node, Standard, TreeOf, WIDTH};
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::path::path_radiance;
-use lightbvh_kernels::shading::pick::{PickLight, Picked, Power, Uniform};
+use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use lightbvh_kernels::shading::pixel::Scene;
 use lightbvh_kernels::shading::ray::Ray;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
@@ -22,9 +22,10 @@ pub const RENDERER_ERROR: f64 = 1e-3;
 pub struct Nothing;
 
 impl PickLight for Nothing {
-    fn pick(&self, _point: &ShadingPoint, _random: u32) -> Picked {
-        Picked {
+    fn pick(&self, _point: &ShadingPoint, _random: u32) -> SampledLight {
+        SampledLight {
             light: NONE,
+            instance: NONE,
             pmf: 0.0,
         }
     }
@@ -110,8 +111,8 @@ impl World {
         let power = Power {
             thresholds: &thresholds,
         };
-        let one = LightBvh::<Node, WIDTH>::single_level(&lights, &BuildParams::default());
-        let two = LightBvh::<Node, WIDTH>::two_level(&lights, &BuildParams::default());
+        let one = LightBvh::single_level(&lights, &BuildParams::default());
+        let two = LightBvh::two_level(&lights, &BuildParams::default());
         let [one, two] = [&one, &two].map(|bvh| bvh.tree());
         vec![
             ("uniform", self.paths(&uniform, ray, 0.0, bounces, count)),

@@ -130,7 +130,7 @@ fn swapping(world: &mut World, change: Change, changed: u32) -> [Spread; 3] {
         rebuild.push(timed(|| built = Some(world.scene.rebuild(&params).run())));
         let edits = world.edits(change, changed, (WARM + FRAMES + frame) as u32);
         swap.push(timed(|| {
-            for built in built {
+            if let Some(built) = built {
                 world.scene.install(built).expect("of the same light BVH");
             }
         }));

@@ -84,7 +84,7 @@ pub fn image() -> (&'static str, Vec<Table>) {
         forward: [0.0, -0.2, -0.98],
         yfov: 0.9,
     };
-    let bvh = LightBvh::<Node, WIDTH>::two_level(&lights, &BuildParams::default());
+    let bvh = LightBvh::two_level(&lights, &BuildParams::default());
     let tree = bvh.tree();
     let params = RenderParams {
         width: SIZE,

@@ -176,7 +176,7 @@ fn exponential() -> Vec<EmissiveTriangle> {
 /// Links every inner child to the next node of a ring, so that no walk would end by itself.
 pub(super) fn hostile<N: LightNode<W>, I, const W: usize>(bvh: &mut Bvh<N, I, W>) {
     let count = bvh.nodes().len() as u32;
-    for (i, node) in (0u32..).zip(bvh.nodes_mut()) {
+    for (i, node) in (0u32..).zip(bvh.parts_mut().nodes) {
         for slot in 0..W {
             // Summaries stay as they are, so that the children keep their weights.
             if node.kind(slot) != kind::EMPTY {

@@ -1,15 +1,13 @@
 //! That a wrong word is found and named, whatever it is of: the CPU stands in for a device, with one bit of it turned.
 
-use lightbvh::{BuildParams, Heuristic, Lights};
+use lightbvh::{BuildParams, Heuristic, Lights, SampledLight};
 use lightbvh_kernels::bvh::Paper;
-use lightbvh_kernels::query::Sampled;
 use lightbvh_kernels::render::RenderParams;
 
 use super::*;
-use crate::backend::{Bvh, CpuBackend, Sampler, Timed};
+use crate::backend::{BackendError, Bvh, CpuBackend, Sampler, Timed};
 use crate::compare::Record;
 use crate::method::{History, UpdateTimes};
-use crate::vulkan::VulkanError;
 use crate::workload::build;
 
 /// A method whose results are right at its first frame, and then but for one bit of the middle word of what is `wrong`.
@@ -77,23 +75,23 @@ impl Backend for CorruptBackend {
         self.inner.node_record()
     }
 
-    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, VulkanError> {
+    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, BackendError> {
         self.inner.refit(lights)
     }
 
-    fn nodes(&mut self) -> Result<Vec<u32>, VulkanError> {
+    fn nodes(&mut self) -> Result<Vec<u32>, BackendError> {
         let mut nodes = self.inner.nodes()?;
         turn(Kind::Nodes, self.wrong, &mut nodes);
         Ok(nodes)
     }
 
-    fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<Sampled>>, VulkanError> {
+    fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<SampledLight>>, BackendError> {
         let mut sampled = self.inner.sample(queries)?;
         turn(Kind::Samples, self.wrong, &mut sampled.value);
         Ok(sampled)
     }
 
-    fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, VulkanError> {
+    fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, BackendError> {
         let mut pmfs = self.inner.pmf(queries)?;
         turn(Kind::Pmfs, self.wrong, &mut pmfs.value);
         Ok(pmfs)
@@ -104,7 +102,7 @@ impl Backend for CorruptBackend {
         scene: &SceneArrays,
         params: &RenderParams,
         sampler: Sampler,
-    ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
+    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
         self.inner.render(scene, params, sampler)
     }
 
@@ -114,7 +112,7 @@ impl Backend for CorruptBackend {
         params: &RenderParams,
         bounces: u32,
         sampler: Sampler,
-    ) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
+    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
         self.inner.render_path(scene, params, bounces, sampler)
     }
 }
@@ -139,7 +137,7 @@ fn found(method: Method, wrong: Option<Kind>) -> Tally {
                 let corrupt = Corrupt {
                     inner: runner(method, &step, Target::Cpu).expect("a runner"),
                     backend: CorruptBackend {
-                        inner: CpuBackend::new(bvh, step.lights.clone()),
+                        inner: CpuBackend::new(bvh),
                         wrong: None,
                     },
                     then: wrong,

@@ -1,6 +1,6 @@
 //! Trees that the builders make: the domain's ends, meshes in the world.
 
-use lightbvh::{BuildParams, EmissiveTriangle, LightBounds, LightBvh, LightNode, Lights, exact};
+use lightbvh::{BuildParams, Bvh, EmissiveTriangle, LightBounds, LightNode, Lights, exact};
 
 use super::links::of_bvh;
 use crate::generate::{Random, extreme_triangle, log_uniform, small_triangles};
@@ -35,7 +35,7 @@ pub(super) fn extremes<N: LightNode<W>, const W: usize>(random: &mut Random) -> 
     triangles[2].p = [[0.0; 3], [edge, 0.0, 0.0], [0.0, 0.0, edge]];
     triangles[2].radiance = [exact::pow2(100); 3];
     let lights = checked(triangles);
-    of_bvh(&LightBvh::single_level(&lights, &BuildParams::default()), &lights)
+    of_bvh(&Bvh::single_level(&lights, &BuildParams::default()), &lights)
 }
 
 pub(super) fn two_levels<N: LightNode<W>, const W: usize>(random: &mut Random) -> Tree<N, W> {
@@ -46,5 +46,5 @@ pub(super) fn two_levels<N: LightNode<W>, const W: usize>(random: &mut Random) -
         triangle.radiance = triangle.radiance.map(|x| x * factor);
     }
     let lights = checked(triangles);
-    of_bvh(&LightBvh::two_level(&lights, &BuildParams::default()), &lights)
+    of_bvh(&Bvh::two_level(&lights, &BuildParams::default()), &lights)
 }

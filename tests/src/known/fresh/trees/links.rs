@@ -2,14 +2,14 @@
 
 use bytemuck::Zeroable;
 use lightbvh::refit::BlasRoot;
-use lightbvh::{LightBvh, LightNode, Lights};
+use lightbvh::{Bvh, LightNode, Lights};
 use lightbvh_kernels::bvh::TreePush;
 
 use super::passes::passes_of;
 use crate::known::tree::Tree;
 
 /// The arrays of a built tree, without summaries.
-pub(super) fn of_bvh<N: LightNode<W>, const W: usize>(bvh: &LightBvh<N, W>, lights: &Lights) -> Tree<N, W> {
+pub(super) fn of_bvh<N: LightNode<W>, const W: usize>(bvh: &Bvh<N, (), W>, lights: &Lights) -> Tree<N, W> {
     let tree = bvh.tree();
     let roots = links_of_roots(bvh.roots());
     Tree {
@@ -17,7 +17,7 @@ pub(super) fn of_bvh<N: LightNode<W>, const W: usize>(bvh: &LightBvh<N, W>, ligh
         triangles: lights.triangles().to_vec(),
         meshes_of_lights: lights.triangles().iter().map(|t| t.mesh).collect(),
         instances: tree.instances.to_vec(),
-        passes: passes_of(tree.nodes, &roots, tree.root, bvh.is_two_level()),
+        passes: passes_of(tree.nodes, &roots, tree.root, !bvh.is_single_level()),
         roots,
         trails: tree.trails.to_vec(),
         push: TreePush::of(&tree),

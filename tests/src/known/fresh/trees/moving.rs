@@ -1,6 +1,6 @@
 //! Moving lights: instances of every kind of transform and brightness.
 
-use lightbvh::{CompactNode, Edit, Instance, LightNode, Scene, exact};
+use lightbvh::{Bvh, CompactNode, Edit, Instance, LightNode, exact};
 use lightbvh_kernels::bvh::TreePush;
 
 use super::links::{links_of_nodes, links_of_roots};
@@ -10,8 +10,8 @@ use crate::known::tree::Tree;
 use crate::placing::{Kind, transform};
 
 /// A scene of four meshes and instances of every kind of transform and brightness.
-fn moving<N: LightNode<W>, const W: usize>(random: &mut Random) -> Scene<N, W> {
-    let mut scene = Scene::default();
+fn moving<N: LightNode<W>, const W: usize>(random: &mut Random) -> Bvh<N, (), W> {
+    let mut scene = Bvh::default();
     let add = |random: &mut Random, count: u32| {
         let mut triangles = small_triangles(count, count, 2.0, 0.4, false, random.bits());
         for (i, triangle) in triangles.iter_mut().enumerate() {
@@ -21,7 +21,7 @@ fn moving<N: LightNode<W>, const W: usize>(random: &mut Random) -> Scene<N, W> {
         Edit::AddMesh { triangles }
     };
     let meshes = [1, 5, 9, 14].map(|count| add(random, count)).to_vec();
-    let meshes = scene.update(meshes).expect("sound meshes").meshes;
+    let meshes = scene.apply(meshes).expect("sound meshes").meshes;
     let mut edits = Vec::new();
     let kinds = [
         Kind::Rigid,
@@ -52,7 +52,7 @@ fn moving<N: LightNode<W>, const W: usize>(random: &mut Random) -> Scene<N, W> {
             radiance,
         });
     }
-    scene.update(edits).expect("sound instances");
+    scene.apply(edits).expect("sound instances");
     scene
 }
 

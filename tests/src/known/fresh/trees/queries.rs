@@ -1,6 +1,6 @@
 //! What is asked of a tree: points, random numbers, lights.
 
-use lightbvh::{LightNode, ShadingPoint, Summary, exact};
+use lightbvh::{INVALID, LightNode, Random64, ShadingPoint, Summary, exact};
 use lightbvh_kernels::bvh::Choice;
 use lightbvh_kernels::query::Query;
 
@@ -82,9 +82,10 @@ pub(super) fn ask<C: Choice<W>, const W: usize>(tree: &mut Tree<C::Node, W>, ran
             } else {
                 random.bits()
             };
+            let number = Random64::from(number);
             tree.samples.push(Query {
                 point,
-                random_or_light: number,
+                words: [number.high, number.low],
             });
         }
     }
@@ -98,8 +99,9 @@ pub(super) fn ask<C: Choice<W>, const W: usize>(tree: &mut Tree<C::Node, W>, ran
         } else {
             light_of(sampled).unwrap_or(other)
         };
+        let mesh = tree.meshes_of_lights[light as usize];
         let asked = Query {
-            random_or_light: light,
+            words: [light, if tree.push.live > 0 { mesh } else { INVALID }],
             ..*query
         };
         if !tree.pmfs.contains(&asked) {
