@@ -23,38 +23,43 @@
 //! | [`traverse`] | sampling, and the probability of any light |
 //! | [`instance`] | leaves of the top level with a space of their own |
 //! | [`reservoir`] | resampling of light samples, over candidates and over other reservoirs (ReSTIR) |
-//! | `lights`, `build`, `bvh`, `validate` (feature `alloc`) | checked input, builders, owned trees, invariants |
-//! | `scene`, `transform` (feature `alloc`) | moving lights: edits, instances, refit of what changed, rebuilds |
+//! | `bvh`, `transform` (feature `alloc`) | the light BVH that owns its arrays: edits, instances, refit of what changed, rebuilds |
+//! | `lights`, `build`, `validate` (feature `alloc`) | lights that stand in the world, builders, invariants |
 //! | `rebuilder` (feature `std`) | rebuilds on a thread beside the frame |
 //!
 #![cfg_attr(
-    feature = "alloc",
+    feature = "std",
     doc = r#"
 ```
-use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, MomentNode, Moments, ShadingPoint};
+use lightbvh::{EmissiveTriangle, LightBvh, Rebuilder, ShadingPoint, Transform};
 
-// A thousand small lamps in a row, each a mesh light of one triangle that shines down.
-let lamp = |i: u32| {
-    let x = i as f32;
-    EmissiveTriangle {
-        p: [[x, 3.0, 0.0], [x + 0.1, 3.0, 0.0], [x, 3.0, 0.1]],
-        radiance: [10.0, 8.0, 5.0],
-        mesh: i,
-        flags: 0,
-    }
+// A lamp of one triangle that shines down: vertices in metres, radiance in W/(m² sr).
+let lamp = EmissiveTriangle {
+    p: [[0.0, 3.0, 0.0], [0.1, 3.0, 0.0], [0.0, 3.0, 0.1]],
+    radiance: [9.0; 3],
+    mesh: 0,
+    flags: 0,
 };
-let lights = Lights::new((0..1000).map(lamp).collect())?;
-let bvh = LightBvh::<MomentNode<8>, 8>::two_level(&lights, &BuildParams::default());
+let mut bvh = LightBvh::default();
+let mesh = bvh.add_mesh(vec![lamp])?;                                    // validated once
+let lamps = (0..100)
+    .map(|i| bvh.add_instance(mesh, Transform::at([i as f32, 0.0, 0.0])))
+    .collect::<Result<Vec<_>, _>>()?;
+let mut rebuilder = Rebuilder::default();
+for frame in 0..3 {
+    rebuilder.begin_frame(&mut bvh)?;                                    // swaps in what was built beside the last frame
+    bvh.set_transform(lamps[7], Transform::at([7.0, frame as f32, 0.0]))?; // or many edits at once: bvh.apply(edits)
+    bvh.refit();                                                         // what the edits touch; or on a device, by bvh.plan()
+    rebuilder.end_frame(&bvh);
 
-// One light for a point on the floor, chosen by 32 random bits.
-let floor = ShadingPoint { p: [500.0, 0.0, 0.0], n: [0.0, 1.0, 0.0] };
-let sampled = bvh.sample::<Moments>(&floor, 0x1234_5678_u32);
-assert!(sampled.pmf > 0.0);
-
-// The probability of any light is known, and to the bit the one it was sampled with.
-let pmf = bvh.pmf::<Moments>(&lights, &floor, sampled.light);
-assert_eq!(sampled.pmf.to_bits(), pmf.to_bits());
-# Ok::<(), lightbvh::LightsError>(())
+    let point = ShadingPoint { p: [5.0, 0.0, 0.0], n: [0.0, 1.0, 0.0] };
+    let sampled = bvh.sample(&point, 0x1234_5678_u32);                   // a light, its instance, its exact probability
+    let pmf = bvh.pmf(&point, sampled.light, sampled.instance);
+    assert_eq!(sampled.pmf.to_bits(), pmf.to_bits());
+    let triangle = bvh.triangle(sampled.light, sampled.instance);        // in the world
+    assert!(triangle.is_some());
+}
+# Ok::<(), Box<dyn std::error::Error>>(())
 ```
 "#
 )]
@@ -137,3 +142,8 @@ pub use point::{PointError, ShadingPoint};
 pub use summary::Summary;
 pub use traverse::{Random64, SampledLight};
 pub use tree::{INVALID, LightTree};
+
+/// The snippets of the first page, compiled and run.
+#[cfg(all(doctest, feature = "std"))]
+#[doc = include_str!("../../README.md")]
+struct FirstPage;

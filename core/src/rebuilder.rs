@@ -6,19 +6,18 @@
 //! and refitted as ever.
 //!
 //! ```
-//! # use lightbvh::{CompactNode, Edit, EmissiveTriangle, Rebuilder, RebuilderParams, Bvh, Transform};
+//! # use lightbvh::{EmissiveTriangle, LightBvh, Rebuilder, RebuilderParams, Transform};
 //! # let lamp = EmissiveTriangle { p: [[0.0, 3.0, 0.0], [0.1, 3.0, 0.0], [0.0, 3.0, 0.1]], radiance: [1.0; 3], mesh: 0, flags: 0 };
-//! let mut scene = Bvh::<CompactNode<4>, crate::Eq4, 4>::default();
-//! let mesh = scene.apply(vec![Edit::AddMesh { triangles: vec![lamp] }])?.meshes[0];
+//! let mut bvh = LightBvh::default();
+//! let mesh = bvh.add_mesh(vec![lamp])?;
 //! let mut rebuilder = Rebuilder::new(RebuilderParams::default());
 //! for frame in 0..3 {
-//!     let start = rebuilder.begin_frame(&mut scene)?;
+//!     let start = rebuilder.begin_frame(&mut bvh)?;
 //!     assert_eq!(start.swapped, frame > 0);
-//!     let transform = Transform::at([frame as f32, 0.0, 0.0]);
-//!     scene.apply(vec![Edit::AddInstance { mesh, transform, radiance: 1.0 }])?;
-//!     scene.refit();
-//!     rebuilder.end_frame(&scene);
-//!     // Sample the scene here, while the next top level is built.
+//!     bvh.add_instance(mesh, Transform::at([frame as f32, 0.0, 0.0]))?;
+//!     bvh.refit();
+//!     rebuilder.end_frame(&bvh);
+//!     // Sample here, while the next top level is built.
 //! }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -137,6 +136,12 @@ struct Flight<N, const W: usize> {
     bottoms: BTreeSet<u32>,
     /// The result, where it was built at once.
     inline: Option<Built<N, W>>,
+}
+
+impl<N: LightNode<W>, const W: usize> Default for Rebuilder<N, W> {
+    fn default() -> Self {
+        Self::new(RebuilderParams::default())
+    }
 }
 
 impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {

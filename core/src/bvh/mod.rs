@@ -22,6 +22,7 @@ mod blas;
 mod check;
 mod construct;
 mod edit;
+mod one;
 mod ranges;
 mod rebuild;
 mod refit;

@@ -157,18 +157,18 @@ fn bvh<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: [u64; 3
 #[test]
 fn compact_nodes() {
     bvh::<CompactNode<2>, Eq4, 2>([
-        0x269c_0869_a331_ba9b,
-        0x300d_1af6_4021_7b66,
+        0x2de6_0769_4535_81d5,
+        0x04af_64f7_5214_7907,
         0x0388_23c6_e9ba_d285,
     ]);
     bvh::<CompactNode<4>, Eq4, 4>([
-        0x8cd8_0f86_49d5_49b3,
-        0xc0ec_569f_69e1_cee5,
+        0xc7f5_fdb8_6e13_df1b,
+        0xea0b_869c_3c91_1e71,
         0xafae_d1a5_adbd_fa4c,
     ]);
     bvh::<CompactNode<16>, Defensive<Eq4, 5>, 16>([
-        0x72ab_f0f4_08ff_2bb8,
-        0x4d40_fbda_8485_c221,
+        0xef4d_15a4_c52f_1809,
+        0xa27d_7087_6358_8d17,
         0xe05a_6a04_fddf_6d0c,
     ]);
 }
@@ -176,13 +176,13 @@ fn compact_nodes() {
 #[test]
 fn full_nodes() {
     bvh::<FullNode<2>, Eq4, 2>([
-        0xdf59_c44c_5221_0236,
-        0x9fce_9468_9956_5df5,
+        0x910f_7f1a_47a5_45d8,
+        0xfb49_5ff1_426e_facf,
         0x6e39_ddc4_23c0_6ca5,
     ]);
     bvh::<FullNode<8>, Eq4, 8>([
-        0xa3b4_7cc1_aae0_eaa6,
-        0xf97d_154a_c64e_47fa,
+        0x0dc1_b338_9b78_9708,
+        0x5df7_d8a2_146f_c794,
         0xb0c3_c4d2_5004_60d0,
     ]);
 }
@@ -190,13 +190,13 @@ fn full_nodes() {
 #[test]
 fn moment_nodes() {
     bvh::<MomentNode<4>, Moments, 4>([
-        0x824c_a966_db9c_c60c,
-        0xb379_fff3_28f7_1b47,
-        0x6e96_76a3_63ee_1b47,
+        0xf31c_89e1_0209_fd16,
+        0xa593_07d9_2af8_2c8f,
+        0xf869_a053_4ab2_5673,
     ]);
     bvh::<MomentNode<8>, Defensive<Moments, 6>, 8>([
-        0xef4d_5e8f_a9f9_91e6,
-        0x96bc_381c_caa6_f9ff,
+        0xb6bb_e740_5249_771a,
+        0xe958_0470_9ae7_e6a1,
         0xe4a5_0810_372d_ee6c,
     ]);
 }

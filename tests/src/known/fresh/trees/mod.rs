@@ -122,12 +122,12 @@ fn tables<N: LightNode<W>, const W: usize>(tree: &Tree<N, W>) -> Vec<Table> {
         ),
         Table::new(
             "sample",
-            "p[3] n[3] random -> light (ffffffff for none), pmf",
-            7,
-            2,
+            "p[3] n[3] number, its high word first -> light (ffffffff for none), instance, pmf",
+            8,
+            3,
             &words(&tree.samples),
         ),
-        Table::new("pmf", "p[3] n[3] light -> pmf", 7, 1, &words(&tree.pmfs)),
+        Table::new("pmf", "p[3] n[3] light instance -> pmf", 8, 1, &words(&tree.pmfs)),
     ]);
     out
 }

@@ -1,0 +1,54 @@
+//! Lamps that come, move, flicker and go, with the top level rebuilt beside the frame.
+//!
+//! `cargo run -p lightbvh --features std --example moving_lights` (seconds)
+
+use lightbvh::{Edit, EmissiveTriangle, LightBvh, Rebuilder, ShadingPoint, Transform};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let lamp = EmissiveTriangle {
+        p: [[0.0, 3.0, 0.0], [0.03, 3.0, 0.0], [0.0, 3.0, 0.03]],
+        radiance: [900.0; 3],
+        mesh: 0,
+        flags: 0,
+    };
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(vec![lamp])?;
+    let mut lamps = Vec::new();
+    let mut rebuilder = Rebuilder::default();
+    let point = ShadingPoint {
+        p: [10.0, 0.0, 0.0],
+        n: [0.0, 1.0, 0.0],
+    };
+    for frame in 0..60_u16 {
+        let start = rebuilder.begin_frame(&mut bvh)?;
+        let at = |x: u16| Transform::at([f32::from(x), 0.0, f32::from(frame) * 0.1]);
+        // A batch is done whole or not at all.
+        let mut edits: Vec<Edit> = (0..)
+            .zip(&lamps)
+            .map(|(k, &instance)| Edit::SetTransform { instance, transform: at(k) })
+            .collect();
+        edits.push(Edit::AddInstance { mesh, transform: at(frame), radiance: 1.0 });
+        if lamps.len() > 20 {
+            edits.push(Edit::RemoveInstance(lamps.remove(0)));
+        }
+        lamps.extend(bvh.apply(edits)?.instances);
+        bvh.refit();
+        rebuilder.end_frame(&bvh);
+
+        let sampled = bvh.sample(&point, u32::from(frame) * 0x0431_bde8);
+        // What a temporal method forgets before the next frame.
+        let gone = bvh.take_removed_lights();
+        if frame % 20 == 19 {
+            println!(
+                "frame {frame}: {} lamps, rebuilt {}, {} gone, light {} with probability {:.3}",
+                bvh.light_count(),
+                start.swapped,
+                gone.len(),
+                sampled.light,
+                sampled.pmf
+            );
+        }
+    }
+    bvh.validate()?;
+    Ok(())
+}
