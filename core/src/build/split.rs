@@ -190,3 +190,6 @@ fn partition(range: &mut [Primitive], is_left: impl Fn(&Primitive) -> bool) -> u
     }
     i
 }
+
+#[cfg(test)]
+mod tests;

@@ -26,6 +26,8 @@ mod one;
 mod ranges;
 mod rebuild;
 mod refit;
+#[cfg(test)]
+mod tests;
 mod top;
 mod validate;
 

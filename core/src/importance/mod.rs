@@ -6,6 +6,8 @@
 mod eq4;
 mod flux;
 mod moments;
+#[cfg(test)]
+mod tests;
 
 pub use eq4::{Cluster, Eq4};
 pub use flux::FluxOverDistance;

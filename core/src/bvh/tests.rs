@@ -1,0 +1,121 @@
+//! Variance of one sample on a small scene, exactly: all lights with their pmfs.
+
+extern crate std;
+
+use std::vec::Vec;
+
+use super::Bvh;
+use crate::build::{BuildParams, Heuristic};
+use crate::exact::{hash, unit_f32};
+use crate::importance::{Eq4, ImportanceModel, Moments};
+use crate::node::{CompactNode, LightNode, MomentNode};
+use crate::{EmissiveTriangle, INVALID, Lights, ShadingPoint};
+
+struct Random(u32);
+
+impl Random {
+    fn signed(&mut self) -> f32 {
+        self.0 = self.0.wrapping_add(1);
+        2.0 * unit_f32(hash(self.0)) - 1.0
+    }
+
+    fn vector(&mut self) -> [f32; 3] {
+        [self.signed(), self.signed(), self.signed()]
+    }
+}
+
+type Wide = [f64; 3];
+
+fn minus(a: Wide, b: Wide) -> Wide {
+    [0, 1, 2].map(|k| a[k] - b[k])
+}
+
+fn dot(a: Wide, b: Wide) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: Wide, b: Wide) -> Wide {
+    [0, 1, 2].map(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3])
+}
+
+/// 300 triangles of up to half a metre in a room of 10 m, 20 points among them with normals of any direction.
+fn scene() -> (Lights, Vec<ShadingPoint>) {
+    let random = &mut Random(1);
+    let triangle = |_| {
+        let at = random.vector().map(|x| 5.0 * x);
+        let [b, c] = [0; 2].map(|_| random.vector().map(|x| 0.5 * x));
+        EmissiveTriangle {
+            p: [
+                at,
+                [0, 1, 2].map(|k| at[k] + b[k]),
+                [0, 1, 2].map(|k| at[k] + c[k]),
+            ],
+            radiance: [1.1 + random.signed(); 3],
+            mesh: 0,
+            flags: 0,
+        }
+    };
+    let lights = Lights::new((0..300).map(triangle).collect()).expect("within the domain");
+    let point = |_| {
+        let n = random.vector();
+        let wide = n.map(f64::from);
+        let length = dot(wide, wide).sqrt();
+        ShadingPoint {
+            p: random.vector().map(|x| 5.0 * x),
+            n: wide.map(|x| (x / length) as f32),
+        }
+    };
+    (lights, (0..20).map(point).collect())
+}
+
+/// What a triangle sends to a point, from its centroid, unshadowed.
+fn sent(triangle: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
+    let p = triangle.p.map(|v| v.map(f64::from));
+    let center = [0, 1, 2].map(|k| (p[0][k] + p[1][k] + p[2][k]) / 3.0);
+    // As long as twice the area.
+    let across = cross(minus(p[1], p[0]), minus(p[2], p[0]));
+    let v = minus(center, point.p.map(f64::from));
+    let d2 = dot(v, v);
+    let received = dot(point.n.map(f64::from), v).max(0.0);
+    let emitted = (-dot(across, v)).max(0.0) / 2.0;
+    f64::from(triangle.radiance[0]) * received * emitted / (d2 * d2)
+}
+
+/// Relative variance of one sample, Σ f²/p / (Σ f)² − 1: the mean over the points.
+fn variance<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(params: &BuildParams) -> f64 {
+    let (lights, points) = scene();
+    let bvh = Bvh::<N, I, W>::single_level(&lights, params);
+    let at = |point: &ShadingPoint| {
+        let (mut sum, mut squares, mut pmfs) = (0.0, 0.0, 0.0);
+        for (light, triangle) in (0..).zip(lights.triangles()) {
+            let f = sent(triangle, point);
+            let pmf = f64::from(bvh.pmf(point, light, INVALID));
+            sum += f;
+            squares += f * f / pmf;
+            pmfs += pmf;
+        }
+        assert!((pmfs - 1.0).abs() < 1e-5, "{pmfs} at {point:?}");
+        squares / (sum * sum) - 1.0
+    };
+    points.iter().map(at).sum::<f64>() / points.len() as f64
+}
+
+#[track_caller]
+fn about(found: f64, known: f64) {
+    assert!((found / known - 1.0).abs() < 0.1, "{found}, known {known}");
+}
+
+/// What was seen, with a tenth either way: less is a better importance or tree, whose variance is then the one to state.
+#[test]
+fn variance_of_moments() {
+    about(
+        variance::<MomentNode<8>, Moments, 8>(&BuildParams::BALANCED),
+        0.728,
+    );
+}
+
+#[test]
+fn variance_of_eq_4() {
+    let params = BuildParams::paper(Heuristic::Saoh);
+    about(variance::<CompactNode<4>, Eq4, 4>(&params), 2.436);
+}

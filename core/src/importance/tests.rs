@@ -1,0 +1,86 @@
+//! Importances against their formulas in `f64`.
+//!
+//! What is compared is the weight of a child over that of a sibling whose weight the formula gives at sight: the scale that
+//! the children of a node share cancels.
+
+mod eq4;
+mod flux;
+mod moments;
+
+use glam::Vec3;
+
+use crate::exact::{hash, pow2, unit_f32};
+
+struct Random(u32);
+
+impl Random {
+    fn unit(&mut self) -> f32 {
+        self.0 = self.0.wrapping_add(1);
+        unit_f32(hash(self.0))
+    }
+
+    fn below(&mut self, count: u32) -> u32 {
+        (self.unit() * count as f32) as u32
+    }
+
+    fn vector(&mut self) -> Vec3 {
+        let mut signed = || 2.0 * self.unit() - 1.0;
+        Vec3::new(signed(), signed(), signed())
+    }
+
+    /// Half extents of about `size`.
+    fn extents(&mut self, size: f32) -> Vec3 {
+        Vec3::new(self.unit(), self.unit(), self.unit()) * size
+    }
+
+    fn direction(&mut self) -> Vec3 {
+        loop {
+            let v = wide(self.vector());
+            if (0.01..=1.0).contains(&dot(v, v)) {
+                return narrow(normalize(v));
+            }
+        }
+    }
+
+    /// From 2^`low` to 2^`high`, as often in each octave.
+    fn power(&mut self, low: i32, high: i32) -> f32 {
+        let octave = low + self.below((high - low) as u32) as i32;
+        pow2(octave) * (1.0 + self.unit())
+    }
+}
+
+/// A vector in `f64`.
+type Wide = [f64; 3];
+
+fn wide(v: Vec3) -> Wide {
+    v.to_array().map(f64::from)
+}
+
+fn narrow(v: Wide) -> Vec3 {
+    Vec3::from_array(v.map(|x| x as f32))
+}
+
+fn dot(a: Wide, b: Wide) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn minus(a: Wide, b: Wide) -> Wide {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn times(a: Wide, by: f64) -> Wide {
+    a.map(|x| x * by)
+}
+
+fn normalize(v: Wide) -> Wide {
+    times(v, 1.0 / dot(v, v).sqrt())
+}
+
+/// How far a box of these half extents reaches along `n`: the highest of its corners.
+fn top(half: Wide, n: Wide) -> f64 {
+    let corner = |i: u32| {
+        let sign = |k: u32| if i >> k & 1 == 0 { 1.0 } else { -1.0 };
+        dot([sign(0) * half[0], sign(1) * half[1], sign(2) * half[2]], n)
+    };
+    (0..8).map(corner).fold(f64::NEG_INFINITY, f64::max)
+}

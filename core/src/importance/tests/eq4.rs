@@ -1,0 +1,203 @@
+//! Eq. 4 of the paper, by angles, with the departures that [`Eq4`] states.
+
+mod formula;
+
+use core::f64::consts::PI;
+
+use glam::Vec3;
+
+use formula::{FLOOR, HORIZON, Lights, SLACK};
+
+use super::{Random, dot, minus, narrow, normalize, times, wide};
+use crate::importance::{Eq4, ImportanceModel};
+use crate::node::{BoundsNode, CompactNode, FullNode};
+use crate::point::ShadingPoint;
+use crate::vector::cross;
+use crate::{LightBounds, exact};
+
+/// Relative error of two weights' quotient: in each a rough reciprocal, and a rough root in the receiver's cosine.
+const ROUGH: f64 = 2.0 * (3e-3 + 7e-4);
+
+/// A point light straight above the point, in the direction that is up in a volume, that shines everywhere: its factor is
+/// 1 + 2^-8.
+fn known(point: &ShadingPoint, distance: f32) -> LightBounds {
+    let n = point.normal();
+    let up = if n == Vec3::ZERO { Vec3::Z } else { n };
+    let at = point.position() + up * distance;
+    LightBounds {
+        min: at,
+        max: at,
+        axis: -up,
+        cos_theta_o: -1.0,
+        cos_theta_e: 0.0,
+        phi: 1.0,
+    }
+}
+
+/// Weight of `bounds` over Φ/d² of the known light, its factor taken out.
+fn weight<N: BoundsNode<2>>(bounds: &LightBounds, point: &ShadingPoint, distance: f32) -> f64 {
+    let known = known(point, distance);
+    let mut node = N::EMPTY;
+    node.set_summaries(&[*bounds, known]);
+    let [found, one] = Eq4::weights(&node, point).map(f64::from);
+    let (factor, d) = (1.0 + SLACK, Lights::of(&known, point).d());
+    found / one * factor / (d * d)
+}
+
+/// A set of lights, and a point near it or far off, above the horizon, below it, or in a volume.
+fn sight(random: &mut Random) -> (LightBounds, ShadingPoint) {
+    let size = random.power(-20, 20);
+    let distance = size * random.power(-3, 6);
+    let center = random.vector() * size;
+    let away = random.direction();
+    let extent = random.extents(size);
+    let theta_o = [0.0, 2.5, 2.5, PI as f32][random.below(4) as usize] * random.unit();
+    let n = match random.below(4) {
+        0 => Vec3::ZERO,
+        1 => {
+            // About as high above the horizon as the box.
+            let across = normalize(wide(cross(away, random.direction())));
+            let tilt = f64::from(random.unit() - 0.5) * f64::from(size / distance);
+            narrow(normalize(minus(across, times(wide(away), tilt))))
+        }
+        _ => random.direction(),
+    };
+    let bounds = LightBounds {
+        min: center - extent,
+        max: center + extent,
+        axis: random.direction(),
+        cos_theta_o: f64::from(theta_o).cos() as f32,
+        cos_theta_e: 0.0,
+        phi: random.power(-10, 10),
+    };
+    let point = ShadingPoint {
+        p: (center + away * distance).to_array(),
+        n: n.to_array(),
+    };
+    (bounds, point)
+}
+
+/// Absolute error of the emitters' cosine: rough roots and a rough reciprocal, each some 7·10^-4, in a sum of four products.
+const EMITTED: f64 = 6e-3;
+
+#[test]
+fn weights_of_full_nodes_are_those_of_eq_4() {
+    let random = &mut Random(1);
+    let (mut cosines, mut below, mut behind, mut cut) = (0, 0, 0, 0);
+    for _ in 0..40_000 {
+        let (mut bounds, point) = sight(random);
+        bounds.cos_theta_e = [0.0, 0.0, 0.5, -0.4][random.below(4) as usize];
+        let (lights, n) = (Lights::of(&bounds, &point), wide(point.normal()));
+        if lights.at_a_step(n, EMITTED) {
+            continue;
+        }
+        let found = weight::<FullNode<2>>(&bounds, &point, lights.d() as f32);
+        let [least, most] = [-EMITTED, EMITTED].map(|e| lights.factor(n, e) * lights.over_distance());
+        assert!(
+            (least * (1.0 - ROUGH)..=most * (1.0 + ROUGH)).contains(&found),
+            "{found}, expected {least} to {most}: {bounds:?} at {point:?}"
+        );
+        cosines += u32::from((0.05..0.95).contains(&lights.factor(n, 0.0)));
+        below += u32::from(lights.incident(n) == 0.0);
+        behind += u32::from(lights.emitted() < 0.0);
+        cut += u32::from(lights.emitted() > 0.1 && lights.emitted() < lights.cos_theta_e);
+    }
+    for seen in [cosines, below, behind, cut] {
+        assert!(seen > 500, "{cosines} {below} {behind} {cut}");
+    }
+}
+
+/// What a compact node may have made of `lights`, seen least and most: boxes grow by up to 1/127 of the greatest half extent,
+/// cones by a step of sin(θ_o/2), 1/254, and by 2^-8 for the axis, which is up to 0.0034 short.
+fn packed(lights: &Lights) -> [Lights; 2] {
+    let facing = dot(lights.axis, lights.v) < 0.0;
+    let axis = |shorter: bool| times(lights.axis, if shorter { 0.9966 } else { 1.0 });
+    let greatest = lights.half.iter().fold(0.0, |a: f64, &b| a.max(b));
+    let half_sine = (lights.theta_o / 2.0).sin() + 1.0 / 254.0;
+    let larger = Lights {
+        half: lights.half.map(|h| h + greatest / 127.0),
+        theta_o: 2.0 * half_sine.min(1.0).asin() + 1.0 / 256.0,
+        axis: axis(!facing),
+        ..*lights
+    };
+    let smaller = Lights {
+        axis: axis(facing),
+        ..*lights
+    };
+    [smaller, larger]
+}
+
+#[test]
+fn weights_of_compact_nodes_are_those_of_eq_4() {
+    let random = &mut Random(2);
+    // What is decoded as the sine of θ_o is another 0.002 off.
+    let error = EMITTED + 0.002;
+    let mut narrow = 0;
+    for _ in 0..40_000 {
+        let (bounds, point) = sight(random);
+        let (lights, n) = (Lights::of(&bounds, &point), wide(point.normal()));
+        let [smaller, larger] = packed(&lights);
+        let at_the_sphere = lights.r() < lights.d() && larger.r() >= lights.d();
+        if at_the_sphere || smaller.at_a_step(n, error) || larger.at_a_step(n, error) {
+            continue;
+        }
+        let found = weight::<CompactNode<2>>(&bounds, &point, lights.d() as f32);
+        let least = smaller.factor(n, -error) * larger.over_distance();
+        let most = larger.factor(n, error) * lights.over_distance();
+        assert!(
+            (least * (1.0 - ROUGH)..=most * (1.0 + ROUGH)).contains(&found),
+            "{found}, expected {least} to {most}: {bounds:?} at {point:?}"
+        );
+        narrow += u32::from((0.05..0.95).contains(&lights.factor(n, 0.0)) && most < 1.1 * least);
+    }
+    assert!(narrow > 500, "{narrow}");
+}
+
+/// Point lights of one direction have no angle to subtract, so that the error of the roots is relative: slack and floor, which
+/// are smaller than that of a wide cone, show.
+#[test]
+fn slack_and_floor_are_those_stated() {
+    let random = &mut Random(3);
+    // Three roots more, in the emitters' cosine.
+    let error = 3.0 * 7e-4 + ROUGH;
+    for _ in 0..10_000 {
+        let size = random.power(-20, 20);
+        let distance = size * random.power(-3, 6);
+        let mut cosine = |least: i32| {
+            let small = random.power(least, 0) * if random.below(3) == 0 { -0.5 } else { 0.5 };
+            f64::from(exact::clamp(small, -0.01, 1.0))
+        };
+        let received = cosine(-24);
+        let emitted = cosine(if received < SLACK { -2 } else { -16 });
+        // The light is in the direction z as seen from the point.
+        let slanted = |cosine: f64| narrow([(1.0 - cosine * cosine).sqrt(), 0.0, cosine]);
+        let at = Vec3::new(0.0, 0.0, distance);
+        let bounds = LightBounds {
+            min: at,
+            max: at,
+            axis: -slanted(emitted),
+            cos_theta_o: 1.0,
+            cos_theta_e: 0.0,
+            phi: random.power(-10, 10),
+        };
+        let point = ShadingPoint {
+            p: [0.0; 3],
+            n: slanted(received).to_array(),
+        };
+        let incident = if received < -HORIZON {
+            0.0
+        } else {
+            received.max(SLACK)
+        };
+        if (received + HORIZON).abs() < 1e-7 || (emitted + SLACK).abs() < 1e-7 {
+            continue;
+        }
+        let reach = (emitted + SLACK).max(0.0);
+        let expected = (incident * reach).max(FLOOR) * f64::from(bounds.phi) / f64::from(distance).powi(2);
+        let found = weight::<FullNode<2>>(&bounds, &point, distance);
+        assert!(
+            (found / expected - 1.0).abs() < error,
+            "{found}, expected {expected}: cosines {received} {emitted}"
+        );
+    }
+}

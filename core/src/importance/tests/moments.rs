@@ -1,0 +1,258 @@
+//! The weight of [`Moments`] against the table of `docs/walk.md`, section 2.
+
+use glam::Vec3;
+
+use super::{Random, Wide, dot, minus, narrow, normalize, top, wide};
+use crate::importance::{ImportanceModel, Moments};
+use crate::node::{FullMomentNode, LeanMomentNode, MomentLayout, MomentNode, kind};
+use crate::point::ShadingPoint;
+use crate::{LightMoments, exact, vector};
+
+/// A child as the table has it.
+#[derive(Clone, Copy)]
+struct Child {
+    phi: f64,
+    x: Wide,
+    b: f64,
+    ratio: f64,
+    m: Wide,
+    q: f64,
+    /// Height of the box above its centre, along the receiver's normal.
+    up: f64,
+}
+
+/// The soft cosine, doubled.
+fn g(a: f64, s: f64, t: f64) -> f64 {
+    2.0 * a.max(0.0) + s * t / (2.0 * a.abs() + s)
+}
+
+/// The weight, with the height of the box above its centre times `up_by`.
+fn table(c: &Child, n: Wide, up_by: f64) -> f64 {
+    // The table's 0.032 in full.
+    let least = 0.001_f64.sqrt();
+    let (d2, b2) = (dot(c.x, c.x), c.b * c.b);
+    let y = 1.0 / (d2 + 1.25 * b2).sqrt();
+    let near = d2 + 0.5 * b2;
+    let u = c.b * y;
+    let a = y * dot(n, c.x);
+    let s = least + u * (1.0 + (c.ratio - 1.0) * dot(n, c.m).powi(2));
+    let t = s.min((2.0 * y * (dot(n, c.x) + c.up * up_by)).max(1e-4));
+    let received = g(a, s, t);
+    let s = least + u * c.ratio + c.q * (0.5 - u * c.ratio);
+    let emitted = g(-y * dot(c.m, c.x), s, s);
+    c.phi * received * emitted / near
+}
+
+/// How a layout stores what the table asks for.
+#[derive(Clone, Copy, PartialEq)]
+enum Stored {
+    Full,
+    Packed,
+    /// Without a box: as if it reached four breadths above its centre, whatever the normal.
+    Lean,
+}
+
+/// The child that the words of a node stand for, as they are read or as they were given.
+fn child(stored: Stored, words: &LightMoments, q: f64, point: &ShadingPoint) -> Child {
+    let n = wide(point.normal());
+    let across = f64::from(words.across);
+    let b = 2.0_f64.sqrt() * across;
+    Child {
+        phi: words.phi.into(),
+        x: minus(wide(words.c), wide(point.position())),
+        b,
+        ratio: f64::from(words.along) / across,
+        m: wide(words.m),
+        q,
+        up: if stored == Stored::Lean {
+            4.0 * b
+        } else {
+            top(wide(words.h), n)
+        },
+    }
+}
+
+/// The spread of normals, which is stored beside them.
+fn spread(m: Vec3) -> f64 {
+    let rest = 1.0 - dot(wide(m), wide(m));
+    // Rounding leaves a unit normal's rest at some 2^-20.
+    if rest < 2.0_f64.powi(-18) {
+        0.0
+    } else {
+        rest.sqrt()
+    }
+}
+
+/// The set as a layout takes it before it is packed.
+fn taken(stored: Stored, given: &LightMoments) -> LightMoments {
+    let mut set = *given;
+    if stored == Stored::Lean {
+        set.across = given.across * 0.75 + given.along * 0.25;
+        set.along = set.across;
+    } else {
+        set.along = exact::min(given.along, 2.0 * given.across);
+    }
+    set
+}
+
+/// Which parts of the table decide a weight; each is to be seen often.
+#[derive(Debug, Default)]
+struct Seen {
+    /// The cut is that of the box, or the least.
+    cut: u32,
+    least: u32,
+    /// The emitters face away.
+    away: u32,
+    /// The set is broader than it is far.
+    broad: u32,
+    /// All normals are alike.
+    alike: u32,
+    volume: u32,
+}
+
+impl Seen {
+    fn note(&mut self, c: &Child, n: Wide) {
+        let d = dot(c.x, c.x).sqrt();
+        let height = (dot(n, c.x) + c.up) / d;
+        let in_volume = n == [0.0; 3];
+        self.cut += u32::from(!in_volume && height > 1e-3 && height < 0.03);
+        self.least += u32::from(!in_volume && height < 0.0);
+        self.away += u32::from(dot(c.m, c.x) > 0.1 * d);
+        self.broad += u32::from(c.b > d);
+        self.alike += u32::from(c.q == 0.0);
+        self.volume += u32::from(in_volume);
+    }
+
+    fn all(&self) -> [u32; 6] {
+        [
+            self.cut,
+            self.least,
+            self.away,
+            self.broad,
+            self.alike,
+            self.volume,
+        ]
+    }
+}
+
+/// Relative error of two weights' quotient. In each the rough root, within 6.6·10^-4, comes twice into either cosine, and the
+/// reciprocal is within 2.7·10^-3.
+const ROUGH: f64 = 2.0 * (4.0 * 6.6e-4 + 2.7e-3);
+/// Relative error of a box's height in breadths, a rough reciprocal.
+const REACH: f64 = 3e-3;
+
+/// A set of lights of about `size`, near the point or far off.
+fn set(random: &mut Random, point: &ShadingPoint, size: f32) -> LightMoments {
+    let n = point.normal();
+    let distance = size * random.power(-5, 6);
+    let to = random.direction();
+    // Half of them near the horizon.
+    let to = if random.below(2) == 0 {
+        to
+    } else {
+        let low = to - n * exact::clamp(vector::dot(to, n) + 0.2 * (random.unit() - 0.5), -1.0, 1.0);
+        narrow(normalize(wide(low)))
+    };
+    let thin = if random.below(2) == 0 { 1.0 } else { 0.01 };
+    LightMoments {
+        phi: random.power(-6, 6),
+        c: point.position() + to * distance,
+        across: (0.02 + random.unit()) * size,
+        along: random.unit() * random.unit() * size * 2.0,
+        m: match random.below(4) {
+            0 => random.direction(),
+            1 => Vec3::ZERO,
+            _ => random.vector() * 0.57,
+        },
+        h: random.extents(size * 3.0 * thin),
+    }
+}
+
+/// Straight above the point, facing it, without any breadth to speak of.
+fn known(point: &ShadingPoint, size: f32) -> LightMoments {
+    let n = point.normal();
+    let up = if n == Vec3::ZERO { Vec3::X } else { n };
+    LightMoments {
+        phi: 1.0,
+        c: point.position() + up * size,
+        across: 1e-5 * size,
+        along: 0.0,
+        m: -up,
+        h: Vec3::ZERO,
+    }
+}
+
+/// Weights are, within [`ROUGH`], those of the words as they are read; and within `codes`, in the mean, those of the words as they
+/// were given.
+fn check<N: MomentLayout<4>>(stored: Stored, seed: u32, codes: f64) {
+    let random = &mut Random(seed);
+    let (mut seen, mut off, mut high) = (Seen::default(), 0.0, 0);
+    for _ in 0..20_000 {
+        let scale = random.power(-20, 20);
+        let point = ShadingPoint {
+            p: (random.vector() * scale).to_array(),
+            n: if random.below(8) == 0 {
+                [0.0; 3]
+            } else {
+                random.direction().to_array()
+            },
+        };
+        let (n, size) = (wide(point.normal()), scale * random.power(-3, 3));
+        let mut sets = [known(&point, size); 4];
+        for slot in 1..4 {
+            sets[slot] = set(random, &point, size);
+        }
+        let mut node = N::EMPTY;
+        for slot in 0..4 {
+            node.set_child(slot, kind::LIGHT, slot as u32);
+        }
+        node.set_summaries(&sets);
+        let weights = Moments::weights(&node, &point).map(f64::from);
+        let children = [0, 1, 2, 3].map(|i| {
+            let q = spread(sets[i].m);
+            // Packed in units of 1/255.
+            let packed = (q * 255.0).round() / 255.0;
+            let q = if stored == Stored::Full { q } else { packed };
+            child(stored, &node.summary(i), q, &point)
+        });
+        let one = table(&children[0], n, 1.0);
+        for slot in 1..4 {
+            let c = &children[slot];
+            let found = weights[slot] / weights[0];
+            let [least, most] = [1.0 - REACH, 1.0 + REACH].map(|by| table(c, n, by) / one);
+            assert!(
+                (least * (1.0 - ROUGH)..=most * (1.0 + ROUGH)).contains(&found),
+                "{} {found}, expected {least} to {most}: {:?} at {point:?}",
+                N::NAME,
+                node.summary(slot)
+            );
+            seen.note(c, n);
+            let given = child(stored, &taken(stored, &sets[slot]), spread(sets[slot].m), &point);
+            // A sixteenth of a breadth in the height of a low box changes much.
+            if dot(n, given.x) + given.up >= 0.5 * given.b {
+                off += (found / (table(&given, n, 1.0) / one)).ln().abs();
+                high += 1;
+            }
+        }
+    }
+    off /= f64::from(high);
+    assert!(off < codes, "{off} from what was given");
+    // A box that reaches four breadths up is seldom low.
+    let least = if stored == Stored::Lean { 100 } else { 500 };
+    assert!(seen.all().iter().all(|&count| count >= least), "{seen:?}");
+}
+
+#[test]
+fn weights_of_full_nodes_are_the_table_s() {
+    check::<FullMomentNode<4>>(Stored::Full, 1, 0.003);
+}
+
+#[test]
+fn weights_of_packed_nodes_are_the_table_s() {
+    check::<MomentNode<4>>(Stored::Packed, 2, 0.05);
+}
+
+#[test]
+fn weights_of_lean_nodes_are_the_table_s_without_a_box() {
+    check::<LeanMomentNode<4>>(Stored::Lean, 3, 0.075);
+}
