@@ -26,13 +26,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Numbers in order give lights in order: eight strata, eight lamps.
     for stratum in 0..8_u32 {
         let sampled = bvh.sample(&point, Random64::from((stratum << 29) + (1 << 28)));
-        let triangle = bvh.triangle(sampled.light, sampled.instance).expect("it was sampled");
+        let triangle = bvh
+            .triangle(sampled.light, sampled.instance)
+            .expect("it was sampled");
         println!(
             "light {:2} at x = {:5.2} m, probability {:.4}",
             sampled.light, triangle.p[0][0], sampled.pmf
         );
         let pmf = bvh.pmf(&point, sampled.light, sampled.instance);
-        assert_eq!(pmf.to_bits(), sampled.pmf.to_bits(), "exactly that, whenever it is asked for");
+        assert_eq!(
+            pmf.to_bits(),
+            sampled.pmf.to_bits(),
+            "exactly that, whenever it is asked for"
+        );
     }
     Ok(())
 }

@@ -25,9 +25,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         // A batch is done whole or not at all.
         let mut edits: Vec<Edit> = (0..)
             .zip(&lamps)
-            .map(|(k, &instance)| Edit::SetTransform { instance, transform: at(k) })
+            .map(|(k, &instance)| Edit::SetTransform {
+                instance,
+                transform: at(k),
+            })
             .collect();
-        edits.push(Edit::AddInstance { mesh, transform: at(frame), radiance: 1.0 });
+        edits.push(Edit::AddInstance {
+            mesh,
+            transform: at(frame),
+            radiance: 1.0,
+        });
         if lamps.len() > 20 {
             edits.push(Edit::RemoveInstance(lamps.remove(0)));
         }

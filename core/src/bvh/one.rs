@@ -51,11 +51,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     ///
     /// # Errors
     /// [`EditError`], as of [`apply`](Self::apply).
-    pub fn set_triangles(
-        &mut self,
-        mesh: MeshId,
-        triangles: Vec<EmissiveTriangle>,
-    ) -> Result<(), EditError> {
+    pub fn set_triangles(&mut self, mesh: MeshId, triangles: Vec<EmissiveTriangle>) -> Result<(), EditError> {
         self.one(Edit::SetTriangles { mesh, triangles })
     }
 

@@ -29,7 +29,7 @@ pub struct Cluster {
     pub phi: f32,
 }
 
-/// Slack of the cosines, 2^-8: the least that both count where their bound is not zero.
+/// Slack of the cosines, 2^-8: the least that the receiver's counts where its bound is not zero, and what is added to the emitters'.
 const SLACK: f32 = 0.003_906_25;
 
 /// Least factor, 2^-10, also where a bound is zero. It then says that nothing below contributes, but a rounded bound is no
@@ -52,11 +52,13 @@ const TINY_LENGTH: f32 = pow2(-110);
 /// Eq. 4 of Freire & Pereira 2023 (after Conty Estevez & Kulla 2018, section 4.2, Eq. 3): flux, distance, orientation of
 /// the emitters and incident angle.
 ///
-/// θ_u, the uncertainty angle, is that of the sphere around the box. Four departures from the letter of Eq. 4:
+/// θ_u, the uncertainty angle, is that of the sphere around the box. Five departures from the letter of Eq. 4:
 /// - ‖X − C‖² is softened by r²/12, since the centre stands for lights all over the box; Falcor and pbrt clamp instead.
 /// - cos θ'_i is not taken as absolute: an opaque surface receives nothing from behind. A zero normal drops the factor.
 /// - cos θ'_i is bounded by the box's highest corner above the surface, not by the sphere: it is zero just when the whole
 ///   box lies below the horizon.
+/// - Where the receiver's cosine is not zero it is at least 2^-8, and cos θ' is 2^-8 more than its bound: rounding and
+///   quantisation then take no light away.
 /// - The product of both cosines is at least 2^-10, also where a bound says zero.
 #[derive(Clone, Copy, Debug)]
 pub struct Eq4;

@@ -158,7 +158,7 @@ impl<const W: usize> MomentLayout<W> for LeanMomentNode<W> {
                 less: 0.0,
                 m: Vec3::new(fraction(w2, 0), fraction(w2, 8), fraction(w2, 16)),
                 spread: (w2 & 255) as i32 as f32 * SPREAD_UNIT,
-                // Higher than any spread: nothing is cut.
+                // As high as a box may be: only a narrow set below the horizon is cut.
                 reach: EXTENT_RANGE,
             };
             weights[i] = weight(&lobe, &side);
