@@ -52,9 +52,8 @@ impl Variant {
 /// If there is no such module.
 #[must_use]
 pub fn module(name: &str, variant: Variant) -> Vec<u32> {
-    let path = format!("{}/../kernels/spirv/{name}.spv", env!("CARGO_MANIFEST_DIR"));
-    let bytes = std::fs::read(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
-    let module = rspirv::dr::load_bytes(&bytes).expect("a module");
+    let kernel = lightbvh_gpu::Kernel::named(name).unwrap_or_else(|| panic!("no kernel {name}"));
+    let module = rspirv::dr::load_words(kernel.words()).expect("a module");
     let module = match variant {
         Variant::Unchanged => module,
         Variant::Undecorated => undecorated(module),

@@ -1,19 +1,16 @@
 //! The passes on a Vulkan device.
 
-use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 
 use bytemuck::bytes_of;
-use lightbvh::bvh::RefitPlan;
-use lightbvh::levels::Levels;
 use lightbvh::refit::BlasRoot;
 use lightbvh::{EmissiveTriangle, Instance, Lights, SampledLight};
+use lightbvh_gpu::{Buffer as Array, Mirror, Refit};
 use lightbvh_kernels::WORKGROUP;
 use lightbvh_kernels::bvh::{Choice, Standard, TreePush, WIDTH};
 use lightbvh_kernels::path::PathPush;
 use lightbvh_kernels::query::{Query, QueryPush};
-use lightbvh_kernels::refit::RefitPush;
 use lightbvh_kernels::render::{RenderParams, RenderPush};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
@@ -38,45 +35,11 @@ pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     pub(super) trails: Buffer<u32>,
     /// The triangles of the bottom levels, in the spaces of their meshes.
     pub(super) triangles: Buffer<EmissiveTriangle>,
-    /// What a refit of everything runs over.
-    lists: Buffer<u32>,
-    dispatches: Dispatches,
+    /// The refit of everything.
+    refit: Refit,
+    /// By which edits are followed.
+    pub(super) mirror: Mirror,
     pub(super) tree: TreePush,
-}
-
-/// What a refit runs over: a list, and the dispatches as parts of it, level by level.
-#[derive(Debug, Default)]
-pub(super) struct Dispatches {
-    pub list: Vec<u32>,
-    bottom: Vec<RefitPush>,
-    roots: Option<RefitPush>,
-    top: Vec<RefitPush>,
-}
-
-impl Dispatches {
-    pub fn new(plan: &RefitPlan) -> Self {
-        let mut list = Vec::new();
-        Self {
-            bottom: parts(&mut list, &plan.bottom),
-            roots: part(&mut list, plan.roots.iter().copied()),
-            top: parts(&mut list, &plan.top),
-            list,
-        }
-    }
-}
-
-/// Appends to the list, each level a part.
-fn parts(list: &mut Vec<u32>, levels: &Levels) -> Vec<RefitPush> {
-    let mut level = |range: Range<usize>| part(list, levels.nodes()[range].iter().copied());
-    levels.ranges().filter_map(&mut level).collect()
-}
-
-/// Appends to the list; nothing is no part.
-fn part(list: &mut Vec<u32>, entries: impl Iterator<Item = u32>) -> Option<RefitPush> {
-    let first = list.len() as u32;
-    list.extend(entries);
-    let count = list.len() as u32 - first;
-    (count > 0).then_some(RefitPush { first, count })
 }
 
 impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
@@ -86,7 +49,10 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     /// [`BackendError`] when it does not fit, or the device fails.
     pub fn new(device: &'d Device, bvh: &Bvh<C, W>) -> Result<Self, BackendError> {
         let tree = bvh.tree();
-        let mut dispatches = Dispatches::new(&bvh.plan_of_everything());
+        // All of it is uploaded here.
+        let mut mirror = Mirror::default();
+        mirror.follow(bvh);
+        let plan = bvh.plan_of_everything();
         Ok(Self {
             device,
             nodes: device.upload(tree.nodes)?,
@@ -94,8 +60,8 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
             trails: device.upload(tree.trails)?,
             triangles: device.upload(bvh.triangles())?,
             roots: device.upload(bvh.roots())?,
-            lists: device.upload(&std::mem::take(&mut dispatches.list))?,
-            dispatches,
+            refit: Refit::new(&plan),
+            mirror,
             tree: TreePush::of(&tree),
         })
     }
@@ -113,32 +79,37 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
         Ok(self.device.kernel(&format!("{name}{}", C::SUFFIX))?)
     }
 
-    /// Runs the passes of a refit over parts of `lists`.
-    pub(super) fn refit_by(
-        &self,
-        lists: &Buffer<u32>,
-        dispatches: &Dispatches,
-    ) -> Result<Duration, BackendError> {
-        let (bottom, roots, top) = (
-            self.kernel("refit_bottom")?,
-            self.kernel("refit_roots")?,
-            self.kernel("refit_top")?,
-        );
-        let (lists, nodes) = (lists.bind(), self.nodes.bind());
-        let by_triangle = [lists, self.triangles.bind(), nodes];
-        let by_root = [lists, nodes, self.roots.bind()];
-        let by_instance = [lists, self.instances.bind(), self.roots.bind(), nodes];
+    /// Runs the dispatches of a refit.
+    pub(super) fn refit_by(&self, refit: &Refit) -> Result<Duration, BackendError> {
+        if refit.dispatches.is_empty() {
+            return Ok(Duration::ZERO);
+        }
+        let list = self.device.upload(&refit.list)?;
+        let mut steps = Vec::new();
+        for dispatch in &refit.dispatches {
+            let kernel = self.kernel(dispatch.pass.name())?;
+            let buffers = self.buffers(&kernel, &list);
+            steps.push((kernel, buffers, dispatch));
+        }
         let mut pass = Pass::new();
-        let all = (dispatches
-            .bottom
-            .iter()
-            .map(|push| (&bottom, &by_triangle[..], push)))
-        .chain(dispatches.roots.iter().map(|push| (&roots, &by_root[..], push)))
-        .chain(dispatches.top.iter().map(|push| (&top, &by_instance[..], push)));
-        for (kernel, bindings, push) in all {
-            pass.dispatch(kernel, bindings, bytes_of(push), push.count);
+        for (kernel, buffers, dispatch) in &steps {
+            pass.dispatch(kernel, buffers, bytes_of(&dispatch.push()), dispatch.count);
         }
         Ok(device_time(&self.device.run(&pass)?))
+    }
+
+    /// What a kernel of a refit takes, by the names of its bindings.
+    fn buffers<'a>(&'a self, kernel: &Kernel, list: &'a Buffer<u32>) -> Vec<Binding<'a>> {
+        let bind = |name| match Array::named(name) {
+            Some(Array::Nodes) => self.nodes.bind(),
+            Some(Array::Triangles) => self.triangles.bind(),
+            Some(Array::Instances) => self.instances.bind(),
+            Some(Array::Roots) => self.roots.bind(),
+            Some(Array::Trails) => self.trails.bind(),
+            None => list.bind(),
+        };
+        let known = lightbvh_gpu::Kernel::named(kernel.name()).map_or(&[][..], |known| known.bindings);
+        known.iter().map(|binding| bind(binding.name)).collect()
     }
 
     /// Answers queries pass by pass.
@@ -182,7 +153,7 @@ impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
 
     fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, BackendError> {
         self.triangles.write(lights.triangles())?;
-        let time = self.refit_by(&self.lists, &self.dispatches)?;
+        let time = self.refit_by(&self.refit)?;
         Ok(Timed {
             value: self.nodes.read_words()?,
             time,

@@ -1,73 +1,64 @@
-//! Moving lights on a device: what changed is copied, the rest is computed there.
-
-use std::ops::Range;
-use std::time::Duration;
+//! A BVH and its edits on a device: what changed is copied, the rest is computed there.
 
 use bytemuck::Pod;
+use lightbvh_gpu::{Buffer as Array, Frame};
 use lightbvh_kernels::bvh::{Choice, TreePush};
 
-use super::device::{DeviceBackend, Dispatches};
+use super::device::DeviceBackend;
 use super::{BackendError, Bvh, Follow, Timed};
 use crate::vulkan::{Buffer, Device, VulkanError};
 
 impl<C: Choice<W>, const W: usize> Follow<C, W> for DeviceBackend<'_, C, W> {
     fn follow(&mut self, bvh: &Bvh<C, W>) -> Result<Timed<()>, BackendError> {
-        self.copy_changes(bvh)?;
-        let dispatches = Dispatches::new(bvh.work());
-        let mut time = Duration::ZERO;
-        if !dispatches.list.is_empty() {
-            let lists = self.device.upload(&dispatches.list)?;
-            time = self.refit_by(&lists, &dispatches)?;
-        }
+        let frame = self.mirror.follow(bvh);
+        self.copy_changes(bvh, &frame)?;
+        let time = self.refit_by(&frame.refit)?;
         Ok(Timed { time, value: () })
     }
 }
 
 impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
     /// Makes the device's arrays those of `bvh`, but for the summaries that are refitted.
-    fn copy_changes(&mut self, bvh: &Bvh<C, W>) -> Result<(), BackendError> {
-        let (device, tree, work) = (self.device, bvh.tree(), bvh.work());
-        let words = tree.trail_words;
-        let trails: Vec<_> = work
-            .written_trails
-            .iter()
-            .map(|range| range.start * words..range.end * words)
-            .collect();
-        let roots: Vec<_> = work.roots.iter().map(|&blas| blas..blas + 1).collect();
-        renew(device, &mut self.nodes, tree.nodes, &work.written_nodes)?;
+    fn copy_changes(&mut self, bvh: &Bvh<C, W>, frame: &Frame) -> Result<(), BackendError> {
+        let (device, tree) = (self.device, bvh.tree());
+        renew(device, &mut self.nodes, tree.nodes, frame, Array::Nodes)?;
         renew(
             device,
             &mut self.instances,
             tree.instances,
-            &work.written_instances,
+            frame,
+            Array::Instances,
         )?;
-        renew(device, &mut self.trails, tree.trails, &trails)?;
-        renew(device, &mut self.roots, bvh.roots(), &roots)?;
+        renew(device, &mut self.trails, tree.trails, frame, Array::Trails)?;
+        renew(device, &mut self.roots, bvh.roots(), frame, Array::Roots)?;
         renew(
             device,
             &mut self.triangles,
             bvh.triangles(),
-            &work.written_triangles,
+            frame,
+            Array::Triangles,
         )?;
         self.tree = TreePush::of(&tree);
         Ok(())
     }
 }
 
-/// Copies the changed ranges, or everything into a new buffer where the length is another.
+/// Does a frame's copies of one array; one of another size is copied as a whole, for the scene's own nodes are refitted too.
 fn renew<T: Pod>(
     device: &Device,
     buffer: &mut Buffer<T>,
     data: &[T],
-    changed: &[Range<u32>],
+    frame: &Frame,
+    array: Array,
 ) -> Result<(), VulkanError> {
-    if buffer.len() == data.len() {
-        for range in changed {
-            let range = range.start as usize..range.end as usize;
-            buffer.write_from(range.start, &data[range])?;
-        }
-    } else {
+    if frame.resizes.iter().any(|(resized, _)| *resized == array) {
         *buffer = device.upload(data)?;
+        return Ok(());
+    }
+    for copy in frame.copies.iter().filter(|copy| copy.buffer == array) {
+        let element = |byte: u64| byte as usize / size_of::<T>();
+        let first = element(copy.bytes.start);
+        buffer.write_from(first, &data[first..element(copy.bytes.end)])?;
     }
     Ok(())
 }

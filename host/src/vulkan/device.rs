@@ -1,11 +1,11 @@
 //! Devices: list them, pick one, open it, close it.
 
 use super::error::{CallContext, VulkanError};
-use super::float_environment::unusual_control_word;
 use super::instance::Instance;
 use super::probe::{Candidate, Probe};
 use super::shared::Shared;
 use ash::vk;
+use lightbvh_gpu::FloatEnvironment;
 use serde::Serialize;
 use std::sync::Arc;
 use std::time::Duration;
@@ -103,10 +103,11 @@ impl Device {
             .nth(info.index)
             .filter(|candidate| candidate.probe.name == info.probe.name)
             .ok_or_else(|| unknown(&info.probe.name, names.iter().map(String::as_str)))?;
-        if let Some(mxcsr) = unusual_control_word() {
+        let found = FloatEnvironment::current();
+        if !found.is_default() {
             return Err(VulkanError::FloatEnvironment {
                 device: candidate.probe.name,
-                mxcsr,
+                found,
             });
         }
         let raw = create(&instance, &candidate, options)?;

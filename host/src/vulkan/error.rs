@@ -1,7 +1,8 @@
 //! Everything that can go wrong between the host and a Vulkan device.
 
-use super::spirv_words::ModuleError;
 use ash::vk;
+use lightbvh_gpu::FloatEnvironment;
+use lightbvh_gpu::spirv::ModuleError;
 use std::time::Duration;
 
 /// A failure on the Vulkan side: each variant is one cause and says what, where, and what to do about it.
@@ -34,14 +35,14 @@ pub enum VulkanError {
     },
     /// The thread's floating-point mode is not the default one.
     #[error(
-        "the floating-point control word (MXCSR) is {mxcsr:#06x} where {device} would be opened, not 0x1f80: software \
-         devices inherit it and would round or flush differently; restore it on this thread first"
+        "the thread that would open {device} calculates otherwise than a thread begins with ({found:?}): software devices \
+         inherit its floating-point mode and would round or flush differently; restore it on this thread first"
     )]
     FloatEnvironment {
         /// Name of the device that was not opened.
         device: String,
-        /// The control word found, status flags included.
-        mxcsr: u32,
+        /// How the thread calculates.
+        found: FloatEnvironment,
     },
     /// Validation was requested on a machine without the layer.
     #[error(

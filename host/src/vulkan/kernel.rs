@@ -2,11 +2,10 @@
 
 use super::device::Device;
 use super::error::{CallContext, VulkanError};
-use super::modules::{MODULES, Module, words};
 use super::shared::Shared;
-use super::spirv_interface::Interface;
-use super::spirv_modes::set_float_modes;
 use ash::vk;
+use lightbvh_gpu::spirv::Interface;
+use lightbvh_gpu::{KERNELS, with_float_modes};
 use std::collections::HashMap;
 use std::ffi::CString;
 use std::sync::Arc;
@@ -57,7 +56,7 @@ impl Device {
         if let Some(kernel) = kernels.built_in.get(name) {
             return Ok(Arc::clone(kernel));
         }
-        let kernel = Arc::new(Kernel::new(&self.shared, name, &words(module.bytes))?);
+        let kernel = Arc::new(Kernel::new(&self.shared, name, &module.words())?);
         kernels.built_in.insert(module.name, Arc::clone(&kernel));
         drop(kernels);
         self.shared.check_validation()?;
@@ -97,10 +96,10 @@ impl Device {
     }
 }
 
-/// The built-in module of that name.
-fn built_in(name: &str) -> Result<&'static Module, VulkanError> {
-    MODULES.iter().find(|module| module.name == name).ok_or_else(|| {
-        let known: Vec<&str> = MODULES.iter().map(|module| module.name).collect();
+/// The module of that name.
+fn built_in(name: &str) -> Result<&'static lightbvh_gpu::Kernel, VulkanError> {
+    lightbvh_gpu::Kernel::named(name).ok_or_else(|| {
+        let known: Vec<&str> = KERNELS.iter().map(|kernel| kernel.name).collect();
         VulkanError::UnknownKernel {
             name: name.into(),
             known: known.join(", "),
@@ -127,7 +126,7 @@ impl Kernel {
             source,
         };
         let interface = Interface::read(words).map_err(bad_module)?;
-        let words = set_float_modes(words, shared.probe.float_controls).map_err(bad_module)?;
+        let words = with_float_modes(words, shared.probe.float_controls.into()).map_err(bad_module)?;
         check_limits(shared, name, &interface)?;
         let mut kernel = Self {
             name: name.into(),
@@ -147,7 +146,7 @@ impl Kernel {
     }
 
     fn create(&mut self, device: &ash::Device, device_name: &str, words: &[u32]) -> Result<(), VulkanError> {
-        let bindings: Vec<_> = (0..self.interface.strides.len() as u32)
+        let bindings: Vec<_> = (0..self.interface.buffers.len() as u32)
             .map(|binding| {
                 vk::DescriptorSetLayoutBinding::default()
                     .binding(binding)
@@ -165,10 +164,10 @@ impl Kernel {
         let push = [vk::PushConstantRange {
             stage_flags: vk::ShaderStageFlags::COMPUTE,
             offset: 0,
-            size: self.interface.push_bytes,
+            size: self.interface.push_constants,
         }];
         let mut info = vk::PipelineLayoutCreateInfo::default().set_layouts(&set_layouts);
-        if self.interface.push_bytes > 0 {
+        if self.interface.push_constants > 0 {
             info = info.push_constant_ranges(&push);
         }
         // SAFETY: as above.
@@ -231,12 +230,12 @@ fn check_limits(shared: &Shared, kernel: &str, interface: &Interface) -> Result<
         ),
         (
             "storage buffers:",
-            interface.strides.len() as u32,
+            interface.buffers.len() as u32,
             limits.max_storage_buffers,
         ),
         (
             "bytes of push constants:",
-            interface.push_bytes,
+            interface.push_constants,
             limits.max_push_constants_size,
         ),
     ] {

@@ -4,7 +4,7 @@ use super::buffer::Binding;
 use super::error::VulkanError;
 use super::kernel::Kernel;
 use super::shared::Shared;
-use lightbvh_kernels::ROW_GROUPS;
+use lightbvh_gpu::groups;
 
 /// A list of dispatches.
 #[derive(Default)]
@@ -79,21 +79,22 @@ impl Dispatch<'_> {
                 self.invocations
             )));
         };
-        let (given, expected) = (self.push.len(), kernel.interface.push_bytes as usize);
+        let (given, expected) = (self.push.len(), kernel.interface.push_constants as usize);
         if given != expected {
             return Err(bad(format!(
                 "it takes {expected} bytes of push constants, {given} were given"
             )));
         }
-        let (given, expected) = (self.buffers.len(), kernel.interface.strides.len());
+        let (given, expected) = (self.buffers.len(), kernel.interface.buffers.len());
         if given != expected {
             return Err(bad(format!("it takes {expected} buffers, {given} were given")));
         }
-        for (binding, (buffer, stride)) in self.buffers.iter().zip(&kernel.interface.strides).enumerate() {
+        for (binding, (buffer, declared)) in self.buffers.iter().zip(&kernel.interface.buffers).enumerate() {
             if buffer.memory.shared.id != shared.id {
                 return Err(foreign(format!("buffer {binding} of kernel `{}`", kernel.name)));
             }
             let given = buffer.element_bytes;
+            let stride = declared.map(|declared| declared.stride);
             if let Some(expected) = stride.filter(|stride| *stride as usize != given) {
                 return Err(bad(format!(
                     "buffer {binding} has elements of {given} bytes, not {expected}"
@@ -101,39 +102,5 @@ impl Dispatch<'_> {
             }
         }
         Ok(())
-    }
-}
-
-/// Workgroups in x and y for `invocations` of a kernel whose workgroups are `width` wide, or `None` if their numbers
-/// would not fit 32 bits: invocation `(x, y)` is number `y * ROW_GROUPS * width + x`, and the last row is a whole one.
-pub(crate) fn groups(invocations: u32, width: u32) -> Option<[u32; 2]> {
-    let groups = invocations.div_ceil(width);
-    if groups <= ROW_GROUPS {
-        return Some([groups, 1]);
-    }
-    let rows = groups.div_ceil(ROW_GROUPS);
-    let numbered = u64::from(rows) * u64::from(ROW_GROUPS) * u64::from(width);
-    (numbered <= 1 << 32).then_some([ROW_GROUPS, rows])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rows_begin_where_one_is_full() {
-        assert_eq!(groups(0, 64), Some([0, 1]));
-        assert_eq!(groups(1, 64), Some([1, 1]));
-        assert_eq!(groups(64, 64), Some([1, 1]));
-        assert_eq!(groups(65, 64), Some([2, 1]));
-        assert_eq!(groups(65_535 * 64, 64), Some([65_535, 1]));
-        assert_eq!(groups(65_535 * 64 + 1, 64), Some([65_535, 2]));
-        assert_eq!(groups(1024 * 65_535 * 64, 64), Some([65_535, 1024]));
-    }
-
-    #[test]
-    fn numbers_that_would_wrap_are_refused() {
-        assert_eq!(groups(1024 * 65_535 * 64 + 1, 64), None);
-        assert_eq!(groups(u32::MAX, 64), None);
     }
 }

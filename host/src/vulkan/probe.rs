@@ -52,6 +52,15 @@ pub struct FloatControls {
     pub denorm_flush_to_zero_32: bool,
 }
 
+impl From<FloatControls> for lightbvh_gpu::FloatControls {
+    fn from(controls: FloatControls) -> Self {
+        Self {
+            signed_zero_inf_nan_preserve_32: controls.signed_zero_inf_nan_preserve_32,
+            rounding_mode_rte_32: controls.rounding_mode_rte_32,
+        }
+    }
+}
+
 /// Optional features.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Features {

@@ -2,10 +2,11 @@
 
 use super::device::Device;
 use super::error::{CallContext, VulkanError};
-use super::pass::{Dispatch, Pass, groups};
+use super::pass::{Dispatch, Pass};
 use super::retired::Retired;
 use super::shared::Shared;
 use ash::vk;
+use lightbvh_gpu::groups;
 use std::time::Duration;
 
 /// How long a pass took.
@@ -179,7 +180,7 @@ fn record(
     set: vk::DescriptorSet,
 ) {
     let kernel = dispatch.kernel;
-    let Some([x, y]) = groups(dispatch.invocations, kernel.interface.workgroup[0]) else {
+    let Some([x, y, z]) = groups(dispatch.invocations, kernel.interface.workgroup[0]) else {
         return; // Refused by `Dispatch::check`.
     };
     if x == 0 {
@@ -196,7 +197,7 @@ fn record(
             let stage = vk::ShaderStageFlags::COMPUTE;
             device.cmd_push_constants(commands, kernel.layout, stage, 0, &dispatch.push);
         }
-        device.cmd_dispatch(commands, x, y, 1);
+        device.cmd_dispatch(commands, x, y, z);
     }
 }
 

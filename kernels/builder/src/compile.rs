@@ -3,17 +3,28 @@
 use crate::decorate::decorate;
 use crate::files::{self, FileError};
 use crate::manifest::{FORMAT, Manifest, ManifestError, ModuleRecord};
+use crate::names::buffer_names;
 use crate::sources::{self, ALWAYS};
 use crate::verify::{VerifyError, verify};
 use crate::{Unreadable, manifest};
 use spirv_builder::{Capability, CompileResult, ModuleResult, SpirvBuilder, SpirvBuilderError};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Vulkan 1.2 with SPIR-V 1.5: the widest that has the Vulkan memory model in its core.
 const TARGET: &str = "spirv-unknown-vulkan1.2";
+
+/// What the compiler makes, below the repository's root.
+const TARGET_DIR: &str = "target/kernels";
+
+/// In there: all kernels as one module that has its names still. Relative to the repository's root, where Cargo runs the
+/// compiler, so that the compiler's options and with them its cache do not depend on where the checkout is.
+const NAMED: &str = "target/kernels/named";
+
+/// The module in there.
+const NAMED_FILE: &str = "lightbvh_kernels.spv";
 
 /// The version of spirv-builder, which `Cargo.toml` pins, and with it of the backend.
 const BACKEND: &str = "rustc_codegen_spirv 0.11.0";
@@ -90,10 +101,13 @@ pub fn compile(root: &Path) -> Result<Built, CompileError> {
         .map_err(|source| FileError::new("resolve", root, source))?;
     let prebuilt = prebuilt()?;
     let compiler = compiler(prebuilt.as_ref())?;
+    let named = root.join(NAMED);
+    std::fs::create_dir_all(&named).map_err(|source| FileError::new("create", &named, source))?;
     let result = run(root, prebuilt)?;
     let ModuleResult::MultiModule(raw) = result.module else {
         return Err(CompileError::SingleModule);
     };
+    let mut names = names(&named)?;
     let mut modules = Vec::new();
     let mut records = Vec::new();
     for (entry_point, path) in &raw {
@@ -107,7 +121,8 @@ pub fn compile(root: &Path) -> Result<Built, CompileError> {
             source,
         })?;
         verify(&file, &words)?;
-        records.push(ModuleRecord::new(file.clone(), &words)?);
+        let buffers = names.remove(entry_point).unwrap_or_default();
+        records.push(ModuleRecord::new(file.clone(), &words, buffers));
         modules.push((file, words));
     }
     let any = raw.values().next().ok_or(CompileError::SingleModule)?;
@@ -124,7 +139,7 @@ pub fn compile(root: &Path) -> Result<Built, CompileError> {
     Ok(Built { manifest, modules })
 }
 
-/// Writes what [`compile`] made below `kernels/spirv`.
+/// Writes what [`compile`] made below `kernels/gpu/spirv`.
 ///
 /// # Errors
 /// Names the file that could not be written.
@@ -144,7 +159,19 @@ fn run(root: &Path, prebuilt: Option<Prebuilt>) -> Result<CompileResult, Compile
     builder.capabilities.push(Capability::SignedZeroInfNanPreserve);
     // An unused parameter keeps its binding: bindings are numbered by parameter order.
     builder.optimizer.preserve_bindings = true;
+    builder.target_dir_path = Some(root.join(TARGET_DIR));
+    builder.extra_args.push(format!("--dump-pre-inline={NAMED}"));
     Ok(builder.build()?)
+}
+
+/// The names of buffers by entry point, from what the compiler left in `directory`.
+fn names(directory: &Path) -> Result<BTreeMap<String, Vec<String>>, CompileError> {
+    let file = directory.join(NAMED_FILE);
+    let words = files::words(&files::read(&file)?).unwrap_or_default();
+    buffer_names(&words).map_err(|source| CompileError::Unreadable {
+        file: file.display().to_string(),
+        source,
+    })
 }
 
 fn prebuilt() -> Result<Option<Prebuilt>, CompileError> {

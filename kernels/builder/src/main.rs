@@ -1,13 +1,14 @@
-//! `build-kernels`: compiles every entry point of `kernels` to `kernels/spirv/*.spv` and writes the manifest.
+//! `build-kernels`: compiles every entry point of `kernels` to `kernels/gpu/spirv/*.spv`, writes the manifest and the table.
 
 use lightbvh_kernels_builder::compile::{Built, compile, install};
 use lightbvh_kernels_builder::files;
-use lightbvh_kernels_builder::manifest::{self, DIRECTORY, ModuleRecord};
+use lightbvh_kernels_builder::manifest::{self, DIRECTORY, ManifestError, ModuleRecord};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
 const USAGE: &str = "\
-Compiles the kernels to kernels/spirv/*.spv, decorates and verifies them, and writes the manifest.
+Compiles the kernels to kernels/gpu/spirv/*.spv, decorates and verifies them, and writes the manifest
+and the table of kernels, kernels/gpu/src/table.rs.
 
 Usage: build-kernels [--check]
 
@@ -63,8 +64,8 @@ fn repository() -> Result<PathBuf, String> {
 
 fn write(root: &Path, built: &Built) -> Result<(), String> {
     install(root, built).map_err(|error| error.to_string())?;
-    for record in &built.manifest.modules {
-        println!("{}", describe(record));
+    for (record, (_, words)) in built.manifest.modules.iter().zip(&built.modules) {
+        println!("{}", describe(record, words).map_err(|error| error.to_string())?);
         validate(&root.join(DIRECTORY).join(&record.file))?;
     }
     println!(
@@ -101,12 +102,16 @@ fn compare(root: &Path, built: &Built) -> Result<(), String> {
     Ok(())
 }
 
-fn describe(record: &ModuleRecord) -> String {
-    let [x, y, z] = record.interface.workgroup;
-    format!(
+fn describe(record: &ModuleRecord, words: &[u32]) -> Result<String, ManifestError> {
+    let interface = record.interface(words)?;
+    let [x, y, z] = interface.workgroup;
+    Ok(format!(
         "{}: {} words, workgroup {x}x{y}x{z}, {} buffers, {} bytes of push constants",
-        record.file, record.words, record.interface.bindings, record.interface.push_constant_bytes
-    )
+        record.file,
+        record.words,
+        interface.buffers.len(),
+        interface.push_constants
+    ))
 }
 
 /// Lets `spirv-val` look at the finished module where it is installed; the backend has validated it before decoration.

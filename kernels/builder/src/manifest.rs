@@ -1,16 +1,16 @@
-//! `kernels/spirv/manifest.json`: where the committed modules come from, and what they are.
+//! `kernels/gpu/spirv/manifest.json`: where the committed modules come from, and what they are.
 
 use crate::files::{self, FileError};
-use crate::reflect::{Interface, ReflectError, reflect};
-use crate::sources;
+use crate::reflect::{KernelInterface, ReflectError, reflect};
+use crate::{sources, table};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// Version of the manifest's format.
-pub const FORMAT: u32 = 1;
+pub const FORMAT: u32 = 2;
 
 /// Directory of the modules, below the repository's root.
-pub const DIRECTORY: &str = "kernels/spirv";
+pub const DIRECTORY: &str = "kernels/gpu/spirv";
 
 /// Name of the manifest in [`DIRECTORY`].
 pub const FILE: &str = "manifest.json";
@@ -41,9 +41,8 @@ pub struct Manifest {
 pub struct ModuleRecord {
     /// File in [`DIRECTORY`]: the entry point's name with `.spv`.
     pub file: String,
-    /// What the host must bind.
-    #[serde(flatten)]
-    pub interface: Interface,
+    /// Names of the buffers, by binding.
+    pub buffers: Vec<String>,
     /// Length in 32-bit words.
     pub words: usize,
     /// SHA-256 of the file.
@@ -94,6 +93,9 @@ pub enum ManifestError {
         /// The file.
         file: String,
     },
+    /// A table of kernels that is not that of the modules.
+    #[error("{} is not the table of the modules in {DIRECTORY}; {REBUILD}", table::FILE)]
+    Table,
     /// A module whose interface the host cannot offer.
     #[error("{file}: {source}")]
     Interface {
@@ -105,21 +107,36 @@ pub enum ManifestError {
 }
 
 impl ModuleRecord {
-    /// Describes a finished module.
+    /// Describes a finished module whose buffers have these names.
+    #[must_use]
+    pub fn new(file: String, words: &[u32], buffers: Vec<String>) -> Self {
+        Self {
+            file,
+            buffers,
+            words: words.len(),
+            sha256: sources::hash_bytes(&files::bytes(words)),
+        }
+    }
+
+    /// What the module takes; `words` are its own.
     ///
     /// # Errors
     /// When its interface is not one that the host offers.
-    pub fn new(file: String, words: &[u32]) -> Result<Self, ManifestError> {
-        let interface = reflect(words).map_err(|source| ManifestError::Interface {
-            file: file.clone(),
-            source,
-        })?;
-        Ok(Self {
-            file,
-            interface,
-            words: words.len(),
-            sha256: sources::hash_bytes(&files::bytes(words)),
-        })
+    pub fn interface(&self, words: &[u32]) -> Result<KernelInterface, ManifestError> {
+        let file = self.file.clone();
+        let interface =
+            reflect(words, &self.buffers).map_err(|source| ManifestError::Interface { file, source })?;
+        match self.file.strip_suffix(".spv") {
+            Some(name) if name == interface.entry_point => Ok(interface),
+            _ => Err(self.wrong("entry point")),
+        }
+    }
+
+    fn wrong(&self, what: &'static str) -> ManifestError {
+        ManifestError::Module {
+            file: self.file.clone(),
+            what,
+        }
     }
 }
 
@@ -143,16 +160,13 @@ pub fn read(root: &Path) -> Result<Manifest, ManifestError> {
 /// When the file cannot be read or is not whole words.
 pub fn read_module(root: &Path, record: &ModuleRecord) -> Result<Vec<u32>, ManifestError> {
     let bytes = files::read(&root.join(DIRECTORY).join(&record.file))?;
-    files::words(&bytes).ok_or_else(|| ManifestError::Module {
-        file: record.file.clone(),
-        what: "not whole words",
-    })
+    files::words(&bytes).ok_or_else(|| record.wrong("not whole words"))
 }
 
-/// Checks, without a compiler, that the committed modules are those of the sources beside them.
+/// Checks, without a compiler, that the committed modules are those of the sources beside them, and the table that of the modules.
 ///
 /// # Errors
-/// The first disagreement between sources, manifest and modules.
+/// The first disagreement between sources, manifest, modules and table.
 pub fn check(root: &Path) -> Result<Manifest, ManifestError> {
     let manifest = read(root)?;
     let found = sources::hash(root, &manifest.source_files)?;
@@ -162,18 +176,16 @@ pub fn check(root: &Path) -> Result<Manifest, ManifestError> {
             recorded: manifest.source_sha256,
         });
     }
+    let mut interfaces = Vec::new();
     for record in &manifest.modules {
-        let now = ModuleRecord::new(record.file.clone(), &read_module(root, record)?)?;
-        let wrong = |what| ManifestError::Module {
-            file: record.file.clone(),
-            what,
-        };
-        if now.sha256 != record.sha256 {
-            return Err(wrong("hash"));
+        let words = read_module(root, record)?;
+        if ModuleRecord::new(record.file.clone(), &words, record.buffers.clone()) != *record {
+            return Err(record.wrong("hash"));
         }
-        if now != *record {
-            return Err(wrong("interface"));
-        }
+        interfaces.push(record.interface(&words)?);
+    }
+    if files::read(&root.join(table::FILE))? != table::render(&interfaces).as_bytes() {
+        return Err(ManifestError::Table);
     }
     match module_files(root)?
         .into_iter()
@@ -184,11 +196,16 @@ pub fn check(root: &Path) -> Result<Manifest, ManifestError> {
     }
 }
 
-/// Replaces the committed modules and the manifest; modules of entry points that are gone are removed.
+/// Replaces the committed modules, the manifest and the table of kernels; modules of entry points that are gone are removed.
 ///
 /// # Errors
-/// Names the file that could not be written.
+/// Names the file that could not be written, or the module whose interface is not one that the host offers.
 pub fn write(root: &Path, manifest: &Manifest, modules: &[(String, Vec<u32>)]) -> Result<(), ManifestError> {
+    let interfaces = manifest.modules.iter().zip(modules);
+    let interfaces: Result<Vec<_>, _> = interfaces
+        .map(|(record, (_, words))| record.interface(words))
+        .collect();
+    let table = table::render(&interfaces?);
     let directory = root.join(DIRECTORY);
     std::fs::create_dir_all(&directory).map_err(|source| FileError::new("create", &directory, source))?;
     for (file, words) in modules {
@@ -200,6 +217,7 @@ pub fn write(root: &Path, manifest: &Manifest, modules: &[(String, Vec<u32>)]) -
             std::fs::remove_file(&path).map_err(|source| FileError::new("remove", &path, source))?;
         }
     }
+    files::replace(&root.join(table::FILE), table.as_bytes())?;
     let path = directory.join(FILE);
     let mut json = serde_json::to_string_pretty(manifest).map_err(|source| ManifestError::Json {
         path: path.clone(),

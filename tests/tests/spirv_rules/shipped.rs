@@ -1,6 +1,8 @@
 //! The committed modules.
 
-use lightbvh_kernels::WORKGROUP;
+use lightbvh_kernels::bvh::TreePush;
+use lightbvh_kernels::refit::RefitPush;
+use lightbvh_kernels::{ROW_GROUPS, WORKGROUP};
 use lightbvh_kernels_builder::decorate::decorate;
 use lightbvh_kernels_builder::manifest::{self, ManifestError};
 use lightbvh_kernels_builder::verify::{VerifyError, verify};
@@ -28,10 +30,32 @@ fn shipped_modules_obey_the_rules() {
     for record in manifest::read(root()).unwrap().modules {
         let words = manifest::read_module(root(), &record).unwrap();
         verify(&record.file, &words).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!(record.interface.workgroup, [WORKGROUP, 1, 1], "{}", record.file);
-        assert_eq!(format!("{}.spv", record.interface.entry_point), record.file);
-        assert!(record.interface.push_constant_bytes <= 128, "{}", record.file);
+        let interface = record.interface(&words).unwrap();
+        assert_eq!(interface.workgroup, [WORKGROUP, 1, 1], "{}", record.file);
+        assert!(interface.push_constants <= 128, "{}", record.file);
     }
+}
+
+/// What an engine is told without the kernels' crate is what that crate says.
+#[test]
+fn push_constants_and_rows_are_those_of_the_kernels() {
+    assert_eq!(lightbvh_gpu::ROW_GROUPS, ROW_GROUPS);
+    let tree = TreePush {
+        root: 1,
+        trail_words: 2,
+        live: 3,
+        lights: 4,
+        depth: 5,
+    };
+    let words = lightbvh_gpu::tree_words(&tree.tree::<u32>(&[], &[], &[]));
+    assert_eq!(bytemuck::bytes_of(&words), bytemuck::bytes_of(&tree));
+    let dispatch = lightbvh_gpu::Dispatch {
+        pass: lightbvh_gpu::Pass::Top,
+        first: 6,
+        count: 7,
+    };
+    let push = RefitPush { first: 6, count: 7 };
+    assert_eq!(bytemuck::bytes_of(&dispatch.push()), bytemuck::bytes_of(&push));
 }
 
 #[test]

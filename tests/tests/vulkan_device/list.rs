@@ -1,5 +1,6 @@
 //! The devices found, and which of them is opened.
 
+use lightbvh_gpu::FloatEnvironment;
 use lightbvh_host::vulkan::{Device, Options, VulkanError};
 use lightbvh_tests::devices::{devices, open};
 
@@ -67,21 +68,42 @@ fn without_a_driver_the_list_is_empty_and_says_why() {
 }
 
 #[cfg(target_arch = "x86_64")]
+fn set_control_word(mxcsr: u32) {
+    // SAFETY: loads a control word without reserved bits; the thread does no float arithmetic of its own before the default
+    // is back, but what looks for the mode.
+    unsafe { std::arch::asm!("ldmxcsr [{}]", in(reg) &raw const mxcsr, options(nostack, preserves_flags)) };
+}
+
+#[cfg(target_arch = "x86_64")]
+#[test]
+fn flushing_and_other_rounding_are_found() {
+    // To nearest, down, up, towards zero; with flush-to-zero (bit 15) and denormals-are-zero (bit 6).
+    for rounding in [0x0000, 0x2000, 0x4000, 0x6000] {
+        for flush in [0x0000, 0x8000, 0x0040, 0x8040] {
+            set_control_word(0x1f80 | rounding | flush);
+            let found = FloatEnvironment::current();
+            set_control_word(0x1f80);
+            let expected = FloatEnvironment {
+                nearest: rounding == 0,
+                keeps_results: flush & 0x8000 == 0,
+                keeps_operands: flush & 0x0040 == 0,
+            };
+            assert_eq!(found, expected, "{rounding:#x} {flush:#x}");
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
 #[test]
 fn a_flushing_thread_opens_no_device() {
-    fn set_control_word(mxcsr: u32) {
-        // SAFETY: loads a control word without reserved bits; the thread does no float arithmetic of its own before
-        // the default is back.
-        unsafe {
-            std::arch::asm!("ldmxcsr [{}]", in(reg) &raw const mxcsr, options(nostack, preserves_flags))
-        };
-    }
     for info in &devices().devices {
         set_control_word(0x9fc0);
         let opened = Device::open(info, Options::default());
         set_control_word(0x1f80);
         match opened {
-            Err(VulkanError::FloatEnvironment { mxcsr, .. }) => assert_eq!(mxcsr & 0xffc0, 0x9fc0),
+            Err(VulkanError::FloatEnvironment { found, .. }) => {
+                assert!(found.nearest && !found.keeps_results && !found.keeps_operands);
+            }
             other => panic!(
                 "{}: {:?}",
                 info.probe.name,

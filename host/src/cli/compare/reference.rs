@@ -2,6 +2,7 @@
 
 use indicatif::ProgressBar;
 use lightbvh::BuildParams;
+use lightbvh_gpu::KERNELS;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -12,7 +13,6 @@ use crate::backend::{Backend, Bvh, CpuBackend, Sampler};
 use crate::error::HostError;
 use crate::metrics::{Judge, mean_squared_error};
 use crate::render::Film;
-use crate::vulkan::module_bytes;
 use crate::workload::{Shot, build};
 
 /// Samples of one pass.
@@ -73,8 +73,10 @@ pub(super) fn references(
 
 fn entry(frames: &mut Frames<'_>, plan: &Plan, frame: u32, half: u32) -> (String, Value) {
     let scene = frames.scene().name();
+    // Different for every change of a kernel that changes what it does.
+    let kernels: Vec<u8> = KERNELS.iter().flat_map(|kernel| kernel.bytes).copied().collect();
     let key = json!({
-        "what": "reference", "kernels": fingerprint(&module_bytes()), "scene": scene, "print": frames.print(frame),
+        "what": "reference", "kernels": fingerprint(&kernels), "scene": scene, "print": frames.print(frame),
         "frame": frame, "width": plan.width, "height": plan.height, "samples": plan.reference_samples / 2,
         "half": half,
     });

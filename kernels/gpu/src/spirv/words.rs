@@ -2,21 +2,39 @@
 //!
 //! Opcodes and operand layouts: SPIR-V specification 1.6, sections 2.3 (physical layout) and 3.42 (instructions).
 
+use alloc::vec::Vec;
+use core::fmt;
+use core::ops::RangeInclusive;
+
 /// First word of every module.
 const MAGIC: u32 = 0x0723_0203;
 /// Words before the first instruction: magic, version, generator, id bound, schema.
 pub(crate) const HEADER: usize = 5;
 /// Version words of SPIR-V 1.4 and 1.5: float-control modes are core from 1.4 on, Vulkan 1.2 takes 1.5 at most.
-const VERSIONS: std::ops::RangeInclusive<u32> = 0x0001_0400..=0x0001_0500;
+const VERSIONS: RangeInclusive<u32> = 0x0001_0400..=0x0001_0500;
 
 /// Why a module cannot be used.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("word {at}: {what}")]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ModuleError {
     /// Index of the offending word, the magic number being 0.
     pub at: usize,
     /// What is wrong there.
     pub what: &'static str,
+}
+
+impl fmt::Display for ModuleError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "word {}: {}", self.at, self.what)
+    }
+}
+
+impl core::error::Error for ModuleError {}
+
+/// A module's bytes, little endian, as words; a ragged end is dropped, and the module will not parse then.
+#[must_use]
+pub fn words(bytes: &[u8]) -> Vec<u32> {
+    let (words, _) = bytes.as_chunks::<4>();
+    words.iter().map(|word| u32::from_le_bytes(*word)).collect()
 }
 
 /// One instruction: its opcode, its operands, and where it starts.
@@ -92,7 +110,7 @@ pub(crate) fn instructions(words: &[u32]) -> Result<Vec<Instruction<'_>>, Module
     Ok(list)
 }
 
-/// Opcodes this host looks at.
+/// Opcodes that are looked at.
 pub(crate) mod op {
     pub(crate) const ENTRY_POINT: u16 = 15;
     pub(crate) const EXECUTION_MODE: u16 = 16;
@@ -105,14 +123,33 @@ pub(crate) mod op {
     pub(crate) const TYPE_STRUCT: u16 = 30;
     pub(crate) const TYPE_POINTER: u16 = 32;
     pub(crate) const CONSTANT: u16 = 43;
+    pub(crate) const FUNCTION_CALL: u16 = 57;
     pub(crate) const VARIABLE: u16 = 59;
+    pub(crate) const LOAD: u16 = 61;
+    pub(crate) const STORE: u16 = 62;
+    pub(crate) const COPY_MEMORY: u16 = 63;
+    pub(crate) const ACCESS_CHAIN: u16 = 65;
+    pub(crate) const IN_BOUNDS_ACCESS_CHAIN: u16 = 66;
+    pub(crate) const PTR_ACCESS_CHAIN: u16 = 67;
+    pub(crate) const IN_BOUNDS_PTR_ACCESS_CHAIN: u16 = 70;
     pub(crate) const DECORATE: u16 = 71;
     pub(crate) const MEMBER_DECORATE: u16 = 72;
+    pub(crate) const COPY_OBJECT: u16 = 83;
+    pub(crate) const SELECT: u16 = 169;
+    pub(crate) const PHI: u16 = 245;
+    /// OpAtomicLoad to OpAtomicXor.
+    pub(crate) const ATOMICS: core::ops::RangeInclusive<u16> = 227..=242;
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_ragged_end_is_no_word() {
+        assert_eq!(words(&[1, 0, 0, 0, 2]), [1]);
+        assert_eq!(words(&[]), [0; 0]);
+    }
 
     const HEAD: [u32; HEADER] = [MAGIC, 0x0001_0500, 0, 10, 0];
 

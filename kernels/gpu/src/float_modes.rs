@@ -4,8 +4,19 @@
 //! NaNs do not matter; `RoundingModeRTE 32` pins round-to-nearest-even. Both are legal only where the device reports
 //! them (Vulkan specification, "Validation Rules within a Module"), so they cannot be in the stored module.
 
-use super::probe::FloatControls;
-use super::spirv_words::{HEADER, Instruction, ModuleError, instructions, op};
+use alloc::vec::Vec;
+
+use crate::spirv::ModuleError;
+use crate::spirv::words::{HEADER, Instruction, instructions, op};
+
+/// What of `VkPhysicalDeviceFloatControlsProperties` a device reports as true.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FloatControls {
+    /// `shaderSignedZeroInfNanPreserveFloat32`.
+    pub signed_zero_inf_nan_preserve_32: bool,
+    /// `shaderRoundingModeRTEFloat32`.
+    pub rounding_mode_rte_32: bool,
+}
 
 /// A capability together with the execution mode it allows.
 #[derive(Clone, Copy)]
@@ -26,13 +37,14 @@ const ROUNDING_MODE_RTE: Mode = Mode {
 /// The width of float the modes are for, bits.
 const WIDTH: u32 = 32;
 
-/// The module with exactly those of the two modes that `controls` reports, for every entry point.
+/// The module with exactly those of the two modes that `controls` reports, for every entry point: what a device is to load.
 ///
-/// Whatever the module said about the two before is replaced. Everything else keeps its words and its order.
+/// What the module said about the two before is replaced. Everything else keeps its words and its order. A module without the
+/// modes is valid on every device, but a driver may then round otherwise, or rewrite what signs of zero depend on.
 ///
 /// # Errors
 /// [`ModuleError`] if the words do not parse or hold no entry point.
-pub(crate) fn set_float_modes(words: &[u32], controls: FloatControls) -> Result<Vec<u32>, ModuleError> {
+pub fn with_float_modes(words: &[u32], controls: FloatControls) -> Result<Vec<u32>, ModuleError> {
     let list = instructions(words)?;
     let wanted: Vec<Mode> = [
         (
@@ -102,8 +114,6 @@ mod tests {
     const BOTH: FloatControls = FloatControls {
         signed_zero_inf_nan_preserve_32: true,
         rounding_mode_rte_32: true,
-        denorm_preserve_32: false,
-        denorm_flush_to_zero_32: false,
     };
     const ONE: FloatControls = FloatControls {
         rounding_mode_rte_32: false,
@@ -120,7 +130,7 @@ mod tests {
 
     /// Shader capability, memory model, one entry point (id 4, name "m"), its LocalSize, a trailing OpName.
     fn plain() -> Vec<u32> {
-        let mut words = vec![0x0723_0203, 0x0001_0500, 0, 10, 0];
+        let mut words = alloc::vec![0x0723_0203, 0x0001_0500, 0, 10, 0];
         words.extend([head(2, 17), 1]);
         words.extend([head(3, 14), 0, 3]);
         words.extend([head(4, 15), 5, 4, 0x6d]);
@@ -132,7 +142,7 @@ mod tests {
     #[test]
     fn adds_what_is_reported() {
         let words = plain();
-        let patched = set_float_modes(&words, BOTH).unwrap();
+        let patched = with_float_modes(&words, BOTH).unwrap();
         let mut expected = words[..5].to_vec();
         expected.extend([head(2, 17), 4466, head(2, 17), 4467]);
         expected.extend(&words[5..14]);
@@ -144,8 +154,8 @@ mod tests {
     #[test]
     fn leaves_out_what_is_not_reported() {
         let words = plain();
-        assert_eq!(set_float_modes(&words, NONE).unwrap(), words);
-        let patched = set_float_modes(&words, ONE).unwrap();
+        assert_eq!(with_float_modes(&words, NONE).unwrap(), words);
+        let patched = with_float_modes(&words, ONE).unwrap();
         assert!(patched.contains(&4461) && patched.contains(&4466));
         assert!(!patched.contains(&4462) && !patched.contains(&4467));
     }
@@ -153,12 +163,12 @@ mod tests {
     #[test]
     fn replaces_what_was_there() {
         let words = plain();
-        let both = set_float_modes(&words, BOTH).unwrap();
-        assert_eq!(set_float_modes(&both, BOTH).unwrap(), both);
-        assert_eq!(set_float_modes(&both, NONE).unwrap(), words);
+        let both = with_float_modes(&words, BOTH).unwrap();
+        assert_eq!(with_float_modes(&both, BOTH).unwrap(), both);
+        assert_eq!(with_float_modes(&both, NONE).unwrap(), words);
         assert_eq!(
-            set_float_modes(&both, ONE).unwrap(),
-            set_float_modes(&words, ONE).unwrap()
+            with_float_modes(&both, ONE).unwrap(),
+            with_float_modes(&words, ONE).unwrap()
         );
     }
 
@@ -167,18 +177,18 @@ mod tests {
         let words = plain();
         for end in 0..words.len() {
             // A cut between instructions may still be a module, with or without its entry point.
-            if let Ok(patched) = set_float_modes(&words[..end], BOTH) {
+            if let Ok(patched) = with_float_modes(&words[..end], BOTH) {
                 assert!(patched.len() > end && end >= 14, "cut at {end}");
             }
         }
         let mut no_entry = words.clone();
         no_entry.drain(10..20);
         assert_eq!(
-            set_float_modes(&no_entry, BOTH).unwrap_err().what,
+            with_float_modes(&no_entry, BOTH).unwrap_err().what,
             "the module has no entry point"
         );
         let mut short_entry = words[..10].to_vec();
         short_entry.extend([head(2, 15), 5]);
-        assert_eq!(set_float_modes(&short_entry, BOTH).unwrap_err().at, 10);
+        assert_eq!(with_float_modes(&short_entry, BOTH).unwrap_err().at, 10);
     }
 }

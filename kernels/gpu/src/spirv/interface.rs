@@ -1,9 +1,14 @@
 //! What a kernel takes, read from its module: entry point, workgroup, bindings, push constants.
 //!
-//! Read from the words rather than written down a second time in the host, so that the two cannot disagree.
+//! Read from the words rather than written down a second time, so that the two cannot disagree.
 
-use super::spirv_words::{Instruction, ModuleError, instructions, op};
-use std::collections::HashMap;
+use alloc::collections::BTreeMap;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::access::Accesses;
+use super::words::{Instruction, ModuleError, instructions, op};
+use crate::kernel::Access;
 
 /// The declared interface of a module with one compute entry point.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -12,11 +17,19 @@ pub struct Interface {
     pub entry_point: String,
     /// Invocations per workgroup.
     pub workgroup: [u32; 3],
-    /// Per binding of descriptor set 0, the bytes from one element of its runtime array to the next; `None` where the
-    /// binding is no runtime array or the kernel does not use it.
-    pub strides: Vec<Option<u32>>,
+    /// By binding of descriptor set 0; `None` where the binding is no runtime array or the kernel does not declare it.
+    pub buffers: Vec<Option<BufferUse>>,
     /// Size of the push constant block, bytes.
-    pub push_bytes: u32,
+    pub push_constants: u32,
+}
+
+/// What a module says of a storage buffer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BufferUse {
+    /// What it does with the elements. A pointer that the module hands on, to a function for one, counts as read and written.
+    pub access: Access,
+    /// Bytes from one element of its runtime array to the next.
+    pub stride: u32,
 }
 
 /// Execution model GLCompute.
@@ -27,6 +40,7 @@ const STORAGE_UNIFORM: u32 = 2;
 const STORAGE_PUSH_CONSTANT: u32 = 9;
 const STORAGE_BUFFER: u32 = 12;
 const DECORATION_ARRAY_STRIDE: u32 = 6;
+const DECORATION_NON_WRITABLE: u32 = 24;
 const DECORATION_BINDING: u32 = 33;
 const DECORATION_DESCRIPTOR_SET: u32 = 34;
 const DECORATION_OFFSET: u32 = 35;
@@ -40,7 +54,7 @@ impl Interface {
     /// # Errors
     /// [`ModuleError`] if the words do not parse, hold not exactly one compute entry point, or declare resources other
     /// than storage buffers in descriptor set 0 and one push constant block.
-    pub(crate) fn read(words: &[u32]) -> Result<Self, ModuleError> {
+    pub fn read(words: &[u32]) -> Result<Self, ModuleError> {
         let mut reader = Reader::default();
         for instruction in &instructions(words)? {
             reader.visit(instruction)?;
@@ -55,6 +69,13 @@ impl Interface {
         if reader.interface.workgroup.contains(&0) {
             return Err(whole("the entry point declares no workgroup size"));
         }
+        for (binding, stride) in (0..).zip(&reader.buffers) {
+            let buffer = stride.map(|stride| BufferUse {
+                access: reader.accesses.of(binding),
+                stride,
+            });
+            reader.interface.buffers.push(buffer);
+        }
         Ok(reader.interface)
     }
 }
@@ -63,17 +84,20 @@ impl Interface {
 #[derive(Default)]
 struct Reader {
     interface: Interface,
-    /// (id, decoration) -> first operand.
-    decorations: HashMap<(u32, u32), u32>,
+    /// Strides by binding.
+    buffers: Vec<Option<u32>>,
+    accesses: Accesses,
+    /// (id, decoration) -> first operand, 0 where it has none.
+    decorations: BTreeMap<(u32, u32), u32>,
     /// (struct id, member) -> byte offset.
-    offsets: HashMap<(u32, u32), u32>,
+    offsets: BTreeMap<(u32, u32), u32>,
     /// Type id -> size in bytes, where it has one.
-    sizes: HashMap<u32, u32>,
+    sizes: BTreeMap<u32, u32>,
     /// Type id -> stride of the runtime array it is or ends with.
-    strides: HashMap<u32, u32>,
+    strides: BTreeMap<u32, u32>,
     /// Pointer type id -> pointee type id.
-    pointees: HashMap<u32, u32>,
-    constants: HashMap<u32, u32>,
+    pointees: BTreeMap<u32, u32>,
+    constants: BTreeMap<u32, u32>,
 }
 
 impl Reader {
@@ -85,9 +109,8 @@ impl Reader {
                 self.interface.workgroup = [word(2)?, word(3)?, word(4)?];
             }
             op::DECORATE => {
-                if let Some(&value) = instruction.operands.get(2) {
-                    self.decorations.insert((word(0)?, word(1)?), value);
-                }
+                let value = instruction.operands.get(2).copied().unwrap_or(0);
+                self.decorations.insert((word(0)?, word(1)?), value);
             }
             op::MEMBER_DECORATE if word(2)? == DECORATION_OFFSET => {
                 self.offsets.insert((word(0)?, word(1)?), word(3)?);
@@ -125,7 +148,7 @@ impl Reader {
                 self.constants.insert(word(1)?, word(2)?);
             }
             op::VARIABLE => self.variable(instruction)?,
-            _ => {}
+            _ => self.accesses.visit(instruction)?,
         }
         Ok(())
     }
@@ -145,7 +168,7 @@ impl Reader {
             .flat_map(|word| word.to_le_bytes())
             .collect();
         let name = bytes.split(|byte| *byte == 0).next().unwrap_or_default();
-        match std::str::from_utf8(name) {
+        match core::str::from_utf8(name) {
             Ok(name) if !name.is_empty() && name.len() < bytes.len() => {
                 self.interface.entry_point = name.into()
             }
@@ -183,7 +206,7 @@ impl Reader {
         match instruction.operand(2)? {
             STORAGE_PUSH_CONSTANT => {
                 let size = self.sizes.get(&pointee).copied();
-                self.interface.push_bytes =
+                self.interface.push_constants =
                     size.ok_or_else(|| instruction.error("a push constant block of unknown size"))?;
             }
             STORAGE_BUFFER => {
@@ -194,9 +217,11 @@ impl Reader {
                 let binding = decoration(DECORATION_BINDING)
                     .filter(|binding| *binding < MAX_BINDINGS)
                     .ok_or_else(|| instruction.error("a storage buffer without a usable binding"))?;
-                let strides = &mut self.interface.strides;
+                let strides = &mut self.buffers;
                 strides.resize(strides.len().max(binding as usize + 1), None);
                 strides[binding as usize] = self.strides.get(&pointee).copied();
+                let read_only = self.decorations.contains_key(&(id, DECORATION_NON_WRITABLE));
+                self.accesses.declare(id, binding, read_only);
             }
             STORAGE_UNIFORM | STORAGE_UNIFORM_CONSTANT => {
                 return Err(instruction.error("a resource that is not a storage buffer"));
@@ -207,21 +232,23 @@ impl Reader {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "kernels"))]
 mod tests {
+    use super::super::words::HEADER;
     use super::*;
 
     fn module() -> Vec<u32> {
-        super::super::modules::words(include_bytes!("../../../tests/data/vulkan/scale_index.spv"))
+        crate::table::SELF_TEST.words()
     }
 
     #[test]
     fn reads_a_kernel() {
+        let buffer = |access, stride| Some(BufferUse { access, stride });
         let expected = Interface {
-            entry_point: "scale_index".into(),
+            entry_point: "self_test".into(),
             workgroup: [64, 1, 1],
-            strides: vec![Some(4), Some(8)],
-            push_bytes: 8,
+            buffers: alloc::vec![buffer(Access::Read, 12), buffer(Access::Write, 4)],
+            push_constants: 4,
         };
         assert_eq!(Interface::read(&module()), Ok(expected));
     }
@@ -239,8 +266,6 @@ mod tests {
                 let _ = Interface::read(&corrupt);
             }
         }
-        assert!(Interface::read(&words[..HEADER_ONLY]).is_err());
+        assert!(Interface::read(&words[..HEADER]).is_err());
     }
-
-    const HEADER_ONLY: usize = super::super::spirv_words::HEADER;
 }

@@ -1,0 +1,202 @@
+//! A device made of plain arrays follows a scene by frames alone.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use bytemuck::{cast_slice, cast_slice_mut};
+use lightbvh::refit::{self, BlasRoot};
+use lightbvh::bvh::RebuildParams;
+use lightbvh::{Bvh, CompactNode, Edit, EmissiveTriangle, Instance, LightNode, MomentNode, Transform};
+
+use super::*;
+use crate::refit::Pass;
+
+/// What a device would hold, as words.
+#[derive(Default)]
+struct Device {
+    mirror: Mirror,
+    buffers: [Vec<u32>; Buffer::ALL.len()],
+}
+
+impl Device {
+    fn buffer(&self, buffer: Buffer) -> &[u32] {
+        &self.buffers[buffer as usize]
+    }
+
+    fn follow<N: LightNode<W>, const W: usize>(&mut self, scene: &Bvh<N, (), W>) -> Frame {
+        let frame = self.mirror.follow(scene);
+        for &(buffer, bytes) in &frame.resizes {
+            // New memory holds anything.
+            self.buffers[buffer as usize].resize(bytes as usize / 4, 0xdead_beef);
+        }
+        for Copy { buffer, bytes } in &frame.copies {
+            let bytes = bytes.start as usize..bytes.end as usize;
+            let to: &mut [u8] = cast_slice_mut(&mut self.buffers[*buffer as usize]);
+            to[bytes.clone()].copy_from_slice(&buffer.bytes(scene)[bytes]);
+        }
+        for dispatch in &frame.refit.dispatches {
+            let [first, count] = dispatch.push();
+            for &entry in &frame.refit.list[first as usize..(first + count) as usize] {
+                self.compute::<N, W>(dispatch.pass, entry);
+            }
+        }
+        frame
+    }
+
+    fn compute<N: LightNode<W>, const W: usize>(&mut self, pass: Pass, entry: u32) {
+        let nodes: &[N] = cast_slice(self.buffer(Buffer::Nodes));
+        let roots: &[BlasRoot] = cast_slice(self.buffer(Buffer::Roots));
+        let triangles: &[EmissiveTriangle] = cast_slice(self.buffer(Buffer::Triangles));
+        let instances: &[Instance] = cast_slice(self.buffer(Buffer::Instances));
+        let at = entry as usize;
+        match pass {
+            Pass::Bottom => {
+                let node = refit::bottom::<N, W>(nodes, triangles, entry);
+                cast_slice_mut::<u32, N>(&mut self.buffers[Buffer::Nodes as usize])[at] = node;
+            }
+            Pass::Roots => {
+                let root = refit::root::<N, W>(nodes, roots[at].node);
+                cast_slice_mut::<u32, BlasRoot>(&mut self.buffers[Buffer::Roots as usize])[at] = root;
+            }
+            Pass::Top => {
+                let node = refit::top::<N, W>(nodes, instances, roots, entry);
+                cast_slice_mut::<u32, N>(&mut self.buffers[Buffer::Nodes as usize])[at] = node;
+            }
+        }
+    }
+
+    fn assert_is<N: LightNode<W>, const W: usize>(&self, scene: &Bvh<N, (), W>, frame: u32) {
+        for buffer in Buffer::ALL {
+            let expected: &[u32] = cast_slice(buffer.bytes(scene));
+            assert!(self.buffer(buffer) == expected, "frame {frame}: {buffer:?}");
+        }
+    }
+}
+
+fn mesh(count: u32, seed: u32) -> Vec<EmissiveTriangle> {
+    let lamp = |i: u32| {
+        let number = (i * 7 + seed) as f32;
+        let p = [number % 13.0, number % 5.0, number % 7.0];
+        EmissiveTriangle {
+            p: [p, [p[0] + 0.5, p[1], p[2]], [p[0], p[1] + 0.5, p[2] + 0.1]],
+            radiance: [1.0 + number % 3.0, 1.0, 1.0],
+            mesh: 0,
+            flags: 0,
+        }
+    };
+    (0..count).map(lamp).collect()
+}
+
+/// A frame of edits of each kind; meshes and instances come and go, so that every buffer grows.
+fn edit<N: LightNode<W>, const W: usize>(
+    scene: &mut Bvh<N, (), W>,
+    ids: &mut (Vec<lightbvh::MeshId>, Vec<lightbvh::InstanceId>),
+    frame: u32,
+) {
+    let transform = Transform::at([frame as f32, 1.0, 0.5 * frame as f32]);
+    let (meshes, instances) = ids;
+    if frame.is_multiple_of(3) {
+        let triangles = mesh(20 + 5 * frame, frame);
+        meshes.extend(scene.apply(vec![Edit::AddMesh { triangles }]).unwrap().meshes);
+        let mesh = *meshes.last().unwrap();
+        let add = Edit::AddInstance {
+            mesh,
+            transform,
+            radiance: 1.0,
+        };
+        instances.extend(scene.apply(vec![add.clone(), add]).unwrap().instances);
+    }
+    let mut edits = vec![Edit::SetTransform {
+        instance: instances[frame as usize % instances.len()],
+        transform,
+    }];
+    if frame % 4 == 1 {
+        edits.push(Edit::SetTriangles {
+            mesh: meshes[0],
+            triangles: mesh(20, 100 + frame),
+        });
+    }
+    if frame % 5 == 4 {
+        edits.push(Edit::SetRadiance {
+            instance: instances[0],
+            radiance: 2.0,
+        });
+    }
+    if frame % 7 == 6 {
+        edits.push(Edit::RemoveInstance(instances.pop().unwrap()));
+    }
+    scene.apply(edits).unwrap();
+}
+
+fn follows<N: LightNode<W>, const W: usize>(rebuilds: bool) {
+    let mut scene = Bvh::<N, (), W>::default();
+    let (mut device, mut ids) = (Device::default(), Default::default());
+    for frame in 0..40 {
+        edit(&mut scene, &mut ids, frame);
+        if rebuilds && frame % 2 == 1 {
+            let rebuilt = scene
+                .rebuild(&RebuildParams {
+                    top: true,
+                    drift: 1.1,
+                })
+                .run();
+            scene.install(rebuilt).expect("its own");
+        }
+        scene.plan();
+        device.follow(&scene);
+        scene.refit();
+        device.assert_is(&scene, frame);
+    }
+}
+
+#[test]
+fn a_device_follows_edits() {
+    follows::<MomentNode<8>, 8>(false);
+    follows::<CompactNode<4>, 4>(false);
+}
+
+#[test]
+fn a_device_follows_rebuilds() {
+    follows::<MomentNode<8>, 8>(true);
+    follows::<CompactNode<4>, 4>(true);
+}
+
+#[test]
+fn a_device_follows_a_scene_that_is_never_refitted_itself() {
+    let mut scene = Bvh::<MomentNode<8>, (), 8>::default();
+    let (mut device, mut ids) = (Device::default(), Default::default());
+    for frame in 0..20 {
+        edit(&mut scene, &mut ids, frame);
+        scene.plan();
+        device.follow(&scene);
+        let mut twin = scene.clone();
+        twin.refit();
+        device.assert_is(&twin, frame);
+    }
+}
+
+#[test]
+fn the_first_frame_copies_everything_and_a_still_one_nothing() {
+    let mut scene = Bvh::<MomentNode<8>, (), 8>::default();
+    edit(&mut scene, &mut Default::default(), 0);
+    scene.refit();
+    let mut device = Device::default();
+    let first = device.follow(&scene);
+    assert_eq!(first.resizes.len(), Buffer::ALL.len());
+    for (&(buffer, bytes), copy) in first.resizes.iter().zip(&first.copies) {
+        assert_eq!((buffer, 0..bytes), (copy.buffer, copy.bytes.clone()));
+    }
+    device.assert_is(&scene, 0);
+    scene.apply(vec![]).unwrap();
+    scene.refit();
+    assert_eq!(device.follow(&scene), Frame::default());
+}
+
+#[test]
+fn ranges_that_touch_are_one() {
+    assert_eq!(
+        joined(vec![8..12, 0..4, 4..8, 20..24, 22..30], 28),
+        [0..12, 20..28]
+    );
+    assert_eq!(joined(vec![4..4, 40..50], 28), []);
+}

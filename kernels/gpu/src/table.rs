@@ -1,0 +1,476 @@
+//! All kernels. Written by `build-kernels` from the modules in `spirv`; edits are lost.
+
+use crate::kernel::Access::{Read, ReadWrite, Write};
+use crate::kernel::{Binding, Kernel};
+
+/// Kernel `path_bvh`.
+pub static PATH_BVH: Kernel = Kernel {
+    name: "path_bvh",
+    bytes: include_bytes!("../spirv/path_bvh.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 44 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "lights", access: Read, stride: 56 },
+        Binding { binding: 4, name: "camera", access: Read, stride: 48 },
+        Binding { binding: 5, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 6, name: "instances", access: Read, stride: 132 },
+        Binding { binding: 7, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 8, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 64,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `path_bvh_eq4`.
+pub static PATH_BVH_EQ4: Kernel = Kernel {
+    name: "path_bvh_eq4",
+    bytes: include_bytes!("../spirv/path_bvh_eq4.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 44 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "lights", access: Read, stride: 56 },
+        Binding { binding: 4, name: "camera", access: Read, stride: 48 },
+        Binding { binding: 5, name: "nodes", access: Read, stride: 112 },
+        Binding { binding: 6, name: "instances", access: Read, stride: 132 },
+        Binding { binding: 7, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 8, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 64,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `path_power`.
+pub static PATH_POWER: Kernel = Kernel {
+    name: "path_power",
+    bytes: include_bytes!("../spirv/path_power.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 44 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "lights", access: Read, stride: 56 },
+        Binding { binding: 4, name: "camera", access: Read, stride: 48 },
+        Binding { binding: 5, name: "thresholds", access: Read, stride: 4 },
+        Binding { binding: 6, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 64,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `path_uniform`.
+pub static PATH_UNIFORM: Kernel = Kernel {
+    name: "path_uniform",
+    bytes: include_bytes!("../spirv/path_uniform.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 44 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "lights", access: Read, stride: 56 },
+        Binding { binding: 4, name: "camera", access: Read, stride: 48 },
+        Binding { binding: 5, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 64,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `pmf`.
+pub static PMF: Kernel = Kernel {
+    name: "pmf",
+    bytes: include_bytes!("../spirv/pmf.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 132 },
+        Binding { binding: 2, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 3, name: "queries", access: Read, stride: 32 },
+        Binding { binding: 4, name: "results", access: Write, stride: 4 },
+    ],
+    push_constants: 24,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `pmf_eq4`.
+pub static PMF_EQ4: Kernel = Kernel {
+    name: "pmf_eq4",
+    bytes: include_bytes!("../spirv/pmf_eq4.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "nodes", access: Read, stride: 112 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 132 },
+        Binding { binding: 2, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 3, name: "queries", access: Read, stride: 32 },
+        Binding { binding: 4, name: "results", access: Write, stride: 4 },
+    ],
+    push_constants: 24,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `refit_bottom`.
+pub static REFIT_BOTTOM: Kernel = Kernel {
+    name: "refit_bottom",
+    bytes: include_bytes!("../spirv/refit_bottom.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "list", access: Read, stride: 4 },
+        Binding { binding: 1, name: "triangles", access: Read, stride: 56 },
+        Binding { binding: 2, name: "nodes", access: ReadWrite, stride: 192 },
+    ],
+    push_constants: 8,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `refit_bottom_eq4`.
+pub static REFIT_BOTTOM_EQ4: Kernel = Kernel {
+    name: "refit_bottom_eq4",
+    bytes: include_bytes!("../spirv/refit_bottom_eq4.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "list", access: Read, stride: 4 },
+        Binding { binding: 1, name: "triangles", access: Read, stride: 56 },
+        Binding { binding: 2, name: "nodes", access: ReadWrite, stride: 112 },
+    ],
+    push_constants: 8,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `refit_roots`.
+pub static REFIT_ROOTS: Kernel = Kernel {
+    name: "refit_roots",
+    bytes: include_bytes!("../spirv/refit_roots.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "list", access: Read, stride: 4 },
+        Binding { binding: 1, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 2, name: "roots", access: ReadWrite, stride: 52 },
+    ],
+    push_constants: 8,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `refit_roots_eq4`.
+pub static REFIT_ROOTS_EQ4: Kernel = Kernel {
+    name: "refit_roots_eq4",
+    bytes: include_bytes!("../spirv/refit_roots_eq4.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "list", access: Read, stride: 4 },
+        Binding { binding: 1, name: "nodes", access: Read, stride: 112 },
+        Binding { binding: 2, name: "roots", access: ReadWrite, stride: 52 },
+    ],
+    push_constants: 8,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `refit_top`.
+pub static REFIT_TOP: Kernel = Kernel {
+    name: "refit_top",
+    bytes: include_bytes!("../spirv/refit_top.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "list", access: Read, stride: 4 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 132 },
+        Binding { binding: 2, name: "roots", access: Read, stride: 52 },
+        Binding { binding: 3, name: "nodes", access: ReadWrite, stride: 192 },
+    ],
+    push_constants: 8,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `refit_top_eq4`.
+pub static REFIT_TOP_EQ4: Kernel = Kernel {
+    name: "refit_top_eq4",
+    bytes: include_bytes!("../spirv/refit_top_eq4.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "list", access: Read, stride: 4 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 132 },
+        Binding { binding: 2, name: "roots", access: Read, stride: 52 },
+        Binding { binding: 3, name: "nodes", access: ReadWrite, stride: 112 },
+    ],
+    push_constants: 8,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `render_bvh`.
+pub static RENDER_BVH: Kernel = Kernel {
+    name: "render_bvh",
+    bytes: include_bytes!("../spirv/render_bvh.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 44 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "lights", access: Read, stride: 56 },
+        Binding { binding: 4, name: "camera", access: Read, stride: 48 },
+        Binding { binding: 5, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 6, name: "instances", access: Read, stride: 132 },
+        Binding { binding: 7, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 8, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 60,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `render_bvh_eq4`.
+pub static RENDER_BVH_EQ4: Kernel = Kernel {
+    name: "render_bvh_eq4",
+    bytes: include_bytes!("../spirv/render_bvh_eq4.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 44 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "lights", access: Read, stride: 56 },
+        Binding { binding: 4, name: "camera", access: Read, stride: 48 },
+        Binding { binding: 5, name: "nodes", access: Read, stride: 112 },
+        Binding { binding: 6, name: "instances", access: Read, stride: 132 },
+        Binding { binding: 7, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 8, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 60,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `render_power`.
+pub static RENDER_POWER: Kernel = Kernel {
+    name: "render_power",
+    bytes: include_bytes!("../spirv/render_power.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 44 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "lights", access: Read, stride: 56 },
+        Binding { binding: 4, name: "camera", access: Read, stride: 48 },
+        Binding { binding: 5, name: "thresholds", access: Read, stride: 4 },
+        Binding { binding: 6, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 60,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `render_uniform`.
+pub static RENDER_UNIFORM: Kernel = Kernel {
+    name: "render_uniform",
+    bytes: include_bytes!("../spirv/render_uniform.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 44 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "lights", access: Read, stride: 56 },
+        Binding { binding: 4, name: "camera", access: Read, stride: 48 },
+        Binding { binding: 5, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 60,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `restir_initial_bvh`.
+pub static RESTIR_INITIAL_BVH: Kernel = Kernel {
+    name: "restir_initial_bvh",
+    bytes: include_bytes!("../spirv/restir_initial_bvh.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 44 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "lights", access: Read, stride: 56 },
+        Binding { binding: 4, name: "camera", access: Read, stride: 48 },
+        Binding { binding: 5, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 6, name: "instances", access: Read, stride: 132 },
+        Binding { binding: 7, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 8, name: "gbuffer", access: Write, stride: 56 },
+        Binding { binding: 9, name: "reservoirs", access: Write, stride: 24 },
+    ],
+    push_constants: 84,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `restir_initial_bvh_eq4`.
+pub static RESTIR_INITIAL_BVH_EQ4: Kernel = Kernel {
+    name: "restir_initial_bvh_eq4",
+    bytes: include_bytes!("../spirv/restir_initial_bvh_eq4.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 44 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "lights", access: Read, stride: 56 },
+        Binding { binding: 4, name: "camera", access: Read, stride: 48 },
+        Binding { binding: 5, name: "nodes", access: Read, stride: 112 },
+        Binding { binding: 6, name: "instances", access: Read, stride: 132 },
+        Binding { binding: 7, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 8, name: "gbuffer", access: Write, stride: 56 },
+        Binding { binding: 9, name: "reservoirs", access: Write, stride: 24 },
+    ],
+    push_constants: 84,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `restir_initial_power`.
+pub static RESTIR_INITIAL_POWER: Kernel = Kernel {
+    name: "restir_initial_power",
+    bytes: include_bytes!("../spirv/restir_initial_power.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 44 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "lights", access: Read, stride: 56 },
+        Binding { binding: 4, name: "camera", access: Read, stride: 48 },
+        Binding { binding: 5, name: "thresholds", access: Read, stride: 4 },
+        Binding { binding: 6, name: "gbuffer", access: Write, stride: 56 },
+        Binding { binding: 7, name: "reservoirs", access: Write, stride: 24 },
+    ],
+    push_constants: 84,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `restir_shade`.
+pub static RESTIR_SHADE: Kernel = Kernel {
+    name: "restir_shade",
+    bytes: include_bytes!("../spirv/restir_shade.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 44 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "lights", access: Read, stride: 56 },
+        Binding { binding: 4, name: "gbuffer", access: Read, stride: 56 },
+        Binding { binding: 5, name: "reservoirs", access: ReadWrite, stride: 24 },
+        Binding { binding: 6, name: "results", access: Write, stride: 16 },
+    ],
+    push_constants: 84,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `restir_spatial_biased`.
+pub static RESTIR_SPATIAL_BIASED: Kernel = Kernel {
+    name: "restir_spatial_biased",
+    bytes: include_bytes!("../spirv/restir_spatial_biased.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 1, name: "lights", access: Read, stride: 56 },
+        Binding { binding: 2, name: "gbuffer", access: Read, stride: 56 },
+        Binding { binding: 3, name: "reservoirs", access: Read, stride: 24 },
+        Binding { binding: 4, name: "results", access: Write, stride: 24 },
+    ],
+    push_constants: 84,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `restir_spatial_unbiased`.
+pub static RESTIR_SPATIAL_UNBIASED: Kernel = Kernel {
+    name: "restir_spatial_unbiased",
+    bytes: include_bytes!("../spirv/restir_spatial_unbiased.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 44 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "lights", access: Read, stride: 56 },
+        Binding { binding: 4, name: "gbuffer", access: Read, stride: 56 },
+        Binding { binding: 5, name: "reservoirs", access: Read, stride: 24 },
+        Binding { binding: 6, name: "results", access: Write, stride: 24 },
+    ],
+    push_constants: 84,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `restir_temporal_biased`.
+pub static RESTIR_TEMPORAL_BIASED: Kernel = Kernel {
+    name: "restir_temporal_biased",
+    bytes: include_bytes!("../spirv/restir_temporal_biased.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 1, name: "lights", access: Read, stride: 56 },
+        Binding { binding: 2, name: "before_camera", access: Read, stride: 48 },
+        Binding { binding: 3, name: "before_gbuffer", access: Read, stride: 56 },
+        Binding { binding: 4, name: "before_reservoirs", access: Read, stride: 24 },
+        Binding { binding: 5, name: "to_current", access: Read, stride: 4 },
+        Binding { binding: 6, name: "gbuffer", access: Read, stride: 56 },
+        Binding { binding: 7, name: "reservoirs", access: ReadWrite, stride: 24 },
+    ],
+    push_constants: 84,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `restir_temporal_unbiased`.
+pub static RESTIR_TEMPORAL_UNBIASED: Kernel = Kernel {
+    name: "restir_temporal_unbiased",
+    bytes: include_bytes!("../spirv/restir_temporal_unbiased.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "before_ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 1, name: "before_surfaces", access: Read, stride: 44 },
+        Binding { binding: 2, name: "before_lights", access: Read, stride: 56 },
+        Binding { binding: 3, name: "to_previous", access: Read, stride: 4 },
+        Binding { binding: 4, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 5, name: "lights", access: Read, stride: 56 },
+        Binding { binding: 6, name: "before_camera", access: Read, stride: 48 },
+        Binding { binding: 7, name: "before_gbuffer", access: Read, stride: 56 },
+        Binding { binding: 8, name: "before_reservoirs", access: Read, stride: 24 },
+        Binding { binding: 9, name: "to_current", access: Read, stride: 4 },
+        Binding { binding: 10, name: "gbuffer", access: Read, stride: 56 },
+        Binding { binding: 11, name: "reservoirs", access: ReadWrite, stride: 24 },
+    ],
+    push_constants: 84,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `sample`.
+pub static SAMPLE: Kernel = Kernel {
+    name: "sample",
+    bytes: include_bytes!("../spirv/sample.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 132 },
+        Binding { binding: 2, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 3, name: "queries", access: Read, stride: 32 },
+        Binding { binding: 4, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 24,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `sample_eq4`.
+pub static SAMPLE_EQ4: Kernel = Kernel {
+    name: "sample_eq4",
+    bytes: include_bytes!("../spirv/sample_eq4.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "nodes", access: Read, stride: 112 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 132 },
+        Binding { binding: 2, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 3, name: "queries", access: Read, stride: 32 },
+        Binding { binding: 4, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 24,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `self_test`.
+pub static SELF_TEST: Kernel = Kernel {
+    name: "self_test",
+    bytes: include_bytes!("../spirv/self_test.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "operands", access: Read, stride: 12 },
+        Binding { binding: 1, name: "answers", access: Write, stride: 4 },
+    ],
+    push_constants: 4,
+    workgroup: [64, 1, 1],
+};
+
+/// All kernels, sorted by name.
+pub static KERNELS: &[&Kernel] = &[
+    &PATH_BVH,
+    &PATH_BVH_EQ4,
+    &PATH_POWER,
+    &PATH_UNIFORM,
+    &PMF,
+    &PMF_EQ4,
+    &REFIT_BOTTOM,
+    &REFIT_BOTTOM_EQ4,
+    &REFIT_ROOTS,
+    &REFIT_ROOTS_EQ4,
+    &REFIT_TOP,
+    &REFIT_TOP_EQ4,
+    &RENDER_BVH,
+    &RENDER_BVH_EQ4,
+    &RENDER_POWER,
+    &RENDER_UNIFORM,
+    &RESTIR_INITIAL_BVH,
+    &RESTIR_INITIAL_BVH_EQ4,
+    &RESTIR_INITIAL_POWER,
+    &RESTIR_SHADE,
+    &RESTIR_SPATIAL_BIASED,
+    &RESTIR_SPATIAL_UNBIASED,
+    &RESTIR_TEMPORAL_BIASED,
+    &RESTIR_TEMPORAL_UNBIASED,
+    &SAMPLE,
+    &SAMPLE_EQ4,
+    &SELF_TEST,
+];
