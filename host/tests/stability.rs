@@ -5,8 +5,7 @@ use std::process::Command;
 use lightbvh::{BuildParams, LightBvh, LightNode, Lights};
 use lightbvh_host::stability::cases::scattered;
 use lightbvh_host::stability::row::{Check, Row};
-use lightbvh_host::stability::{Importance, case, checks, walked};
-use lightbvh_kernels::bvh::{Node, WIDTH};
+use lightbvh_host::stability::{case, checks, walked};
 use serde_json::Value;
 
 #[test]

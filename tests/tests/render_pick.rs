@@ -2,7 +2,7 @@
 
 use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, ShadingPoint};
 use lightbvh_host::render::{flux, power_thresholds};
-use lightbvh_kernels::bvh::{Choice, Node, Standard, TreeOf, WIDTH};
+use lightbvh_kernels::bvh::{Choice, Node, Standard, WIDTH};
 use lightbvh_kernels::shading::pick::{MAX_PICKABLE, PickLight, Power, Uniform};
 use lightbvh_kernels::shading::trace::NONE;
 use lightbvh_tests::generate::{Random, point, small_triangles};

@@ -10,7 +10,7 @@ use lightbvh_host::backend::{
 use lightbvh_host::render::Film;
 use lightbvh_host::scene::Scene;
 use lightbvh_host::workload::{Shot, arrays_at};
-use lightbvh_kernels::bvh::{Standard, TreeOf, WIDTH as WIDE};
+use lightbvh_kernels::bvh::{Standard, WIDTH as WIDE};
 
 const WIDTH: u32 = 128;
 const HEIGHT: u32 = 72;

@@ -3,7 +3,6 @@
 use glam::Vec3;
 use lightbvh::{BuildParams, EmissiveTriangle, Heuristic, LightBvh, Lights, ShadingPoint, exact};
 use lightbvh_host::render::{RayBvh, power_thresholds};
-use lightbvh_kernels::bvh::{Node, Standard, TreeOf, WIDTH};
 use lightbvh_kernels::shading::area::sample_triangle;
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};

@@ -4,8 +4,8 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use bytemuck::{cast_slice, cast_slice_mut};
-use lightbvh::refit::{self, BlasRoot};
 use lightbvh::bvh::RebuildParams;
+use lightbvh::refit::{self, BlasRoot};
 use lightbvh::{Bvh, CompactNode, Edit, EmissiveTriangle, Instance, LightNode, MomentNode, Transform};
 
 use super::*;

@@ -2,7 +2,7 @@
 
 use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights};
 use lightbvh_host::render::{RayBvh, View, camera};
-use lightbvh_kernels::bvh::{Node, TreePush, WIDTH};
+use lightbvh_kernels::bvh::TreePush;
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
