@@ -47,7 +47,7 @@ fn push_constants_and_rows_are_those_of_the_kernels() {
         lights: 4,
         depth: 5,
     };
-    let words = lightbvh_gpu::tree_words(&tree.tree::<u32>(&[], &[], &[]));
+    let words = lightbvh_gpu::tree_words(&tree.tree::<u32, (), 8>(&[], &[], &[]));
     assert_eq!(bytemuck::bytes_of(&words), bytemuck::bytes_of(&tree));
     let dispatch = lightbvh_gpu::Dispatch {
         pass: lightbvh_gpu::Pass::Top,
