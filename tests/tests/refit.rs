@@ -293,7 +293,7 @@ fn violations_say_where_and_what() {
         v.to_string(),
         format!(
             "node {root}, slot 1, link: expected {}, found 999",
-            bvh.nodes().len()
+            bvh.nodes().len() - 1
         )
     );
 

@@ -138,7 +138,7 @@ fn check_trees<N: LightNode<W>, const W: usize>(count: u32) {
         }
         bare
     };
-    // The first node is the top level of the time before there were lights, the last are those of the top level.
+    // The top level stands behind the bottom levels.
     let plan = bvh.plan_of_everything();
     let end = plan.trees.iter().map(|tree| tree.end).max().expect("a tree") as usize;
     let bare: Vec<N> = bvh.nodes()[..end].iter().map(bare).collect();

@@ -39,6 +39,10 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         params: &BuildParams,
     ) -> Self {
         let mut bvh = Self::new(*params);
+        // The top level of no instances gives its place up, so that no node is left unused.
+        for range in core::mem::take(&mut bvh.top.ranges) {
+            bvh.node_ranges.give(range);
+        }
         let mut added = Vec::new();
         for range in meshes {
             let mesh = bvh.insert_mesh(&triangles[range]);

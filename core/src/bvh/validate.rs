@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::Bvh;
+use crate::levels::Levels;
 use crate::node::{LightNode, kind};
 use crate::refit;
 use crate::trail::{BitTrail, max_levels};
@@ -39,6 +40,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// - each node in use is reached once, through links that are in range, and knows its parent;
     /// - each live instance is a leaf of the top level exactly once, each triangle of a bottom level a leaf of it exactly
     ///   once, and their trails lead there;
+    /// - the lists of levels are complete and run from the deepest level to the root;
     /// - ranges of nodes, triangles and lights in use do not overlap;
     /// - an instance's words are those of its transform, mesh and bottom level;
     /// - every word of every bounds is what refit makes of triangles and instances from scratch;
@@ -86,6 +88,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 &refit::root(&again, root),
                 &self.roots[index],
             )?;
+            listed(&blas.levels, &found)?;
             used_triangles.push(blas.triangles.clone());
         }
         disjoint(used_triangles)?;
@@ -127,6 +130,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             .map(|range: &Range<u32>| range.end - range.start)
             .sum();
         disjoint(used_lights)?;
+        listed(&self.top.levels, &found)?;
 
         let mut nodes = 0;
         for (index, (expected, found)) in (0u32..).zip(again.iter().zip(&self.nodes)) {
@@ -141,7 +145,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             instances,
             blases,
             lights,
-            depth: found.depth + bottom_depth,
+            depth: bottom_depth + if self.single { 0 } else { found.depth },
         })
     }
 
@@ -152,16 +156,10 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             leaves: Vec::new(),
             depth: 0,
         };
-        let mut stack = alloc::vec![(root, INVALID, 0, BitTrail::default())];
-        while let Some((node, parent, level, trail)) = stack.pop() {
+        let mut stack = alloc::vec![(root, (INVALID, INVALID), 0, BitTrail::default())];
+        while let Some((node, (parent, slot), level, trail)) = stack.pop() {
             if node as usize >= self.nodes.len() {
-                return Err(bad(
-                    parent,
-                    INVALID,
-                    What::Link,
-                    self.nodes.len() as u32 - 1,
-                    node,
-                ));
+                return Err(bad(parent, slot, What::Link, self.nodes.len() as u32 - 1, node));
             }
             if level >= max_levels(W) {
                 return Err(bad(node, INVALID, What::Level, max_levels(W) - 1, level));
@@ -182,11 +180,12 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 let (to, link) = (own.kind(slot), own.link(slot));
                 let own_trail = trail.with::<W>(level, slot as u32);
                 if to == kind::INNER {
-                    stack.push((link, node, level + 1, own_trail));
+                    stack.push((link, (node, slot as u32), level + 1, own_trail));
                 } else if to == leaf {
                     found.leaves.push((link, node, slot as u32, own_trail));
                 } else {
                     equal(node, slot as u32, What::Kind, kind::EMPTY, to)?;
+                    equal(node, slot as u32, What::Link, 0, link)?;
                 }
             }
         }
@@ -294,6 +293,37 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             },
         }
     }
+}
+
+/// Whether a list of levels has each node of a tree once, in its level, from the deepest level to the root.
+fn listed(levels: &Levels, found: &Found) -> Result<(), Violation> {
+    let mut expected = found.levels.clone();
+    expected.sort_unstable_by_key(|&(level, node)| (core::cmp::Reverse(level), node));
+    let mut own = Vec::new();
+    for (level, range) in (0..found.depth).rev().zip(levels.ranges()) {
+        let first = own.len();
+        own.extend(levels.nodes()[range].iter().map(|&node| (level, node)));
+        own[first..].sort_unstable();
+    }
+    equal(
+        INVALID,
+        INVALID,
+        What::Listed,
+        expected.len() as u32,
+        levels.nodes().len() as u32,
+    )?;
+    equal(
+        INVALID,
+        INVALID,
+        What::Listed,
+        expected.len() as u32,
+        own.len() as u32,
+    )?;
+    for (&(level, node), &(own_level, own_node)) in expected.iter().zip(&own) {
+        equal(node, INVALID, What::Listed, node, own_node)?;
+        equal(node, INVALID, What::ListedLevel, level, own_level)?;
+    }
+    Ok(())
 }
 
 fn disjoint(mut ranges: Vec<Range<u32>>) -> Result<(), Violation> {
