@@ -80,7 +80,7 @@ fn broken_trees_are_found() {
     broken.nodes[at].relink(1, end);
     assert_eq!(
         broken.validate(),
-        Err(bad(root, INVALID, What::Link, end - 1, end))
+        Err(bad(root, 1, What::Link, end - 1, end))
     );
     let end = scene().placed.len() as u32;
     let mut broken = scene();
