@@ -157,18 +157,18 @@ fn bvh<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: [u64; 3
 #[test]
 fn compact_nodes() {
     bvh::<CompactNode<2>, Eq4, 2>([
-        0x2de6_0769_4535_81d5,
-        0x04af_64f7_5214_7907,
+        0xe60a_5938_840b_9613,
+        0x1ff0_dca4_b0db_b1cf,
         0x0388_23c6_e9ba_d285,
     ]);
     bvh::<CompactNode<4>, Eq4, 4>([
-        0xc7f5_fdb8_6e13_df1b,
-        0xea0b_869c_3c91_1e71,
+        0x02bd_4845_b4d9_a598,
+        0x8c66_483b_de62_65e6,
         0xafae_d1a5_adbd_fa4c,
     ]);
     bvh::<CompactNode<16>, Defensive<Eq4, 5>, 16>([
-        0xef4d_15a4_c52f_1809,
-        0xa27d_7087_6358_8d17,
+        0x4281_1ba6_0925_0bf4,
+        0x928c_b30d_590f_dbf7,
         0xe05a_6a04_fddf_6d0c,
     ]);
 }
@@ -176,13 +176,13 @@ fn compact_nodes() {
 #[test]
 fn full_nodes() {
     bvh::<FullNode<2>, Eq4, 2>([
-        0x910f_7f1a_47a5_45d8,
-        0xfb49_5ff1_426e_facf,
+        0x7074_e1d9_1954_71c8,
+        0x02d8_d984_288b_6953,
         0x6e39_ddc4_23c0_6ca5,
     ]);
     bvh::<FullNode<8>, Eq4, 8>([
-        0x0dc1_b338_9b78_9708,
-        0x5df7_d8a2_146f_c794,
+        0x33e5_f066_4a35_9990,
+        0xd97d_486a_1dd5_0dd8,
         0xb0c3_c4d2_5004_60d0,
     ]);
 }
@@ -190,13 +190,13 @@ fn full_nodes() {
 #[test]
 fn moment_nodes() {
     bvh::<MomentNode<4>, Moments, 4>([
-        0xf31c_89e1_0209_fd16,
-        0xa593_07d9_2af8_2c8f,
+        0x131f_5ab0_888c_00ef,
+        0x10b2_5453_a021_024e,
         0xf869_a053_4ab2_5673,
     ]);
     bvh::<MomentNode<8>, Defensive<Moments, 6>, 8>([
-        0xb6bb_e740_5249_771a,
-        0xe958_0470_9ae7_e6a1,
+        0xbac4_67be_2d28_4c60,
+        0x5b4c_ad19_23ba_961f,
         0xe4a5_0810_372d_ee6c,
     ]);
 }
