@@ -78,10 +78,7 @@ fn broken_trees_are_found() {
     let end = scene().nodes.len() as u32;
     let mut broken = scene();
     broken.nodes[at].relink(1, end);
-    assert_eq!(
-        broken.validate(),
-        Err(bad(root, 1, What::Link, end - 1, end))
-    );
+    assert_eq!(broken.validate(), Err(bad(root, 1, What::Link, end - 1, end)));
     let end = scene().placed.len() as u32;
     let mut broken = scene();
     let leaf = broken.placed[2].clone();
