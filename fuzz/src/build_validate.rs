@@ -1,7 +1,7 @@
 //! Lights of any words, refused or built into valid trees.
 
 use arbitrary::{Result, Unstructured};
-use lightbvh::{BuildParams, CompactNode, FullNode, Bvh, LightNode, Lights, MomentNode};
+use lightbvh::{BuildParams, Bvh, CompactNode, FullNode, LightNode, Lights, MomentNode};
 
 use crate::{Forms, input};
 
@@ -36,8 +36,6 @@ fn valid<N: LightNode<W>, const W: usize>(lights: &Lights, params: &BuildParams,
     } else {
         Bvh::<N, (), W>::single_level(lights, params)
     };
-    let stats = bvh
-        .validate()
-        .unwrap_or_else(|violation| panic!("{violation}"));
+    let stats = bvh.validate().unwrap_or_else(|violation| panic!("{violation}"));
     assert!(bvh.bytes() > 0 && stats.depth > 0);
 }

@@ -148,7 +148,9 @@ fn sampled<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         input::sum_is_one(&pmfs, 0);
     }
     for i in 0..4_u32 {
-        let sampled = scene.by::<I>().sample(&point, random.wrapping_add(i.wrapping_mul(0x9e37_79b9)));
+        let sampled = scene
+            .by::<I>()
+            .sample(&point, random.wrapping_add(i.wrapping_mul(0x9e37_79b9)));
         if any {
             assert_ne!(sampled.light, INVALID, "{point:?}");
             assert_eq!(

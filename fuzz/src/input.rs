@@ -4,7 +4,8 @@ use arbitrary::{Error, Result, Unstructured};
 use lightbvh::build::Effort;
 use lightbvh::exact::pow2;
 use lightbvh::{
-    BuildParams, Bvh, EmissiveTriangle, Heuristic, INVALID, ImportanceModel, LightNode, Lights, ShadingPoint, Summary,
+    BuildParams, Bvh, EmissiveTriangle, Heuristic, INVALID, ImportanceModel, LightNode, Lights, ShadingPoint,
+    Summary,
 };
 
 /// Most triangles of an input: enough for several levels.

@@ -1,7 +1,7 @@
 //! Lights that move: a refitted tree against a tree built anew.
 
 use arbitrary::{Result, Unstructured};
-use lightbvh::{BuildParams, CompactNode, FullNode, Bvh, LightNode, Lights, MomentNode};
+use lightbvh::{BuildParams, Bvh, CompactNode, FullNode, LightNode, Lights, MomentNode};
 
 use crate::{Forms, input};
 
@@ -28,8 +28,7 @@ fn refitted<N: LightNode<W>, const W: usize>(lights: &Lights, moved: &Lights, pa
     let mut bvh = Bvh::<N, (), W>::two_level(lights, params);
     let first = bvh.nodes().to_vec();
     bvh.follow(moved).expect("as many lights");
-    bvh.validate()
-        .unwrap_or_else(|violation| panic!("{violation}"));
+    bvh.validate().unwrap_or_else(|violation| panic!("{violation}"));
     bvh.follow(lights).expect("as many lights");
     let words = |nodes: &[N]| bytemuck::cast_slice::<N, u32>(nodes).to_vec();
     assert_eq!(words(&first), words(bvh.nodes()));

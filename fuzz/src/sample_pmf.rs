@@ -2,7 +2,7 @@
 
 use arbitrary::{Result, Unstructured};
 use lightbvh::{
-    CompactNode, Defensive, Eq4, INVALID, ImportanceModel, Bvh, LightNode, Lights, MomentNode, Moments,
+    Bvh, CompactNode, Defensive, Eq4, INVALID, ImportanceModel, LightNode, Lights, MomentNode, Moments,
     Random64, ShadingPoint,
 };
 

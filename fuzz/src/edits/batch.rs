@@ -297,7 +297,10 @@ impl Staged {
         if let Some(mesh) = self.model.meshes.iter_mut().find(|mesh| mesh.id == id) {
             mesh.triangles = all;
         }
-        (Edit::SetTriangles { mesh: id, triangles }, first_wrong(&conditions))
+        (
+            Edit::SetTriangles { mesh: id, triangles },
+            first_wrong(&conditions),
+        )
     }
 
     fn remove_instance(&mut self, id: InstanceId) -> (Edit, Verdict) {
