@@ -5,11 +5,10 @@ use glam::DVec3;
 use lightbvh::cone::Cone;
 use lightbvh::node::kind;
 use lightbvh::{
-    Bvh, EmissiveTriangle, ImportanceModel, LightBounds, LightNode, LightTree, Lights, ShadingPoint,
+    Bvh, EmissiveTriangle, INVALID, ImportanceModel, LightBounds, LightNode, LightTree, Lights, ShadingPoint,
     Transform,
 };
 pub use lightbvh_host::stability::geometry::{Triangle, can_contribute, vector};
-use lightbvh_host::workload::instance_of;
 
 /// The angle between two vectors of any length, precise at every angle.
 #[must_use]
@@ -39,7 +38,11 @@ pub fn pmf_of<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     point: &ShadingPoint,
     light: u32,
 ) -> f32 {
-    bvh.by::<I>().pmf(point, light, instance_of(bvh, lights, light))
+    let instance = match lights.triangles().get(light as usize) {
+        Some(triangle) if !bvh.is_single_level() => triangle.mesh,
+        _ => INVALID,
+    };
+    bvh.by::<I>().pmf(point, light, instance)
 }
 
 /// Probability of every light at `point`.
