@@ -27,7 +27,6 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// [`EditError`] naming the first edit that cannot be done; the scene is as before then.
     pub fn apply(&mut self, mut edits: Vec<Edit>) -> Result<Added, EditError> {
         let mut deformed = self.check(&mut edits)?.into_iter();
-        self.unplan();
         let mut updated = Added::default();
         let mut added = Vec::new();
         for edit in edits {
@@ -165,7 +164,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             listed: old,
             ..NO_INSTANCE
         };
-        self.pending.written_instances.push(index);
+        self.changes.new.written_instances.push(index);
         self.retire_lights(lights);
         self.placed_ranges.give(index..index + 1);
     }
@@ -173,7 +172,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// Writes entry `entry` of the list of instances in use into the record that holds it.
     fn list(&mut self, entry: u32) {
         self.instances[entry as usize].listed = self.live[entry as usize];
-        self.pending.written_instances.push(entry);
+        self.changes.new.written_instances.push(entry);
     }
 
     fn deform(&mut self, id: MeshId, triangles: &[EmissiveTriangle], extent: Extent) {
@@ -197,7 +196,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             trail: old.trail,
             ..placed.transform.instance(placed.radiance)
         };
-        self.pending.mark_instance(index);
+        self.changes.new.mark_instance(index);
     }
 
     /// After a bottom level got other nodes: its instances must know the root.
@@ -209,7 +208,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             let instance = &mut self.instances[user as usize];
             if instance.root != root {
                 instance.root = root;
-                self.pending.mark_instance(user);
+                self.changes.new.mark_instance(user);
             }
         }
     }

@@ -68,7 +68,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         blas.nodes = 0..0;
         blas.triangles = 0..0;
         blas.levels = Levels::default();
-        self.pending.forget_blas(index);
+        self.changes.forget_blas(index);
         self.node_ranges.give(nodes);
         self.triangle_ranges.give(triangles);
         self.blas_ranges.give(index..index + 1);
@@ -91,8 +91,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         for (to, from) in own.iter_mut().zip(triangles) {
             *to = EmissiveTriangle { mesh: index, ..*from };
         }
-        self.pending.written_triangles.push(range);
-        self.pending.mark_blas(index);
+        self.changes.new.written_triangles.push(range);
+        self.changes.new.mark_blas(index);
     }
 
     /// Puts the nodes of `topology` in place of those that bottom level `index` had.
@@ -110,7 +110,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 self.trails[at + 1] = trail.high;
             }
         }
-        self.pending
+        self.changes
+            .new
             .written_trails
             .push(self.blases[index as usize].triangles.clone());
         let levels = Levels::gather(topology.leveled(nodes.start));
@@ -136,7 +137,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             placed,
             &self.roots[index as usize].summary::<N::Summary>().bounds(),
         );
-        self.pending.mark_built(index);
+        self.changes.new.mark_built(index);
     }
 
     /// Room for `nodes`, their links moved to where they stand then; sets the parents.
@@ -160,7 +161,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             }
             self.nodes[i as usize] = moved;
         }
-        self.pending.written_nodes.push(range.clone());
+        self.changes.new.written_nodes.push(range.clone());
         range
     }
 
@@ -171,7 +172,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             self.trail_words = 2;
             let narrow = core::mem::take(&mut self.trails);
             self.trails = narrow.into_iter().flat_map(|low| [low, 0]).collect();
-            self.pending.written_trails.push(0..end as u32);
+            self.changes.new.written_trails.push(0..end as u32);
         }
         self.trails.resize(end * self.trail_words as usize, 0);
     }

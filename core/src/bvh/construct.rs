@@ -85,7 +85,6 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             }
             changes.push((mesh.blas, triangles, extent));
         }
-        self.unplan();
         for (blas, triangles, extent) in changes {
             self.blases[blas as usize].extent = extent;
             self.write_triangles(blas, triangles);

@@ -6,7 +6,7 @@
 //!
 //! 1. [`update`](Bvh::apply) with what changed, checked as a whole before any of it is done;
 //! 2. [`refit`](Bvh::refit), which computes just the nodes that this touches (paper section 3.4), or the same on a device
-//!    by the lists of [`plan`](Bvh::plan);
+//!    by the lists of [`plan`](Bvh::plan), or both;
 //! 3. [`rebuild`](Bvh::rebuild) for the next frame: a [`Rebuild`] is self-contained work for any thread, whose result
 //!    [`install`](Bvh::install) swaps in (paper section 3.5). With the feature `std` a `Rebuilder` does so on a thread beside
 //!    the frame.
@@ -85,11 +85,7 @@ pub struct Bvh<N, I, const W: usize> {
     lights: Ranges,
     top: Top,
     work: RefitPlan,
-    pending: refit::Pending,
-    /// Whether `work` is what the next refit does.
-    planned: bool,
-    /// What `work` was planned from, until a refit has done it.
-    taken: refit::Pending,
+    changes: refit::Changes,
     /// Numbers of lights that are no more, not yet taken by the caller nor given again.
     removed_lights: Vec<Range<u32>>,
     /// How many they are.
@@ -187,9 +183,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             lights: Ranges::default(),
             top: Top::default(),
             work: RefitPlan::default(),
-            pending: refit::Pending::default(),
-            planned: false,
-            taken: refit::Pending::default(),
+            changes: refit::Changes::default(),
             removed_lights: Vec::new(),
             waiting_lights: 0,
             bottom_depth: 0,

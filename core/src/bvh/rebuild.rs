@@ -220,10 +220,9 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         if rebuilt.taken.tree != self.id {
             return Err(Foreign);
         }
-        self.unplan();
         // Words computed from the instances of then are those of now unless something came between: any edit does, also one whose
         // refit is still to come.
-        let stale = rebuilt.taken != self.now() || !self.pending.instances.is_empty();
+        let stale = rebuilt.taken != self.now() || self.changes.has_instances();
         for (bottom, topology) in &rebuilt.bottoms {
             let same = |own: &Blas| own.created == bottom.created && own.triangles == bottom.range;
             if self.blases.get(bottom.blas as usize).is_some_and(same) {
@@ -239,7 +238,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 .map(|(index, _)| index)
                 .collect();
             self.insert_instances(&added);
-            self.pending.whole_top |= stale;
+            self.changes.new.whole_top |= stale;
         }
         Ok(())
     }

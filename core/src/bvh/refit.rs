@@ -14,7 +14,51 @@ use crate::tree::INVALID;
 /// Where more than this share of the top level's leaves changed, all of it is refitted by its ready-made lists.
 const MOST: usize = 3;
 
-/// What changed since the last refit.
+/// What changed, for whom: edits mark what is new; what a plan has taken is still to be refitted here, and what a refit has done is
+/// still to be told by a plan.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Changes {
+    /// Since the last plan or refit.
+    pub new: Pending,
+    /// Planned since the last refit.
+    unrefitted: Pending,
+    /// Refitted since the last plan, if there ever was one.
+    unplanned: Pending,
+    /// Whether anybody takes plans.
+    is_planned: bool,
+    /// Whether the last lists are those of all that a refit has to do.
+    is_fresh: bool,
+}
+
+impl Changes {
+    /// A bottom level is gone.
+    pub fn forget_blas(&mut self, index: u32) {
+        self.is_fresh = false;
+        for pending in self.all() {
+            pending.blases.remove(&index);
+            pending.built.remove(&index);
+        }
+    }
+
+    /// The nodes of the top level are others.
+    pub fn forget_top(&mut self) {
+        self.is_fresh = false;
+        for pending in self.all() {
+            pending.top_nodes.clear();
+        }
+    }
+
+    /// Whether a refit here has instances to look at.
+    pub fn has_instances(&self) -> bool {
+        !self.new.instances.is_empty() || !self.unrefitted.is_empty()
+    }
+
+    fn all(&mut self) -> [&mut Pending; 3] {
+        [&mut self.new, &mut self.unrefitted, &mut self.unplanned]
+    }
+}
+
+/// Changes of one kind of lists.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pending {
     /// Bottom levels whose triangles changed.
@@ -46,14 +90,24 @@ impl Pending {
         self.built.insert(index);
     }
 
-    /// A bottom level is gone.
-    pub fn forget_blas(&mut self, index: u32) {
-        self.blases.remove(&index);
-        self.built.remove(&index);
+    fn is_empty(&self) -> bool {
+        self.blases.is_empty()
+            && self.built.is_empty()
+            && self.instances.is_empty()
+            && self.top_nodes.is_empty()
+            && !self.whole_top
+            && self.written_nodes.is_empty()
+            && self.written_triangles.is_empty()
+            && self.written_trails.is_empty()
+            && self.written_instances.is_empty()
     }
 
-    /// Takes over what another list holds.
+    /// Takes over what another list holds; what is there twice is kept once, so that lists stay as short as the arrays.
     fn join(&mut self, other: Self) {
+        if self.is_empty() {
+            *self = other;
+            return;
+        }
         self.blases.extend(other.blases);
         self.built.extend(other.built);
         self.instances.extend(other.instances);
@@ -63,6 +117,21 @@ impl Pending {
         self.written_triangles.extend(other.written_triangles);
         self.written_trails.extend(other.written_trails);
         self.written_instances.extend(other.written_instances);
+        for list in [
+            &mut self.instances,
+            &mut self.top_nodes,
+            &mut self.written_instances,
+        ] {
+            list.sort_unstable();
+            list.dedup();
+        }
+        for list in [
+            &mut self.written_nodes,
+            &mut self.written_triangles,
+            &mut self.written_trails,
+        ] {
+            *list = merged(core::mem::take(list));
+        }
     }
 
     pub fn mark_instance(&mut self, index: u32) {
@@ -104,23 +173,19 @@ impl RefitPlan {
 }
 
 impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
-    /// Turns the edits since the last [`refit`](Self::refit) into the lists of [`work`](Self::work), which a mirror on a device
-    /// may follow before, after or instead of a refit here.
+    /// Says what changed since the last call: the lists of [`work`](Self::work), for a mirror on a device that does them in its place,
+    /// call by call without gaps. Whether and when the BVH is refitted here does not matter. The first call says what changed since
+    /// the last [`refit`](Self::refit); a mirror takes over all arrays before it.
     pub fn plan(&mut self) -> &RefitPlan {
-        if !self.planned {
-            self.planned = true;
-            self.gather();
-        }
+        self.changes.is_planned = true;
+        let new = core::mem::take(&mut self.changes.new);
+        let mut told = core::mem::take(&mut self.changes.unplanned);
+        let is_whole = self.changes.unrefitted.is_empty() && told.is_empty();
+        self.changes.unrefitted.join(new.clone());
+        told.join(new);
+        self.work = self.gather(told);
+        self.changes.is_fresh = is_whole;
         &self.work
-    }
-
-    /// Takes a plan back that no refit has done yet: nodes that it lists may be others soon. The next plan holds its changes too.
-    pub(super) fn unplan(&mut self) {
-        if self.planned {
-            self.planned = false;
-            let taken = core::mem::take(&mut self.taken);
-            self.pending.join(taken);
-        }
     }
 
     /// A refit of everything, for a mirror that has just taken all arrays over.
@@ -137,12 +202,21 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         }
     }
 
-    /// Computes the nodes that the last edits touch, and no other.
+    /// Computes the nodes that the edits since the last call touch, and no other.
     pub fn refit(&mut self) {
-        self.plan();
-        self.planned = false;
-        self.taken = Pending::default();
-        let work = core::mem::take(&mut self.work);
+        let new = core::mem::take(&mut self.changes.new);
+        let mut pending = core::mem::take(&mut self.changes.unrefitted);
+        let is_listed = self.changes.is_fresh && new.is_empty();
+        self.changes.is_fresh = false;
+        if self.changes.is_planned {
+            self.changes.unplanned.join(new.clone());
+        }
+        let work = if is_listed {
+            core::mem::take(&mut self.work)
+        } else {
+            pending.join(new);
+            self.gather(pending)
+        };
         self.refits += u64::from(work.computed() > 0);
         for tree in &work.trees {
             sweep::bottom_sweep(
@@ -167,15 +241,14 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         self.work = work;
     }
 
-    /// What was planned last: what the last [`refit`](Self::refit) did, or the next one will do.
+    /// The last lists: what the last [`plan`](Self::plan) said, or the last [`refit`](Self::refit) did.
     #[must_use]
     pub fn work(&self) -> &RefitPlan {
         &self.work
     }
 
-    /// Turns what is pending into lists.
-    fn gather(&mut self) {
-        let mut pending = core::mem::take(&mut self.pending);
+    /// Turns changes into lists.
+    fn gather(&mut self, mut pending: Pending) -> RefitPlan {
         for list in [
             &mut pending.instances,
             &mut pending.top_nodes,
@@ -211,8 +284,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         } else {
             self.dirty_top(&instances, &pending.top_nodes, &mut work);
         }
-        self.work = work;
-        self.taken = pending;
+        work
     }
 
     /// The leaves of the given instances, the given nodes, and all nodes above them.
@@ -241,6 +313,19 @@ fn joined(mut indices: Vec<u32>) -> Vec<Range<u32>> {
             Some(last) if i < last.end => {}
             Some(last) if i == last.end => last.end += 1,
             _ => out.push(i..i + 1),
+        }
+    }
+    out
+}
+
+/// Ranges in order, those that touch made one.
+fn merged(mut ranges: Vec<Range<u32>>) -> Vec<Range<u32>> {
+    ranges.sort_unstable_by_key(|range| (range.start, range.end));
+    let mut out: Vec<Range<u32>> = Vec::with_capacity(ranges.len());
+    for range in ranges {
+        match out.last_mut() {
+            Some(last) if range.start <= last.end => last.end = last.end.max(range.end),
+            _ => out.push(range),
         }
     }
     out

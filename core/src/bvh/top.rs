@@ -168,7 +168,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             placed.slot = place.slot;
             if instance.trail() != place.trail {
                 instance.set_trail(place.trail);
-                self.pending.written_instances.push(index);
+                self.changes.new.written_instances.push(index);
             }
         }
         places.peek().is_none()
@@ -179,7 +179,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         for range in core::mem::take(&mut self.top.ranges) {
             self.node_ranges.give(range);
         }
-        self.pending.top_nodes.clear();
+        self.changes.forget_top();
         let range = self.place_nodes(nodes);
         self.top.root = range.start;
         self.top.ranges.push(range.clone());
@@ -197,7 +197,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 build_top::<N, W>(live.into_iter().map(|i| (i, self.in_world(i))), &self.params);
             self.replace_top(&topology.nodes);
         }
-        self.pending.whole_top = true;
+        self.changes.new.whole_top = true;
     }
 
     /// Puts a tree over `added` instances beside the top level, below a new root. Where that would be too deep, everything
@@ -225,7 +225,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         for node in new.clone().rev().chain([root.start]) {
             self.nodes[node as usize] = refit::top(&self.nodes, &self.instances, &self.roots, node);
         }
-        self.pending.instances.extend(added);
+        self.changes.new.instances.extend(added);
         self.top.root = root.start;
         self.top.ranges.extend([new, root]);
         self.index_top();
@@ -239,8 +239,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         };
         if node != INVALID {
             self.nodes[node as usize].set_child(slot as usize, kind::EMPTY, 0);
-            self.pending.top_nodes.push(node);
-            self.pending.written_nodes.push(node..node + 1);
+            self.changes.new.top_nodes.push(node);
+            self.changes.new.written_nodes.push(node..node + 1);
         }
     }
 
@@ -281,7 +281,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                     let instance = &mut self.instances[link as usize];
                     if instance.trail() != own_trail {
                         instance.set_trail(own_trail);
-                        self.pending.written_instances.push(link);
+                        self.changes.new.written_instances.push(link);
                     }
                     let placed = &mut self.placed[link as usize];
                     placed.node = node;

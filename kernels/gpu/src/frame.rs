@@ -37,7 +37,7 @@ pub struct Mirror {
 }
 
 impl Mirror {
-    /// The frame after the edits planned last: call [`Bvh::plan`] or [`Bvh::refit`] before, and do what this says for each
+    /// The frame after the edits planned last: call [`Bvh::plan`] before, and do what this says for each
     /// frame without gaps.
     pub fn follow<N: LightNode<W>, I, const W: usize>(&mut self, bvh: &Bvh<N, I, W>) -> Frame {
         let work = bvh.work();

@@ -113,7 +113,7 @@ fn trees_deeper_than_a_trail_are_found() {
         }
         let mut scene = Tree::default();
         scene.replace_top(&nodes);
-        scene.pending.whole_top = true;
+        scene.changes.new.whole_top = true;
         scene.refit();
         scene
     };
