@@ -79,9 +79,12 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             let extent = Extent::of(triangles);
             for &user in &mesh.users {
                 let transform = &self.placed[user as usize].transform;
-                transform
-                    .check(&extent)
-                    .map_err(|reason| error(EditReason::Transform(reason)))?;
+                // What stays where it is may fill the whole domain.
+                if *transform != Transform::IDENTITY {
+                    transform
+                        .check(&extent)
+                        .map_err(|reason| error(EditReason::Transform(reason)))?;
+                }
             }
             changes.push((mesh.blas, triangles, extent));
         }

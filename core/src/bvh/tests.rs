@@ -119,3 +119,23 @@ fn variance_of_eq_4() {
     let params = BuildParams::paper(Heuristic::Saoh);
     about(variance::<CompactNode<4>, Eq4, 4>(&params), 2.436);
 }
+
+/// Lights at the ends of the domain may be followed there.
+#[test]
+fn the_whole_domain_is_followed() {
+    let far = crate::exact::pow2(40);
+    let triangle = EmissiveTriangle {
+        p: [[-far, -far, -far], [far, far, -far], [far, -far, far]],
+        radiance: [1.0; 3],
+        mesh: 0,
+        flags: 0,
+    };
+    let lights = Lights::new(std::vec![triangle]).expect("within the domain");
+    for mut bvh in [
+        crate::LightBvh::single_level(&lights, &BuildParams::BALANCED),
+        crate::LightBvh::two_level(&lights, &BuildParams::BALANCED),
+    ] {
+        bvh.follow(&lights).expect("the same lights");
+        bvh.validate().expect("valid");
+    }
+}
