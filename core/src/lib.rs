@@ -91,6 +91,7 @@ pub mod light;
 pub mod moments;
 pub mod node;
 pub mod point;
+mod prefetch;
 pub mod refit;
 pub mod reservoir;
 pub mod summary;
@@ -113,6 +114,8 @@ pub mod sweep;
 pub mod transform;
 #[cfg(feature = "alloc")]
 pub mod validate;
+#[cfg(feature = "alloc")]
+mod widest;
 
 #[cfg(feature = "std")]
 pub mod rebuilder;

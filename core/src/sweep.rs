@@ -8,10 +8,10 @@ use alloc::vec::Vec;
 
 use crate::instance::Instance;
 use crate::light::EmissiveTriangle;
-use crate::node::LightNode;
-#[cfg(feature = "rayon")]
-use crate::node::kind;
+use crate::node::{LightNode, kind};
+use crate::prefetch::fetch;
 use crate::refit::{self, BlasRoot, Room};
+use crate::widest::widest;
 
 /// Shorter lists run on one thread.
 #[cfg(feature = "rayon")]
@@ -58,16 +58,44 @@ pub fn bottom_sweep<N: LightNode<W>, const W: usize>(
         return subtrees(nodes, first, triangles, roots.to_vec());
     }
     let _ = roots;
-    one_by_one(nodes, first, triangles);
+    one_by_one(nodes, nodes.len(), first, triangles);
 }
 
-/// All nodes from the last to the first; node `first` stands first.
-fn one_by_one<N: LightNode<W>, const W: usize>(nodes: &mut [N], first: u32, triangles: &[EmissiveTriangle]) {
-    let mut room = Room::new();
-    for index in (0..nodes.len()).rev() {
-        refit::below(nodes, first, triangles, &nodes[index], &mut room);
-        nodes[index].set_lanes(&room.children);
+/// Nodes between the one computed and the one whose triangles are asked for.
+const AHEAD: usize = 4;
+
+/// Asks for the triangles that a node's refit will read.
+#[inline(always)]
+fn fetch_triangles<N: LightNode<W>, const W: usize>(node: &N, triangles: &[EmissiveTriangle]) {
+    if cfg!(feature = "prefetch") {
+        for slot in 0..W {
+            if node.kind(slot) == kind::LIGHT {
+                fetch(triangles, node.link(slot));
+            }
+        }
     }
+}
+
+/// The first `count` nodes, from the last to the first; node `first` stands first.
+fn one_by_one<N: LightNode<W>, const W: usize>(
+    nodes: &mut [N],
+    count: usize,
+    first: u32,
+    triangles: &[EmissiveTriangle],
+) {
+    widest(
+        #[inline(always)]
+        || {
+            let mut room = Room::new();
+            for index in (0..count).rev() {
+                if let Some(soon) = index.checked_sub(AHEAD) {
+                    fetch_triangles(&nodes[soon], triangles);
+                }
+                refit::below(nodes, first, triangles, &nodes[index], &mut room);
+                nodes[index].set_lanes(&room.children);
+            }
+        },
+    );
 }
 
 /// The subtrees that begin at nodes `starts` on several threads, then the nodes before them.
@@ -97,18 +125,14 @@ fn subtrees<N: LightNode<W>, const W: usize>(
     }
     pieces.into_par_iter().for_each(|(start, piece)| {
         if piece.len() < PARALLEL {
-            return one_by_one(piece, start, triangles);
+            return one_by_one(piece, piece.len(), start, triangles);
         }
         let root = piece[0];
         let links = (0..W).filter(|&slot| root.kind(slot) == kind::INNER);
         let links = links.map(|slot| root.link(slot)).filter(|&link| link > start);
         subtrees(piece, start, triangles, links.collect());
     });
-    let mut room = Room::new();
-    for index in (0..own).rev() {
-        refit::below(nodes, first, triangles, &nodes[index], &mut room);
-        nodes[index].set_lanes(&room.children);
-    }
+    one_by_one(nodes, own, first, triangles);
 }
 
 fn each<N: Copy + Send + Sync>(nodes: &mut [N], list: &[u32], refitted: impl Fn(&[N], u32) -> N + Sync) {
@@ -116,9 +140,14 @@ fn each<N: Copy + Send + Sync>(nodes: &mut [N], list: &[u32], refitted: impl Fn(
     if list.len() >= PARALLEL && rayon::current_num_threads() > 1 {
         return each_parallel(nodes, list, refitted);
     }
-    for &index in list {
-        nodes[index as usize] = refitted(nodes, index);
-    }
+    widest(
+        #[inline(always)]
+        || {
+            for &index in list {
+                nodes[index as usize] = refitted(nodes, index);
+            }
+        },
+    );
 }
 
 #[cfg(feature = "rayon")]
@@ -132,10 +161,12 @@ fn each_parallel<N: Copy + Send + Sync>(
     let mut computed: Vec<N> = Vec::with_capacity(BLOCK.min(list.len()));
     for block in list.chunks(BLOCK) {
         let all = &*nodes;
-        let new = block
-            .par_iter()
-            .with_min_len(PIECE)
-            .map(|&index| refitted(all, index));
+        let new = block.par_iter().with_min_len(PIECE).map(|&index| {
+            widest(
+                #[inline(always)]
+                || refitted(all, index),
+            )
+        });
         new.collect_into_vec(&mut computed);
         for (&index, new) in block.iter().zip(&computed) {
             nodes[index as usize] = *new;

@@ -67,7 +67,7 @@ impl Transform {
         }
         let reach = |row: usize| {
             let entry = |column: &[f32; 3]| f64::from(exact::abs(column[row]));
-            ((entry(a) + entry(b)) + entry(c)) * extent.radius + entry(&self.translation)
+            ((entry(a) + entry(b)) + entry(c)) * extent.coordinate + entry(&self.translation)
         };
         let farthest = greatest(greatest(reach(0), reach(1)), reach(2));
         if farthest > f64::from(MAX_COORDINATE) {

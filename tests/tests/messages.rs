@@ -196,11 +196,7 @@ fn violations() {
         violation.to_string()
     };
     let whole = [
-        (What::MeshCount, "number of mesh lights"),
-        (What::RootCount, "number of bottom levels"),
         (What::Blas, "bottom level of the mesh light"),
-        (What::TrailCount, "number of trail words"),
-        (What::TrailWords, "words per trail"),
         (What::Root, "index of the root"),
         (What::Kind, "kind of child"),
         (What::Link, "link"),
@@ -212,7 +208,6 @@ fn violations() {
         (What::Owner, "mesh light of the triangle"),
         (What::TrailLow, "low word of the leaf's trail"),
         (What::TrailHigh, "high word of the leaf's trail"),
-        (What::Depth, "depth"),
         (What::Listed, "times in the list of levels"),
         (What::ListedLevel, "level in the list of levels"),
         (What::Word(5), "word 5 of the node"),

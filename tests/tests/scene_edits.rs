@@ -98,6 +98,54 @@ fn instances_in_use_are_listed() {
     }
 }
 
+/// Who never takes the numbers of removed lights neither runs out of numbers nor misses one.
+#[test]
+fn numbers_that_nobody_takes_come_back_and_are_still_told() {
+    let random = &mut Random::new(7);
+    let mut scene = Tree::default();
+    let triangles = mesh(random);
+    let count = triangles.len() as u32;
+    let mesh = add_mesh(&mut scene, triangles);
+    let mut one = add_instance(&mut scene, mesh, Transform::IDENTITY);
+    let mut forgot = 0;
+    for _ in 0..300_000 / count {
+        scene.apply(vec![Edit::RemoveInstance(one)]).expect("there");
+        let told = scene.removed_lights();
+        let gone = told.iter().any(|range| range.contains(&(scene.light_end() - 1)));
+        forgot += u32::from(gone && told.len() == 1);
+        assert!(told.len() as u32 <= 65_536 / count + 2);
+        one = add_instance(&mut scene, mesh, Transform::IDENTITY);
+        let own = scene.lights_of(one).expect("there");
+        assert!(scene.light_end() <= 65_536 + 2 * count, "{own:?}");
+        if !told_all(scene.removed_lights()) {
+            let given_again = scene
+                .removed_lights()
+                .iter()
+                .any(|gone| gone.contains(&own.start));
+            assert!(!given_again, "{own:?} was not taken yet");
+        }
+    }
+    assert!(forgot >= 3, "{forgot}");
+    let told = scene.take_removed_lights();
+    assert!(told_all(&told) && told[0].end >= 65_536, "{told:?}");
+    assert!(scene.take_removed_lights().is_empty());
+    // No number was lost: what is live and what comes next fill the numbers from 0.
+    let all = (0..scene.light_end() / count).map(|_| add_instance(&mut scene, mesh, Transform::IDENTITY));
+    let greatest = all
+        .collect::<Vec<_>>()
+        .into_iter()
+        .map(|id| scene.lights_of(id).expect("there").end)
+        .max();
+    assert_eq!(greatest, Some(scene.light_end()));
+    assert_eq!(scene.light_count() as u32, scene.light_end());
+}
+
+/// Whether all numbers were given back unasked.
+fn told_all(told: &[std::ops::Range<u32>]) -> bool {
+    told.first()
+        .is_some_and(|range| range.start == 0 && range.end > 60_000)
+}
+
 #[test]
 fn light_numbers_stay_and_removed_ones_are_told() {
     let random = &mut Random::new(6);

@@ -17,7 +17,7 @@ mod ward;
 
 pub use cost::Heuristic;
 pub(crate) use cost::drift;
-pub(crate) use topology::{Topology, build_over, build_top};
+pub(crate) use topology::{Topology, build_each, build_over, build_top};
 
 /// What the builder may be told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

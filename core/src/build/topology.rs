@@ -1,7 +1,6 @@
 //! From primitives to a tree: which node, which slot, which trail.
 
 use alloc::vec::Vec;
-use core::ops::Range;
 
 use super::BuildParams;
 use super::binary::{Binary, LEAF, binary_tree};
@@ -32,21 +31,50 @@ impl<N> Topology<N> {
     pub fn leveled(&self, base: u32) -> Vec<(u32, u32)> {
         self.levels.iter().copied().zip(base..).collect()
     }
+
+    /// Numbers the triangles from `first` instead of 0.
+    pub fn move_primitives<const W: usize>(&mut self, first: u32)
+    where
+        N: LightNode<W>,
+    {
+        for node in &mut self.nodes {
+            for slot in 0..W {
+                if node.kind(slot) == kind::LIGHT {
+                    node.relink(slot, first + node.link(slot));
+                }
+            }
+        }
+        for (triangle, _) in &mut self.trails {
+            *triangle += first;
+        }
+    }
 }
 
-/// Builds a tree over the triangles of `range`, at least one.
+/// Builds a tree over each mesh.
+pub(crate) fn build_each<N: LightNode<W>, const W: usize>(
+    meshes: &[&[EmissiveTriangle]],
+    params: &BuildParams,
+) -> Vec<Topology<N>> {
+    #[cfg(feature = "rayon")]
+    {
+        use rayon::prelude::*;
+        meshes.par_iter().map(|mesh| build_over(mesh, params)).collect()
+    }
+    #[cfg(not(feature = "rayon"))]
+    meshes.iter().map(|mesh| build_over(mesh, params)).collect()
+}
+
+/// Builds a tree over `triangles`, at least one, numbered from 0.
 pub(crate) fn build_over<N: LightNode<W>, const W: usize>(
     triangles: &[EmissiveTriangle],
-    range: Range<u32>,
     params: &BuildParams,
 ) -> Topology<N> {
-    let own = &triangles[range.start as usize..range.end as usize];
     if params.heuristic.is_binary() {
         let bounds = |(i, triangle)| Primitive::new(i, &LightBounds::of_triangle(triangle));
-        let mut primitives: Vec<Primitive> = (range.start..).zip(own).map(bounds).collect();
+        let mut primitives: Vec<Primitive> = (0..).zip(triangles).map(bounds).collect();
         return build_binary::<N, W>(&mut primitives, kind::LIGHT, params);
     }
-    build_ward::<N, W>(&mut ward_primitives(own, range.start), kind::LIGHT, params)
+    build_ward::<N, W>(&mut ward_primitives(triangles), kind::LIGHT, params)
 }
 
 /// Builds a tree over what is known of instances, at least one: pairs of an instance's index and its summary.

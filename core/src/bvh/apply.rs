@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use super::blas::put;
 use super::edit::{Edit, EditError, InstanceId, MeshId};
 use super::{Bvh, InstanceState, Mesh};
+use crate::build::{Topology, build_each};
 use crate::instance::Instance;
 use crate::light::EmissiveTriangle;
 use crate::node::LightNode;
@@ -27,11 +28,21 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// [`EditError`] naming the first edit that cannot be done; the scene is as before then.
     pub fn apply(&mut self, mut edits: Vec<Edit>) -> Result<Added, EditError> {
         let mut deformed = self.check(&mut edits)?.into_iter();
+        let new_meshes = edits.iter().filter_map(|edit| match edit {
+            Edit::AddMesh { triangles } => Some(&**triangles),
+            _ => None,
+        });
+        let mut topologies = build_each(&new_meshes.collect::<Vec<_>>(), &self.params).into_iter();
         let mut updated = Added::default();
         let mut added = Vec::new();
         for edit in edits {
             match edit {
-                Edit::AddMesh { triangles } => updated.meshes.push(self.insert_mesh(&triangles)),
+                Edit::AddMesh { triangles } => {
+                    let mesh = topologies
+                        .next()
+                        .map(|topology| self.insert_mesh(&triangles, topology));
+                    updated.meshes.extend(mesh);
+                }
                 Edit::AddInstance {
                     mesh,
                     transform,
@@ -51,7 +62,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 }
                 Edit::SetTriangles { mesh, triangles } => {
                     let extent = deformed.next().unwrap_or_else(|| Extent::of(&triangles));
-                    self.deform(mesh, &triangles, extent);
+                    let blas = self.meshes[mesh.index as usize].blas;
+                    self.deform(blas, &triangles, extent);
                 }
                 Edit::RemoveInstance(id) => self.take_instance(id.index),
                 Edit::RemoveMesh(id) => self.take_mesh(id.index),
@@ -65,9 +77,9 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         Ok(updated)
     }
 
-    pub(super) fn insert_mesh(&mut self, triangles: &[EmissiveTriangle]) -> MeshId {
+    pub(super) fn insert_mesh(&mut self, triangles: &[EmissiveTriangle], topology: Topology<N>) -> MeshId {
         let index = self.mesh_ranges.take(1).start;
-        let blas = self.add_blas(index, triangles);
+        let blas = self.add_blas(index, triangles, topology);
         let generation = match self.meshes.get(index as usize) {
             Some(old) => old.generation + 1,
             None => 0,
@@ -108,6 +120,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         let user = users.len() as u32;
         users.push(index);
         let blas = self.meshes[mesh.index as usize].blas;
+        let lights = self.blases[blas as usize].triangles.len();
+        self.light_count += lights;
         let placed = InstanceState {
             live: true,
             generation,
@@ -116,9 +130,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             transform,
             radiance,
             listed: self.live.len() as u32,
-            lights: self
-                .lights
-                .take(self.blases[blas as usize].triangles.len() as u32),
+            lights: self.lights.take(lights as u32),
             node: INVALID,
             slot: 0,
             created: self.epoch,
@@ -175,8 +187,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         self.changes.new.written_instances.push(entry);
     }
 
-    fn deform(&mut self, id: MeshId, triangles: &[EmissiveTriangle], extent: Extent) {
-        let blas = self.meshes[id.index as usize].blas;
+    /// Gives a bottom level as many other triangles.
+    pub(super) fn deform(&mut self, blas: u32, triangles: &[EmissiveTriangle], extent: Extent) {
         self.blases[blas as usize].extent = extent;
         self.write_triangles(blas, triangles);
     }

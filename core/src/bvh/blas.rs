@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::Bvh;
-use crate::build::{Topology, build_over, drift};
+use crate::build::{Topology, drift};
 use crate::levels::Levels;
 use crate::light::EmissiveTriangle;
 use crate::node::{LightNode, kind};
@@ -34,8 +34,13 @@ pub(super) struct Blas {
 }
 
 impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
-    /// A bottom level over `triangles`, at least one; returns its index.
-    pub(super) fn add_blas(&mut self, mesh: u32, triangles: &[EmissiveTriangle]) -> u32 {
+    /// A bottom level over `triangles`, as `topology` has it, whose primitives are numbered from 0; returns its index.
+    pub(super) fn add_blas(
+        &mut self,
+        mesh: u32,
+        triangles: &[EmissiveTriangle],
+        mut topology: Topology<N>,
+    ) -> u32 {
         let index = self.blas_ranges.take(1).start;
         let range = self.triangle_ranges.take(triangles.len() as u32);
         let empty = Blas {
@@ -56,7 +61,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             &BlasRoot::new(INVALID, &N::Summary::EMPTY),
         );
         self.write_triangles(index, triangles);
-        let topology = build_over::<N, W>(&self.triangles, range, &self.params);
+        topology.move_primitives::<W>(range.start);
         self.place_blas(index, &topology);
         index
     }

@@ -5,7 +5,7 @@ use core::ops::Range;
 
 use super::Bvh;
 use super::edit::{EditError, EditReason};
-use crate::build::BuildParams;
+use crate::build::{BuildParams, build_each};
 use crate::light::EmissiveTriangle;
 use crate::lights::Lights;
 use crate::node::LightNode;
@@ -43,9 +43,11 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         for range in core::mem::take(&mut bvh.top.ranges) {
             bvh.node_ranges.give(range);
         }
+        let meshes: Vec<_> = meshes.map(|range| &triangles[range]).collect();
+        let topologies = build_each(&meshes, params);
         let mut added = Vec::new();
-        for range in meshes {
-            let mesh = bvh.insert_mesh(&triangles[range]);
+        for (triangles, topology) in meshes.into_iter().zip(topologies) {
+            let mesh = bvh.insert_mesh(triangles, topology);
             added.push(bvh.insert_instance(mesh, Transform::IDENTITY, 1.0).index());
         }
         bvh.insert_instances(&added);
@@ -79,18 +81,14 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             let extent = Extent::of(triangles);
             for &user in &mesh.users {
                 let transform = &self.placed[user as usize].transform;
-                // What stays where it is may fill the whole domain.
-                if *transform != Transform::IDENTITY {
-                    transform
-                        .check(&extent)
-                        .map_err(|reason| error(EditReason::Transform(reason)))?;
-                }
+                transform
+                    .check(&extent)
+                    .map_err(|reason| error(EditReason::Transform(reason)))?;
             }
             changes.push((mesh.blas, triangles, extent));
         }
         for (blas, triangles, extent) in changes {
-            self.blases[blas as usize].extent = extent;
-            self.write_triangles(blas, triangles);
+            self.deform(blas, triangles, extent);
         }
         self.refit();
         Ok(())

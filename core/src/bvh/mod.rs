@@ -90,6 +90,10 @@ pub struct Bvh<N, I, const W: usize> {
     removed_lights: Vec<Range<u32>>,
     /// How many they are.
     waiting_lights: usize,
+    /// Whether so many waited that all of them were given back: any number may then be another light's.
+    forgotten: bool,
+    /// How many lights there are.
+    light_count: usize,
     /// Greatest number of levels of a bottom level so far.
     bottom_depth: u32,
     /// Counts what comes, goes or is built, so that a rebuild can tell who came after it began.
@@ -145,8 +149,8 @@ struct InstanceState {
     created: u64,
 }
 
-/// Most numbers of removed lights that wait to be taken.
-const MOST_WAITING: usize = 1 << 24;
+/// So many numbers of removed lights wait to be taken, and as many as there are lights.
+const LEAST_WAITING: usize = 1 << 16;
 
 /// The next BVH's.
 static NEXT_ID: AtomicU32 = AtomicU32::new(0);
@@ -186,6 +190,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             changes: refit::Changes::default(),
             removed_lights: Vec::new(),
             waiting_lights: 0,
+            forgotten: false,
+            light_count: 0,
             bottom_depth: 0,
             epoch: 0,
             refits: 0,
@@ -332,22 +338,25 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// Number of lights in the world.
     #[must_use]
     pub fn light_count(&self) -> usize {
-        let placed = self.placed.iter().filter(|placed| placed.live);
-        placed.map(|placed| placed.lights.len()).sum()
+        self.light_count
     }
 
     /// Numbers of lights that are no more, until [`take_removed_lights`](Self::take_removed_lights): what a temporal method must
     /// forget before it looks at the next frame. Every other light keeps its number.
+    ///
+    /// No new light gets such a number before it is taken. Who never takes them is not left to run out of numbers: once more
+    /// than 65,536 wait, and more than there are lights, all of them are free, and the first range is that of every number there was.
     #[must_use]
     pub fn removed_lights(&self) -> &[Range<u32>] {
         &self.removed_lights
     }
 
-    /// Takes the numbers of lights that are no more since they were taken last. From now on new lights may get them; before, none
-    /// does, but where 2^24 of them wait to be taken: then all are free.
+    /// Takes the [numbers of lights that are no more](Self::removed_lights) since they were taken last. From now on new lights may
+    /// get them.
     pub fn take_removed_lights(&mut self) -> Vec<Range<u32>> {
         let removed = core::mem::take(&mut self.removed_lights);
-        for range in &removed {
+        let given_back = usize::from(core::mem::take(&mut self.forgotten));
+        for range in &removed[given_back..] {
             self.lights.give(range.clone());
         }
         self.waiting_lights = 0;
@@ -356,10 +365,13 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
 
     /// Lights that are no more.
     fn retire_lights(&mut self, lights: Range<u32>) {
+        self.light_count -= lights.len();
         self.waiting_lights += lights.len();
         self.removed_lights.push(lights);
-        if self.waiting_lights > MOST_WAITING {
+        if self.waiting_lights > LEAST_WAITING.max(self.light_count) {
             self.take_removed_lights();
+            self.removed_lights.push(0..self.lights.end());
+            self.forgotten = true;
         }
     }
 

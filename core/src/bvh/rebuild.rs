@@ -12,7 +12,7 @@ use crate::build::{self, BuildParams, Topology, build_over, drift};
 use crate::instance::Instance;
 use crate::levels::Levels;
 use crate::light::EmissiveTriangle;
-use crate::node::{LightNode, kind};
+use crate::node::LightNode;
 use crate::refit::{self, BlasRoot};
 use crate::summary::Summary;
 use crate::tree::INVALID;
@@ -37,7 +37,7 @@ impl Default for RebuildParams {
     }
 }
 
-/// RefitPlan for any thread: a copy of what is to be built anew.
+/// Work for any thread: a copy of what is to be built anew.
 #[derive(Clone, Debug)]
 pub struct Rebuild<N, const W: usize> {
     params: BuildParams,
@@ -117,19 +117,8 @@ impl<N: LightNode<W>, const W: usize> Rebuild<N, W> {
         let top = self.top.map(|leaves| build_top::<N, W>(&leaves, &self.params));
         let params = self.params;
         let bottoms = self.bottoms.into_iter().map(|bottom| {
-            let count = bottom.triangles.len() as u32;
-            let mut topology = build_over::<N, W>(&bottom.triangles, 0..count, &params);
-            let first = bottom.range.start;
-            for node in &mut topology.nodes {
-                for slot in 0..W {
-                    if node.kind(slot) == kind::LIGHT {
-                        node.relink(slot, first + node.link(slot));
-                    }
-                }
-            }
-            for (triangle, _) in &mut topology.trails {
-                *triangle += first;
-            }
+            let mut topology = build_over::<N, W>(&bottom.triangles, &params);
+            topology.move_primitives::<W>(bottom.range.start);
             (bottom, topology)
         });
         Rebuilt {

@@ -22,15 +22,3 @@ pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
         a[0] * b[1] - a[1] * b[0],
     ]
 }
-
-/// Without the standard library: Newton's steps from the exponent halved, to within some units of the last place.
-pub(super) fn square_root(x: f64) -> f64 {
-    if x <= 0.0 {
-        return 0.0;
-    }
-    let mut root = f64::from_bits((x.to_bits() >> 1) + (1023 << 51));
-    for _ in 0..5 {
-        root = 0.5 * (root + x / root);
-    }
-    root
-}

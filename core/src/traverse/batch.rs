@@ -1,12 +1,11 @@
 //! Several walks at once.
 
-use bytemuck::Pod;
-
 use super::random::Random64;
 use super::sample::{SampledLight, Started, begin};
 use crate::importance::ImportanceModel;
 use crate::node::LightNode;
 use crate::point::ShadingPoint;
+use crate::prefetch::fetch;
 use crate::tree::LightTree;
 
 /// Walks that take turns: enough to hide the latency of memory behind the others' arithmetic, few enough to stay in the first
@@ -56,27 +55,5 @@ fn turns<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
                 fetch(tree.nodes, walk.walk.index);
             }
         }
-    }
-}
-
-/// Bytes in a line of the caches.
-#[cfg(feature = "prefetch")]
-const LINE: usize = 64;
-
-/// Asks for a node that will be read soon, line by line.
-#[inline(always)]
-fn fetch<N: Pod>(nodes: &[N], index: u32) {
-    #[cfg(feature = "prefetch")]
-    {
-        let bytes: &[u8] = bytemuck::cast_slice(nodes);
-        // An index out of range, from hostile words, asks for a line that is not read.
-        let first = (index as usize).wrapping_mul(size_of::<N>());
-        for line in 0..size_of::<N>().div_ceil(LINE) {
-            prefetch_index::prefetch_index(bytes, first.wrapping_add(line * LINE));
-        }
-    }
-    #[cfg(not(feature = "prefetch"))]
-    {
-        let _ = (nodes, index);
     }
 }

@@ -29,16 +29,8 @@ pub struct Violation {
 /// What a [`Violation`] is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum What {
-    /// Number of mesh lights; 0 in a single-level BVH.
-    MeshCount,
-    /// Number of bottom levels with bounds of their own.
-    RootCount,
     /// Bottom level of a mesh light (`slot` is its index).
     Blas,
-    /// Number of words of bit trails.
-    TrailCount,
-    /// Words per bit trail.
-    TrailWords,
     /// Index of the root, in its tree's part of the nodes.
     Root,
     /// Kind of a child in a level where it has no place (a mesh light outside the top level, a triangle within it).
@@ -61,8 +53,6 @@ pub enum What {
     TrailLow,
     /// High word of the trail of a leaf.
     TrailHigh,
-    /// Depth of the whole.
-    Depth,
     /// How often a node is in the list of levels: once.
     Listed,
     /// Level of a node in the list: that of its range, and below the range before.
@@ -86,11 +76,7 @@ impl What {
 impl fmt::Display for What {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::MeshCount => write!(f, "number of mesh lights"),
-            Self::RootCount => write!(f, "number of bottom levels"),
             Self::Blas => write!(f, "bottom level of the mesh light"),
-            Self::TrailCount => write!(f, "number of trail words"),
-            Self::TrailWords => write!(f, "words per trail"),
             Self::Root => write!(f, "index of the root"),
             Self::Kind => write!(f, "kind of child"),
             Self::Link => write!(f, "link"),
@@ -102,7 +88,6 @@ impl fmt::Display for What {
             Self::Owner => write!(f, "mesh light of the triangle"),
             Self::TrailLow => write!(f, "low word of the leaf's trail"),
             Self::TrailHigh => write!(f, "high word of the leaf's trail"),
-            Self::Depth => write!(f, "depth"),
             Self::Listed => write!(f, "times in the list of levels"),
             Self::ListedLevel => write!(f, "level in the list of levels"),
             Self::Word(word) => write!(f, "word {word} of the node"),

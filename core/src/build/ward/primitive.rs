@@ -41,11 +41,10 @@ impl WardPrimitive {
     }
 }
 
-/// One primitive for each of `triangles`, indices counting from `first`.
+/// One primitive for each of `triangles`, by index.
 #[must_use]
-pub fn ward_primitives(triangles: &[EmissiveTriangle], first: u32) -> Vec<WardPrimitive> {
-    let of =
-        |(i, triangle): (usize, &EmissiveTriangle)| WardPrimitive::of_triangle(first + i as u32, triangle);
+pub fn ward_primitives(triangles: &[EmissiveTriangle]) -> Vec<WardPrimitive> {
+    let of = |(i, triangle): (usize, &EmissiveTriangle)| WardPrimitive::of_triangle(i as u32, triangle);
     #[cfg(feature = "rayon")]
     if super::is_parallel(triangles.len()) {
         return triangles
