@@ -136,7 +136,7 @@ pub use validate::Violation;
 pub use bounds::LightBounds;
 pub use importance::{Defensive, Eq4, FluxOverDistance, ImportanceModel, Moments};
 pub use instance::Instance;
-pub use light::{EmissiveTriangle, LightError};
+pub use light::{EmissiveTriangle, LightError, LightPoint};
 pub use moments::LightMoments;
 pub use node::{
     BoundsNode, CompactNode, FullMomentNode, FullNode, LeanMomentNode, LightNode, MomentLayout, MomentNode,

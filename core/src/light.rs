@@ -1,7 +1,11 @@
 //! The light that this crate samples: an emissive triangle, and the domain in which it is accepted.
 
+mod point;
+
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
+
+pub use point::{LightPoint, uniform_point};
 
 use crate::exact;
 

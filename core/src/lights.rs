@@ -1,4 +1,4 @@
-//! The door: emissive triangles checked once, grouped into mesh lights.
+//! Validated input: emissive triangles that stand in the world, grouped into mesh lights.
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -19,15 +19,13 @@ pub struct Lights {
 }
 
 impl Lights {
-    /// Takes triangles ordered by mesh light: `mesh` starts at 0 and grows by at most one from triangle to triangle.
+    /// Takes triangles ordered by mesh light: `mesh` starts at 0 and grows by at most one from triangle to triangle. There may be
+    /// none.
     ///
     /// # Errors
-    /// [`LightsError`], naming the triangle, when one is outside the domain or out of order, when there is none, and
-    /// when there are more than [`MAX_LIGHTS`].
+    /// [`LightsError`], naming the triangle, when one is outside the domain or out of order, and when there are more than
+    /// [`MAX_LIGHTS`].
     pub fn new(mut triangles: Vec<EmissiveTriangle>) -> Result<Self, LightsError> {
-        if triangles.is_empty() {
-            return Err(LightsError::Empty);
-        }
         if triangles.len() > MAX_LIGHTS {
             return Err(LightsError::TooMany {
                 count: triangles.len(),
@@ -92,8 +90,6 @@ impl Lights {
 /// Why triangles are refused as lights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightsError {
-    /// There is no triangle.
-    Empty,
     /// More than [`MAX_LIGHTS`] triangles.
     TooMany {
         /// How many there are.
@@ -127,7 +123,6 @@ pub enum LightsError {
 impl fmt::Display for LightsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::Empty => write!(f, "there is no emissive triangle; give the scene a light"),
             Self::TooMany { count } => {
                 write!(
                     f,

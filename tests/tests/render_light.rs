@@ -1,10 +1,11 @@
 //! Light: estimates against closed forms, shadows only where something is between.
 
 use glam::{DVec3, Vec3};
+use lightbvh::light::uniform_point;
 use lightbvh::{EmissiveTriangle, ShadingPoint};
 use lightbvh_host::render::{RayBvh, View, camera, power_thresholds, render};
 use lightbvh_kernels::render::RenderParams;
-use lightbvh_kernels::shading::area::{connect, offset_distance, sample_triangle};
+use lightbvh_kernels::shading::area::{connect, offset_distance};
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pick::{Power, Uniform};
 use lightbvh_kernels::shading::pixel::{Scene, see};
@@ -76,13 +77,13 @@ fn area_samples_are_uniform_over_the_triangle() {
         Vec3::new(2.0, 0.5, 0.0),
         Vec3::new(-1.0, 1.0, 4.0),
     );
-    let mean = quadrature(512, |[u, v]| sample_triangle(p0, e1, e2, u, v));
+    let mean = quadrature(512, |[u, v]| uniform_point(p0, e1, e2, u, v));
     let centroid = (p0 + (e1 + e2) / 3.0).as_dvec3();
     assert!((mean - centroid).length() < 2e-3, "{mean} {centroid}");
     // All inside; and the part near the first vertex (a + b < 1/2) has a quarter of the area and so of the samples.
     let mut near = 0;
     quadrature(512, |[u, v]| {
-        let q = sample_triangle(Vec3::ZERO, Vec3::X, Vec3::Y, u, v);
+        let q = uniform_point(Vec3::ZERO, Vec3::X, Vec3::Y, u, v);
         assert!(q.x >= 0.0 && q.y >= 0.0 && q.x + q.y <= 1.0);
         near += u32::from(q.x + q.y < 0.5);
         q
@@ -328,7 +329,7 @@ fn surfaces_do_not_shadow_themselves() {
             lights: &[],
         };
         let corner = bvh.triangles[0].p.map(Vec3::from);
-        let aim = sample_triangle(
+        let aim = uniform_point(
             corner[0],
             corner[1] - corner[0],
             corner[2] - corner[0],

@@ -1,9 +1,9 @@
 //! Direct lighting by sampled lights converges to the sum over all lights, whoever samples.
 
 use glam::Vec3;
+use lightbvh::light::uniform_point;
 use lightbvh::{BuildParams, EmissiveTriangle, Heuristic, LightBvh, Lights, ShadingPoint, exact};
 use lightbvh_host::render::{RayBvh, power_thresholds};
-use lightbvh_kernels::shading::area::sample_triangle;
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use lightbvh_kernels::shading::pixel::{Scene, Seen, reflected};
@@ -228,7 +228,7 @@ fn volumes() {
                 let light = &lights.triangles()[light as usize];
                 let [p0, p1, p2] = light.p.map(Vec3::from);
                 let uv = [1, 2].map(|k| exact::unit_f32(exact::hash(seed.wrapping_add(k))));
-                let y = sample_triangle(p0, p1 - p0, p2 - p0, uv[0], uv[1]);
+                let y = uniform_point(p0, p1 - p0, p2 - p0, uv[0], uv[1]);
                 let area = Triangle::new(light).area();
                 mean.add(arriving(&point, light, vector(y.to_array())) * area / f64::from(pmf));
             }

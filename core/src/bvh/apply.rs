@@ -48,6 +48,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                     transform,
                     radiance,
                 } => {
+                    let mesh = mesh.place_in_batch().map_or(mesh, |place| updated.meshes[place]);
                     let id = self.insert_instance(mesh, transform, radiance);
                     added.push(id.index);
                     updated.instances.push(id);

@@ -1,4 +1,4 @@
-//! The door: a batch of edits is checked as a whole before any of it is done.
+//! Validation of a batch of edits, as a whole, before any of it is done.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
@@ -29,6 +29,8 @@ struct Batch {
     deforms: bool,
     lights: usize,
     triangles: usize,
+    /// Meshes added: number of triangles, and extent.
+    meshes: Vec<(usize, Extent)>,
     /// Of the batch's deformed meshes, in the order of their edits.
     deformed: Vec<Extent>,
 }
@@ -58,16 +60,18 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             Edit::AddMesh { triangles } => {
                 checked(triangles)?;
                 batch.triangles += triangles.len();
+                batch.meshes.push((triangles.len(), Extent::of(triangles)));
             }
             &mut Edit::AddInstance {
                 mesh,
                 transform,
                 radiance,
             } => {
-                let count = self.known_mesh(batch, mesh)?;
-                transform
-                    .check(&self.extent(batch, mesh))
-                    .map_err(EditReason::Transform)?;
+                let (count, extent) = match mesh.place_in_batch() {
+                    Some(place) => *batch.meshes.get(place).ok_or(EditReason::UnknownMesh(mesh))?,
+                    None => (self.known_mesh(batch, mesh)?, self.extent(batch, mesh)),
+                };
+                transform.check(&extent).map_err(EditReason::Transform)?;
                 factor(radiance)?;
                 *batch.uses.entry(mesh).or_default() += 1;
                 if batch.deforms {

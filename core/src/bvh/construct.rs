@@ -15,11 +15,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// One tree over all triangles: the paper's baseline. Light `k` is triangle `k`; the only edits are those of the triangles.
     #[must_use]
     pub fn single_level(lights: &Lights, params: &BuildParams) -> Self {
-        let mut bvh = Self::over(
-            lights.triangles(),
-            core::iter::once(0..lights.triangles().len()),
-            params,
-        );
+        let all = Some(0..lights.triangles().len()).filter(|all| !all.is_empty());
+        let mut bvh = Self::over(lights.triangles(), all.into_iter(), params);
         bvh.single = true;
         bvh
     }
@@ -59,24 +56,26 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// `k`, or all of them in a single-level BVH.
     ///
     /// # Errors
-    /// [`EditError`] naming the mesh light whose number of triangles is another, or would be out of range where an instance has
+    /// [`EditError`] naming the mesh light whose number of triangles is another (0 where there is no such), or would be out of range where an instance has
     /// moved it meanwhile; the BVH is as before then.
     pub fn follow(&mut self, lights: &Lights) -> Result<(), EditError> {
+        let all = lights.triangles().len();
+        let mut meshes: Vec<_> = if self.single {
+            Some(0..all).filter(|all| !all.is_empty()).into_iter().collect()
+        } else {
+            (0..lights.mesh_count()).map(|mesh| lights.mesh(mesh)).collect()
+        };
+        meshes.resize(meshes.len().max(self.meshes.len()), 0..0);
         let mut changes = Vec::new();
-        for (index, mesh) in self.meshes.iter().enumerate().filter(|(_, mesh)| mesh.live) {
+        for (index, range) in meshes.into_iter().enumerate() {
             let error = |reason| EditError { edit: index, reason };
-            let expected = self.blases[mesh.blas as usize].triangles.len();
-            let range = if self.single {
-                0..lights.triangles().len()
-            } else if index < lights.mesh_count() {
-                lights.mesh(index)
-            } else {
-                0..0
-            };
+            let mesh = self.meshes.get(index).filter(|mesh| mesh.live);
+            let expected = mesh.map_or(0, |mesh| self.blases[mesh.blas as usize].triangles.len());
             if range.len() != expected {
                 let found = range.len();
                 return Err(error(EditReason::Count { expected, found }));
             }
+            let Some(mesh) = mesh else { continue };
             let triangles = &lights.triangles()[range];
             let extent = Extent::of(triangles);
             for &user in &mesh.users {

@@ -5,6 +5,7 @@ use core::fmt;
 
 use crate::light::{EmissiveTriangle, LightError};
 use crate::transform::{Transform, TransformError};
+use crate::tree::INVALID;
 
 /// A mesh of emissive triangles; stays the same as long as the mesh is in the scene, and never means another one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -20,6 +21,23 @@ pub struct InstanceId {
     pub(super) tree: u32,
     pub(super) index: u32,
     pub(super) generation: u32,
+}
+
+impl MeshId {
+    /// Stands for the mesh that the same batch adds as its `place`-th, counting from 0: an instance of it can then be added by an
+    /// [`Edit::AddInstance`] further on in the batch. Everywhere else no mesh has this id.
+    #[must_use]
+    pub const fn added(place: u32) -> Self {
+        Self {
+            tree: INVALID,
+            index: place,
+            generation: INVALID,
+        }
+    }
+
+    pub(super) fn place_in_batch(self) -> Option<usize> {
+        (self == Self::added(self.index)).then_some(self.index as usize)
+    }
 }
 
 impl InstanceId {
@@ -41,7 +59,7 @@ pub enum Edit {
     },
     /// A mesh put into the world.
     AddInstance {
-        /// Which mesh.
+        /// Which mesh; [`MeshId::added`] for one that the same batch adds.
         mesh: MeshId,
         /// Where.
         transform: Transform,

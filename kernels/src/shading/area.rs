@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 use lightbvh::exact::{abs, div, flush, max, min, pow2, rsqrt};
+use lightbvh::light::uniform_point;
 use lightbvh::vector::{cross, dot, length_squared};
 use lightbvh::{EmissiveTriangle, ShadingPoint};
 
@@ -43,18 +44,6 @@ pub fn offset_distance(p0: Vec3, p1: Vec3, p2: Vec3) -> f32 {
 #[inline]
 fn largest_component(v: Vec3) -> f32 {
     max(max(abs(v.x), abs(v.y)), abs(v.z))
-}
-
-/// A uniformly distributed point on a triangle from two numbers in [0, 1): a point of the parallelogram, folded over its
-/// diagonal (G. Turk, "Generating random points in triangles", Graphics Gems, 1990). No root, and both numbers stay
-/// stratified but for the fold.
-#[inline]
-#[must_use]
-pub fn sample_triangle(p0: Vec3, e1: Vec3, e2: Vec3, u: f32, v: f32) -> Vec3 {
-    let fold = u + v > 1.0;
-    let a = if fold { 1.0 - u } else { u };
-    let b = if fold { 1.0 - v } else { v };
-    (p0 + e1 * a) + e2 * b
 }
 
 /// A point on a light and what it would contribute if nothing were between.
@@ -127,7 +116,7 @@ pub fn connect(
     let e1 = flush_vector(p1 - p0, STEP);
     let e2 = flush_vector(p2 - p0, STEP);
     let m = flush_vector(cross(e1, e2), TINY_AREA);
-    let y = sample_triangle(p0, e1, e2, uv[0], uv[1]);
+    let y = uniform_point(p0, e1, e2, uv[0], uv[1]);
 
     let n = flush_vector(point.normal(), STEP);
     let d = flush_vector(y - point.position(), STEP);

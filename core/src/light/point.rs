@@ -1,0 +1,137 @@
+//! A point on a light.
+
+use glam::Vec3;
+
+use super::EmissiveTriangle;
+use crate::bounds::flux;
+use crate::exact;
+use crate::vector::{abs3, greatest_exponent, max3};
+
+/// A point on an emissive triangle, and the density with which it was chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightPoint {
+    /// The point, metres.
+    pub p: Vec3,
+    /// Unit normal of the front side; zero where the triangle has no area.
+    pub normal: Vec3,
+    /// Density over the triangle's area, 1/m²: the inverse of its area, at most 2^120; 0 where it has none.
+    ///
+    /// For a light chosen with probability `pmf`, seen at distance `d` under the cosine `c` of its normal, the density over solid
+    /// angle is `pmf · density · d² / c` (pbrt-v4, section 6.5.4).
+    pub density: f32,
+}
+
+impl EmissiveTriangle {
+    /// A point that is uniformly distributed over the triangle, where the numbers of `uv` are over [0, 1).
+    #[inline]
+    #[must_use]
+    pub fn point(&self, uv: [f32; 2]) -> LightPoint {
+        let p0 = self.vertex(0);
+        let (e1, e2) = (self.vertex(1) - p0, self.vertex(2) - p0);
+        // Edges of about 1, so that no product leaves the range.
+        let e = greatest_exponent(max3(abs3(e1), abs3(e2)), -127);
+        let to_one = exact::pow2(-e);
+        let emission = flux(e1 * to_one, e2 * to_one, e, self);
+        let has_area = emission.exponent >= -100;
+        let per_length = exact::div(1.0, exact::sqrt(emission.squared));
+        // Twice the area is √squared · 2^exponent.
+        let exponent = emission.exponent + e + e;
+        let density = (per_length + per_length) * exact::pow2(-exponent);
+        LightPoint {
+            p: uniform_point(p0, e1, e2, uv[0], uv[1]),
+            normal: if has_area {
+                emission.normal * per_length
+            } else {
+                Vec3::ZERO
+            },
+            density: if has_area {
+                exact::min(density, MAX_DENSITY)
+            } else {
+                0.0
+            },
+        }
+    }
+}
+
+/// Greatest density over area, 1/m².
+const MAX_DENSITY: f32 = exact::pow2(120);
+
+/// A uniformly distributed point on the triangle at `p0` with edges `e1` and `e2`, from two numbers in [0, 1): a point of the
+/// parallelogram, folded over its diagonal (G. Turk, "Generating random points in triangles", Graphics Gems, 1990). No root,
+/// and both numbers stay stratified but for the fold.
+#[inline]
+#[must_use]
+pub fn uniform_point(p0: Vec3, e1: Vec3, e2: Vec3, u: f32, v: f32) -> Vec3 {
+    let fold = u + v > 1.0;
+    let a = if fold { 1.0 - u } else { u };
+    let b = if fold { 1.0 - v } else { v };
+    (p0 + e1 * a) + e2 * b
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn triangle(p: [[f32; 3]; 3]) -> EmissiveTriangle {
+        EmissiveTriangle {
+            p,
+            radiance: [1.0; 3],
+            mesh: 0,
+            flags: 0,
+        }
+    }
+
+    #[test]
+    fn density_is_the_inverse_of_the_area_at_every_size() {
+        // Area 6 in units of the scale squared.
+        for e in [-100, -63, -58, -30, 0, 7, 38] {
+            let s = exact::pow2(e);
+            let light = triangle([[s, 0.0, 2.0 * s], [4.0 * s, 0.0, 2.0 * s], [s, 4.0 * s, 2.0 * s]]);
+            let at = light.point([0.25, 0.5]);
+            let expected = (1.0 / 6.0) * 2.0_f64.powi(-2 * e);
+            let expected = expected.min(2.0_f64.powi(120));
+            let error = f64::from(at.density) / expected - 1.0;
+            assert!(error.abs() < 1e-6, "2^{e}: {at:?}, expected {expected:e}");
+            assert_eq!(at.normal, Vec3::Z);
+            assert_eq!(at.p, Vec3::new(1.75, 2.0, 2.0) * s);
+        }
+    }
+
+    #[test]
+    fn a_triangle_without_area_has_no_density() {
+        for p in [
+            [[1.0; 3]; 3],
+            [[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]],
+            [[0.0; 3]; 3],
+        ] {
+            let at = triangle(p).point([0.5, 0.25]);
+            assert_eq!((at.density, at.normal), (0.0, Vec3::ZERO), "{p:?}");
+        }
+    }
+
+    /// Moments of the uniform distribution: mean at the centroid, covariance Σ(v − c)(v − c)ᵀ / 12.
+    #[test]
+    fn points_are_uniform() {
+        let light = triangle([[1.0, 2.0, 3.0], [3.0, 2.0, 2.0], [0.0, 5.0, 3.0]]);
+        let (mut mean, mut square, n) = ([0.0_f64; 3], 0.0_f64, 512);
+        for i in 0..n * n {
+            let uv = [i % n, i / n].map(|k| (k as f32 + 0.5) / n as f32);
+            let p = light.point(uv).p;
+            for (k, x) in [p.x, p.y, p.z].into_iter().enumerate() {
+                mean[k] += f64::from(x) / f64::from(n * n);
+            }
+            square += f64::from((p - Vec3::new(4.0, 9.0, 8.0) / 3.0).length_squared()) / f64::from(n * n);
+        }
+        let c = [4.0 / 3.0, 3.0, 8.0 / 3.0];
+        let spread: f64 = light
+            .p
+            .iter()
+            .flat_map(|v| v.iter().zip(c).map(|(&x, c)| (f64::from(x) - c).powi(2)))
+            .sum::<f64>()
+            / 12.0;
+        for k in 0..3 {
+            assert!((mean[k] - c[k]).abs() < 1e-4, "{mean:?}");
+        }
+        assert!((square / spread - 1.0).abs() < 1e-3, "{square} {spread}");
+    }
+}

@@ -1,0 +1,148 @@
+//! The public face alone: what an engine can rely on.
+
+use lightbvh::bvh::{EditError, EditReason};
+use lightbvh::{
+    BuildParams, Bvh, CompactNode, Edit, EmissiveTriangle, Eq4, INVALID, LightBvh, Lights, MeshId,
+    ShadingPoint, Transform,
+};
+
+const POINT: ShadingPoint = ShadingPoint {
+    p: [0.0; 3],
+    n: [0.0, 1.0, 0.0],
+};
+
+/// A lamp that shines down.
+fn lamp(mesh: u32) -> EmissiveTriangle {
+    EmissiveTriangle {
+        p: [[0.0, 3.0, 0.0], [0.5, 3.0, 0.0], [0.0, 3.0, 0.5]],
+        radiance: [1.0; 3],
+        mesh,
+        flags: 0,
+    }
+}
+
+fn add(mesh: MeshId, x: f32) -> Edit {
+    Edit::AddInstance {
+        mesh,
+        transform: Transform::at([x, 0.0, 0.0]),
+        radiance: 1.0,
+    }
+}
+
+fn add_mesh() -> Edit {
+    Edit::AddMesh {
+        triangles: vec![lamp(0)],
+    }
+}
+
+#[test]
+fn one_batch_adds_meshes_and_their_instances() {
+    let mut bvh = LightBvh::default();
+    let edits = vec![
+        add_mesh(),
+        add(MeshId::added(0), 0.0),
+        add_mesh(),
+        add(MeshId::added(1), 1.0),
+        add(MeshId::added(0), 2.0),
+    ];
+    let added = bvh.apply(edits).expect("all there");
+    bvh.refit();
+    bvh.validate().expect("valid");
+    assert_eq!((added.meshes.len(), added.instances.len()), (2, 3));
+    let pmfs = (0..3).map(|light| bvh.pmf(&POINT, light, added.instances[light as usize].index()));
+    assert!((pmfs.sum::<f32>() - 1.0).abs() < 1e-5);
+    // The mesh of each is the one that was named.
+    bvh.apply(vec![Edit::RemoveInstance(added.instances[1])])
+        .expect("there");
+    bvh.apply(vec![Edit::RemoveMesh(added.meshes[1])])
+        .expect("without instances");
+    let error = bvh
+        .apply(vec![Edit::RemoveMesh(added.meshes[0])])
+        .expect_err("two instances");
+    assert_eq!(error.reason, EditReason::InUse { instances: 2 });
+}
+
+#[test]
+fn a_place_in_the_batch_is_known_only_after_it_is_filled() {
+    let mut bvh = LightBvh::default();
+    let mesh = MeshId::added(0);
+    let unknown = |edit| {
+        Err(EditError {
+            edit,
+            reason: EditReason::UnknownMesh(mesh),
+        })
+    };
+    assert_eq!(bvh.apply(vec![add(mesh, 0.0), add_mesh()]), unknown(0));
+    assert_eq!(bvh.apply(vec![add_mesh(), Edit::RemoveMesh(mesh)]), unknown(1));
+    bvh.apply(vec![add_mesh()]).expect("added");
+    assert_eq!(bvh.apply(vec![add(mesh, 0.0)]), unknown(0), "another batch");
+    // An instance must fit with the extent of the mesh of the same batch.
+    let far = add(mesh, lightbvh::light::MAX_COORDINATE);
+    let error = bvh.apply(vec![add_mesh(), far]).expect_err("too far");
+    assert!(matches!(error.reason, EditReason::Transform(_)), "{error}");
+    assert_eq!(bvh.light_count(), 0);
+}
+
+#[test]
+fn no_lights_are_a_tree_that_answers_none() {
+    let lights = Lights::new(Vec::new()).expect("an empty set");
+    let params = BuildParams::default();
+    let mut trees = [
+        LightBvh::default(),
+        LightBvh::single_level(&lights, &params),
+        LightBvh::two_level(&lights, &params),
+    ];
+    for bvh in &mut trees {
+        bvh.refit();
+        bvh.validate().expect("valid");
+        let sampled = bvh.sample(&POINT, 7_u32);
+        assert_eq!(
+            (sampled.light, sampled.instance, sampled.pmf),
+            (INVALID, INVALID, 0.0)
+        );
+        assert_eq!(bvh.pmf(&POINT, 0, 0), 0.0);
+        assert_eq!(bvh.triangle(0, 0), None);
+        assert!(bvh.world_lights().is_empty() && bvh.light_count() == 0);
+        bvh.follow(&lights).expect("as empty as before");
+    }
+    let eq4 = Bvh::<CompactNode<4>, Eq4, 4>::single_level(&lights, &params);
+    assert_eq!(eq4.sample(&POINT, 7_u32).light, INVALID);
+}
+
+#[test]
+fn lights_of_another_shape_are_not_followed() {
+    let lights =
+        |meshes: &[u32]| Lights::new(meshes.iter().map(|&mesh| lamp(mesh)).collect()).expect("lamps");
+    let params = BuildParams::default();
+    let count = |edit, expected, found| {
+        Err(EditError {
+            edit,
+            reason: EditReason::Count { expected, found },
+        })
+    };
+    let mut two = LightBvh::two_level(&lights(&[0, 0, 1]), &params);
+    assert_eq!(two.follow(&lights(&[0, 0, 1])), Ok(()));
+    assert_eq!(two.follow(&lights(&[0, 0, 1, 1])), count(1, 1, 2));
+    assert_eq!(two.follow(&lights(&[0, 0, 1, 2])), count(2, 0, 1));
+    assert_eq!(two.follow(&lights(&[0, 0])), count(1, 1, 0));
+    let mut single = LightBvh::single_level(&lights(&[0, 0, 1]), &params);
+    assert_eq!(single.follow(&lights(&[0, 1, 2])), Ok(()));
+    assert_eq!(single.follow(&lights(&[0])), count(0, 3, 1));
+    let mut none = LightBvh::single_level(&lights(&[]), &params);
+    assert_eq!(none.follow(&lights(&[0])), count(0, 0, 1));
+}
+
+#[test]
+fn a_sample_leads_to_its_point_on_its_triangle() {
+    let mut bvh = LightBvh::default();
+    let edits = vec![add_mesh(), add(MeshId::added(0), 4.0)];
+    let instance = bvh.apply(edits).expect("added").instances[0];
+    bvh.refit();
+    let sampled = bvh.sample(&POINT, 99_u32);
+    assert_eq!(bvh.instance_id(sampled.instance), Some(instance));
+    let triangle = bvh.triangle(sampled.light, sampled.instance).expect("there");
+    let at = triangle.point([0.25, 0.5]);
+    assert_eq!([at.p.x, at.p.y, at.p.z], [4.125, 3.0, 0.25]);
+    assert_eq!([at.normal.x, at.normal.y, at.normal.z], [0.0, -1.0, 0.0]);
+    assert_eq!(at.density, 8.0);
+}
