@@ -14,6 +14,7 @@ use crate::light::{EmissiveTriangle, MIN_COORDINATE};
 use crate::moments::LightMoments;
 use crate::point::ShadingPoint;
 use crate::trail::BitTrail;
+use crate::tree::INVALID;
 use crate::vector::{dot, greatest_exponent, length_squared, max3};
 
 /// Lengths below this in a mesh's space count as zero, metres: 2^-60. Entries of the maps are zero or at least 2^-60, so no
@@ -340,6 +341,36 @@ impl Instance {
             0.0
         }
     }
+}
+
+/// Light `light` of instance `instance` in the world, as a [`SampledLight`](crate::SampledLight) names them: `triangles` are those
+/// of all bottom levels, in the spaces of their meshes. Without radiance where there is no such light. In a single-level tree
+/// `instance` is [`INVALID`], and its one instance is meant.
+#[inline]
+#[must_use]
+pub fn world_light(
+    triangles: &[EmissiveTriangle],
+    instances: &[Instance],
+    light: u32,
+    instance: u32,
+) -> EmissiveTriangle {
+    let index = if instance == INVALID { 0 } else { instance };
+    let mut out = EmissiveTriangle {
+        p: [[0.0; 3]; 3],
+        radiance: [0.0; 3],
+        mesh: INVALID,
+        flags: 0,
+    };
+    if index < instances.len() as u32 {
+        let own = instances[index as usize];
+        let triangle = own.triangle_of(light);
+        let is_own = light.wrapping_sub(own.first) < own.count;
+        if is_own && triangle < triangles.len() as u32 {
+            let local = triangles[triangle as usize];
+            out = own.triangle(&local, index);
+        }
+    }
+    out
 }
 
 #[inline(always)]

@@ -13,19 +13,17 @@
 //! **The bits agree.** Nodes, refit and traversal are written with operations that Vulkan defines exactly ([`exact`]), in
 //! a fixed order, so the same source compiled by rust-gpu gives the same words on a device as natively.
 //!
-//! | module | what |
+//! | | |
 //! |---|---|
-//! | [`exact`], [`vector`] | the arithmetic |
-//! | [`light`], [`bounds`], [`cone`], [`point`] | lights and what is known of sets of them; the receiver |
-//! | [`summary`], [`importance`] | what nodes store of their children, and what these are chosen by |
-//! | [`node`], [`tree`], [`trail`] | layout of nodes, links, bit trails |
-//! | [`refit`] | new summaries on an unchanged topology |
-//! | [`traverse`] | sampling, and the probability of any light |
-//! | [`instance`] | leaves of the top level with a space of their own |
+//! | [`LightBvh`], [`Bvh`] | the light BVH that owns its arrays: edits, refit of what changed, samples and their probabilities |
+//! | [`EmissiveTriangle`], [`Lights`], [`Transform`] | lights, and where their meshes stand |
+//! | [`ShadingPoint`], [`Random64`], [`SampledLight`], [`LightPoint`] | what is lit, the number that chooses, the light chosen, a point on it |
+//! | [`Rebuilder`] | rebuilds on a thread beside the frame |
+//! | [`bvh`], [`build`] | edits, ids, plans and rebuilds; builders |
+//! | [`importance`], [`node`] | what children are chosen by, and what nodes store of them |
+//! | [`LightTree`], [`refit`], [`exact`] | arrays, passes and arithmetic, the same on devices |
 //! | [`reservoir`] | resampling of light samples, over candidates and over other reservoirs (ReSTIR) |
-//! | `bvh`, `transform` (feature `alloc`) | the light BVH that owns its arrays: edits, instances, refit of what changed, rebuilds |
-//! | `lights`, `build`, `validate` (feature `alloc`) | lights that stand in the world, builders, invariants |
-//! | `rebuilder` (feature `std`) | rebuilds on a thread beside the frame |
+//! | [`error`] | why input is refused |
 //!
 #![cfg_attr(
     feature = "std",
@@ -81,70 +79,104 @@ extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
 
-pub mod bounds;
-pub mod cone;
+pub mod error;
 pub mod exact;
-mod halves;
 pub mod importance;
-pub mod instance;
-pub mod light;
-pub mod moments;
 pub mod node;
-pub mod point;
-mod prefetch;
 pub mod refit;
 pub mod reservoir;
-pub mod summary;
-pub mod trail;
-pub mod traverse;
-pub mod tree;
-pub mod vector;
 
 #[cfg(feature = "alloc")]
 pub mod build;
 #[cfg(feature = "alloc")]
 pub mod bvh;
+
+// For the kernels, the host and the tests, which are of this workspace: not part of the interface.
+#[doc(hidden)]
+pub mod bounds;
+#[doc(hidden)]
+pub mod cone;
+#[doc(hidden)]
+pub mod instance;
+#[doc(hidden)]
+pub mod light;
+#[doc(hidden)]
+pub mod moments;
+#[doc(hidden)]
+pub mod point;
+#[doc(hidden)]
+pub mod summary;
+#[doc(hidden)]
+pub mod trail;
+#[doc(hidden)]
+pub mod traverse;
+#[doc(hidden)]
+pub mod tree;
+#[doc(hidden)]
+pub mod vector;
+
 #[cfg(feature = "alloc")]
+#[doc(hidden)]
 pub mod levels;
 #[cfg(feature = "alloc")]
+#[doc(hidden)]
 pub mod lights;
+#[cfg(feature = "std")]
+#[doc(hidden)]
+pub mod rebuilder;
 #[cfg(feature = "alloc")]
+#[doc(hidden)]
 pub mod sweep;
 #[cfg(feature = "alloc")]
+#[doc(hidden)]
 pub mod transform;
 #[cfg(feature = "alloc")]
+#[doc(hidden)]
 pub mod validate;
+
+mod halves;
+mod prefetch;
 #[cfg(feature = "alloc")]
 mod widest;
 
+#[cfg(feature = "alloc")]
+#[doc(inline)]
+pub use bvh::{Bvh, Edit, LightBvh};
+#[cfg(feature = "alloc")]
+pub use lights::Lights;
 #[cfg(feature = "std")]
-pub mod rebuilder;
-
-#[cfg(feature = "alloc")]
-pub use build::{BuildParams, Effort, Heuristic};
-#[cfg(feature = "alloc")]
-pub use bvh::{Bvh, Edit, EditError, InstanceId, LightBvh, MeshId};
-#[cfg(feature = "alloc")]
-pub use lights::{Lights, LightsError};
-#[cfg(feature = "std")]
-pub use rebuilder::{RebuildError, Rebuilder, RebuilderParams};
+pub use rebuilder::Rebuilder;
 #[cfg(feature = "alloc")]
 pub use transform::Transform;
-#[cfg(feature = "alloc")]
-pub use validate::Violation;
 
-pub use bounds::LightBounds;
-pub use importance::{Defensive, Eq4, FluxOverDistance, ImportanceModel, Moments};
-pub use instance::Instance;
-pub use light::{EmissiveTriangle, LightError, LightPoint};
-pub use moments::LightMoments;
-pub use node::{
-    BoundsNode, CompactNode, FullMomentNode, FullNode, LeanMomentNode, LightNode, MomentLayout, MomentNode,
-};
-pub use point::{PointError, ShadingPoint};
-pub use summary::Summary;
+pub use light::{EmissiveTriangle, LightPoint};
+pub use point::ShadingPoint;
 pub use traverse::{Random64, SampledLight};
-pub use tree::{INVALID, LightTree};
+pub use tree::LightTree;
+
+// Short paths to what is documented in a module.
+#[cfg(feature = "alloc")]
+#[doc(hidden)]
+pub use build::{BuildParams, Effort, Heuristic};
+#[cfg(feature = "alloc")]
+#[doc(hidden)]
+pub use bvh::{InstanceId, MeshId};
+#[doc(hidden)]
+pub use error::*;
+#[doc(hidden)]
+pub use importance::{Defensive, Eq4, FluxOverDistance, ImportanceModel, Moments};
+#[doc(hidden)]
+pub use node::{
+    BoundsNode, CompactNode, FullMomentNode, FullNode, LeanMomentNode, LightBounds, LightMoments, LightNode,
+    MomentLayout, MomentNode, Summary,
+};
+#[cfg(feature = "std")]
+#[doc(hidden)]
+pub use rebuilder::RebuilderParams;
+#[doc(hidden)]
+pub use refit::Instance;
+#[doc(hidden)]
+pub use tree::INVALID;
 
 /// The snippets of the first page, compiled and run.
 #[cfg(all(doctest, feature = "std"))]

@@ -7,7 +7,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::instance::Instance;
+pub use crate::instance::{Instance, world_light};
 use crate::light::EmissiveTriangle;
 use crate::node::{LightNode, kind};
 use crate::summary::{Lanes, SUMMARY_WORDS, Summary, Triangles};

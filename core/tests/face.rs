@@ -141,8 +141,11 @@ fn a_sample_leads_to_its_point_on_its_triangle() {
     let sampled = bvh.sample(&POINT, 99_u32);
     assert_eq!(bvh.instance_id(sampled.instance), Some(instance));
     let triangle = bvh.triangle(sampled.light, sampled.instance).expect("there");
+    let tree = bvh.tree();
+    let same =
+        lightbvh::instance::world_light(bvh.triangles(), tree.instances, sampled.light, sampled.instance);
+    assert_eq!(same, triangle);
     let at = triangle.point([0.25, 0.5]);
-    assert_eq!([at.p.x, at.p.y, at.p.z], [4.125, 3.0, 0.25]);
-    assert_eq!([at.normal.x, at.normal.y, at.normal.z], [0.0, -1.0, 0.0]);
+    assert_eq!((at.p, at.normal), ([4.125, 3.0, 0.25], [0.0, -1.0, 0.0]));
     assert_eq!(at.density, 8.0);
 }

@@ -1,8 +1,10 @@
-//! Passes `sample` and `pmf`: one invocation answers one query.
+//! Passes `sample` and `pmf`: one invocation answers one query. Pass `light_points`: one invocation turns one sample into a point
+//! on its light.
 
 use bytemuck::{Pod, Zeroable};
 use glam::UVec3;
-use lightbvh::{Instance, Random64, SampledLight, ShadingPoint};
+use lightbvh::instance::world_light;
+use lightbvh::{EmissiveTriangle, Instance, LightPoint, Random64, SampledLight, ShadingPoint};
 use spirv_std::spirv;
 
 use crate::bvh::{Choice, NodeOf, Paper, Standard, TreeOf, TreePush};
@@ -91,3 +93,42 @@ macro_rules! query_passes {
 
 query_passes!(Standard, sample, "sample", pmf, "pmf");
 query_passes!(Paper, sample_eq4, "sample_eq4", pmf_eq4, "pmf_eq4");
+
+/// The point on a sampled light that the two numbers of `uv` choose.
+#[inline]
+#[must_use]
+pub fn light_point(
+    triangles: &[EmissiveTriangle],
+    instances: &[Instance],
+    sample: &SampledLight,
+    uv: [f32; 2],
+) -> LightPoint {
+    world_light(triangles, instances, sample.light, sample.instance).point(uv)
+}
+
+/// Push constants of pass `light_points`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct PointsPush {
+    /// Number of samples.
+    pub count: u32,
+}
+
+/// Turns each of `samples`, as pass `sample` writes them, into a point on its light in the world, by the two numbers of `numbers`
+/// in [0, 1). It reads the triangles through their instances: when an instance moves, its record is all that changes.
+#[spirv(compute(threads(64), entry_point_name = "light_points"))]
+pub fn light_points(
+    #[spirv(global_invocation_id)] id: UVec3,
+    #[spirv(push_constant)] push: &PointsPush,
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] triangles: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] samples: &[SampledLight],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] numbers: &[[f32; 2]],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] results: &mut [LightPoint],
+) {
+    let i = invocation(id);
+    if i < push.count && i < samples.len() as u32 && i < numbers.len() as u32 {
+        let sample = samples[i as usize];
+        results[i as usize] = light_point(triangles, instances, &sample, numbers[i as usize]);
+    }
+}

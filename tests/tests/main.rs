@@ -17,6 +17,7 @@ mod importance;
 mod instance;
 mod known_answers;
 mod known_words;
+mod light_points;
 mod messages;
 mod methods;
 mod metrics;

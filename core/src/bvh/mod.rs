@@ -22,6 +22,7 @@ mod blas;
 mod check;
 mod construct;
 mod edit;
+mod lights;
 mod one;
 mod ranges;
 mod rebuild;
@@ -42,6 +43,10 @@ pub use rebuild::{Foreign, Rebuild, RebuildParams, Rebuilt};
 pub use refit::RefitPlan;
 pub use validate::Stats;
 
+pub use crate::levels::Levels;
+#[cfg(feature = "std")]
+pub use crate::rebuilder::RebuilderParams;
+
 use self::blas::Blas;
 use self::ranges::Ranges;
 use self::top::Top;
@@ -54,7 +59,7 @@ use crate::point::ShadingPoint;
 use crate::refit::BlasRoot;
 use crate::transform::Transform;
 use crate::traverse::{Random64, SampledLight};
-use crate::tree::{INVALID, LightTree};
+use crate::tree::LightTree;
 
 /// A light BVH that owns its arrays: two levels over instances of emissive meshes, with nodes of layout `N` and width `W`, whose
 /// children are chosen by `I`.
@@ -148,9 +153,6 @@ struct InstanceState {
     /// When it came into the scene.
     created: u64,
 }
-
-/// So many numbers of removed lights wait to be taken, and as many as there are lights.
-const LEAST_WAITING: usize = 1 << 16;
 
 /// The next BVH's.
 static NEXT_ID: AtomicU32 = AtomicU32::new(0);
@@ -273,106 +275,6 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     #[must_use]
     pub fn triangles(&self) -> &[EmissiveTriangle] {
         &self.triangles
-    }
-
-    /// The lights of an instance: numbered without gaps, triangle by triangle, the same as long as the instance lives.
-    #[must_use]
-    pub fn lights_of(&self, instance: InstanceId) -> Option<Range<u32>> {
-        self.live(instance).map(|placed| placed.lights.clone())
-    }
-
-    /// One more than the greatest number of a light.
-    #[must_use]
-    pub fn light_end(&self) -> u32 {
-        self.lights.end()
-    }
-
-    /// Light `light` of the instance of index `instance` in the world, as a [`SampledLight`] names them; `None` where there is
-    /// no such. In a single-level BVH, where samples name no instance, that is not looked at.
-    #[must_use]
-    pub fn triangle(&self, light: u32, instance: u32) -> Option<EmissiveTriangle> {
-        let index = if self.single { 0 } else { instance };
-        let placed = self
-            .placed
-            .get(index as usize)
-            .filter(|placed| placed.live && placed.lights.contains(&light))?;
-        let own = &self.instances[index as usize];
-        let triangle = self.blas_of(placed).triangles.start + (light - placed.lights.start);
-        Some(own.triangle(&self.triangles[triangle as usize], index))
-    }
-
-    /// The id of the instance of index `instance`, as a [`SampledLight`] names it; `None` where there is no such.
-    #[must_use]
-    pub fn instance_id(&self, instance: u32) -> Option<InstanceId> {
-        let placed = self.placed.get(instance as usize).filter(|placed| placed.live)?;
-        Some(InstanceId {
-            tree: self.id,
-            index: instance,
-            generation: placed.generation,
-        })
-    }
-
-    /// All lights in the world by number; numbers not in use get triangles without radiance. Their `mesh` is the index of
-    /// the instance.
-    #[must_use]
-    pub fn world_lights(&self) -> Vec<EmissiveTriangle> {
-        let dark = EmissiveTriangle {
-            p: [[0.0; 3]; 3],
-            radiance: [0.0; 3],
-            mesh: INVALID,
-            flags: 0,
-        };
-        let mut out = alloc::vec![dark; self.lights.end() as usize];
-        for (index, placed) in self.placed.iter().enumerate().filter(|(_, placed)| placed.live) {
-            let own = &self.instances[index];
-            let range = self.blas_of(placed).triangles.clone();
-            let local = &self.triangles[range.start as usize..range.end as usize];
-            let lights = placed.lights.start as usize..placed.lights.end as usize;
-            for (light, triangle) in out[lights].iter_mut().zip(local) {
-                *light = own.triangle(triangle, index as u32);
-            }
-        }
-        out
-    }
-
-    /// Number of lights in the world.
-    #[must_use]
-    pub fn light_count(&self) -> usize {
-        self.light_count
-    }
-
-    /// Numbers of lights that are no more, until [`take_removed_lights`](Self::take_removed_lights): what a temporal method must
-    /// forget before it looks at the next frame. Every other light keeps its number.
-    ///
-    /// No new light gets such a number before it is taken. Who never takes them is not left to run out of numbers: once more
-    /// than 65,536 wait, and more than there are lights, all of them are free, and the first range is that of every number there was.
-    #[must_use]
-    pub fn removed_lights(&self) -> &[Range<u32>] {
-        &self.removed_lights
-    }
-
-    /// Takes the [numbers of lights that are no more](Self::removed_lights) since they were taken last. From now on new lights may
-    /// get them.
-    pub fn take_removed_lights(&mut self) -> Vec<Range<u32>> {
-        let removed = core::mem::take(&mut self.removed_lights);
-        let given_back = usize::from(core::mem::take(&mut self.forgotten));
-        for range in &removed[given_back..] {
-            self.lights.give(range.clone());
-        }
-        self.waiting_lights = 0;
-        removed
-    }
-
-    /// Lights that are no more.
-    fn retire_lights(&mut self, lights: Range<u32>) {
-        self.light_count -= lights.len();
-        self.waiting_lights += lights.len();
-        self.removed_lights.push(lights);
-        if self.waiting_lights > LEAST_WAITING.max(self.light_count) {
-            self.take_removed_lights();
-            self.removed_lights.push(0..self.lights.end());
-            self.forgotten = true;
-        }
     }
 
     /// The instance of an id, if it is there.

@@ -1,5 +1,6 @@
 //! A point on a light.
 
+use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::EmissiveTriangle;
@@ -7,19 +8,26 @@ use crate::bounds::flux;
 use crate::exact;
 use crate::vector::{abs3, greatest_exponent, max3};
 
-/// A point on an emissive triangle, and the density with which it was chosen.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A point on an emissive triangle, and the density with which it was chosen. Plain words, the same on devices.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct LightPoint {
     /// The point, metres.
-    pub p: Vec3,
-    /// Unit normal of the front side; zero where the triangle has no area.
-    pub normal: Vec3,
+    pub p: [f32; 3],
     /// Density over the triangle's area, 1/m²: the inverse of its area, at most 2^120; 0 where it has none.
     ///
     /// For a light chosen with probability `pmf`, seen at distance `d` under the cosine `c` of its normal, the density over solid
     /// angle is `pmf · density · d² / c` (pbrt-v4, section 6.5.4).
     pub density: f32,
+    /// Unit normal of the front side; zero where the triangle has no area.
+    pub normal: [f32; 3],
+    /// [`EmissiveTriangle::flags`].
+    pub flags: u32,
+    /// Radiance, W/(m² sr).
+    pub radiance: [f32; 3],
 }
+
+const _: () = assert!(size_of::<LightPoint>() == 44);
 
 impl EmissiveTriangle {
     /// A point that is uniformly distributed over the triangle, where the numbers of `uv` are over [0, 1).
@@ -37,18 +45,18 @@ impl EmissiveTriangle {
         // Twice the area is √squared · 2^exponent.
         let exponent = emission.exponent + e + e;
         let density = (per_length + per_length) * exact::pow2(-exponent);
+        let p = uniform_point(p0, e1, e2, uv[0], uv[1]);
+        let n = emission.normal * per_length;
         LightPoint {
-            p: uniform_point(p0, e1, e2, uv[0], uv[1]),
-            normal: if has_area {
-                emission.normal * per_length
-            } else {
-                Vec3::ZERO
-            },
+            p: [p.x, p.y, p.z],
             density: if has_area {
                 exact::min(density, MAX_DENSITY)
             } else {
                 0.0
             },
+            normal: if has_area { [n.x, n.y, n.z] } else { [0.0; 3] },
+            flags: self.flags,
+            radiance: self.radiance,
         }
     }
 }
@@ -92,8 +100,8 @@ mod tests {
             let expected = expected.min(2.0_f64.powi(120));
             let error = f64::from(at.density) / expected - 1.0;
             assert!(error.abs() < 1e-6, "2^{e}: {at:?}, expected {expected:e}");
-            assert_eq!(at.normal, Vec3::Z);
-            assert_eq!(at.p, Vec3::new(1.75, 2.0, 2.0) * s);
+            assert_eq!(at.normal, [0.0, 0.0, 1.0]);
+            assert_eq!(at.p, [1.75 * s, 2.0 * s, 2.0 * s]);
         }
     }
 
@@ -105,7 +113,7 @@ mod tests {
             [[0.0; 3]; 3],
         ] {
             let at = triangle(p).point([0.5, 0.25]);
-            assert_eq!((at.density, at.normal), (0.0, Vec3::ZERO), "{p:?}");
+            assert_eq!((at.density, at.normal), (0.0, [0.0; 3]), "{p:?}");
         }
     }
 
@@ -117,10 +125,11 @@ mod tests {
         for i in 0..n * n {
             let uv = [i % n, i / n].map(|k| (k as f32 + 0.5) / n as f32);
             let p = light.point(uv).p;
-            for (k, x) in [p.x, p.y, p.z].into_iter().enumerate() {
+            for (k, x) in p.into_iter().enumerate() {
                 mean[k] += f64::from(x) / f64::from(n * n);
             }
-            square += f64::from((p - Vec3::new(4.0, 9.0, 8.0) / 3.0).length_squared()) / f64::from(n * n);
+            square += f64::from((Vec3::from(p) - Vec3::new(4.0, 9.0, 8.0) / 3.0).length_squared())
+                / f64::from(n * n);
         }
         let c = [4.0 / 3.0, 3.0, 8.0 / 3.0];
         let spread: f64 = light

@@ -20,10 +20,11 @@ pub use moment_lean::LeanMomentNode;
 use bytemuck::Pod;
 use glam::Vec3;
 
-use crate::bounds::LightBounds;
+pub use crate::bounds::LightBounds;
 use crate::importance::Cluster;
-use crate::moments::LightMoments;
-use crate::summary::{Lanes, Summary};
+pub use crate::moments::LightMoments;
+use crate::summary::Lanes;
+pub use crate::summary::Summary;
 
 /// Version of the node layouts' words; raised whenever a layout changes.
 pub const NODE_FORMAT: u32 = 2;

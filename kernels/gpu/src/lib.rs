@@ -31,4 +31,4 @@ pub use refit::{Dispatch, Pass, Refit};
 #[cfg(feature = "kernels")]
 pub use set::{EQ4, KernelSet, MOMENTS};
 #[cfg(feature = "kernels")]
-pub use table::KERNELS;
+pub use table::{KERNELS, LIGHT_POINTS};

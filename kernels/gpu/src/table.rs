@@ -3,6 +3,21 @@
 use crate::kernel::Access::{Read, ReadWrite, Write};
 use crate::kernel::{Binding, Kernel};
 
+/// Kernel `light_points`.
+pub static LIGHT_POINTS: Kernel = Kernel {
+    name: "light_points",
+    bytes: include_bytes!("../spirv/light_points.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "triangles", access: Read, stride: 56 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 132 },
+        Binding { binding: 2, name: "samples", access: Read, stride: 12 },
+        Binding { binding: 3, name: "numbers", access: Read, stride: 8 },
+        Binding { binding: 4, name: "results", access: Write, stride: 44 },
+    ],
+    push_constants: 4,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `path_bvh`.
 pub static PATH_BVH: Kernel = Kernel {
     name: "path_bvh",
@@ -446,6 +461,7 @@ pub static SELF_TEST: Kernel = Kernel {
 
 /// All kernels, sorted by name.
 pub static KERNELS: &[&Kernel] = &[
+    &LIGHT_POINTS,
     &PATH_BVH,
     &PATH_BVH_EQ4,
     &PATH_POWER,
