@@ -5,6 +5,7 @@
 
 #[cfg(feature = "rayon")]
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use crate::instance::Instance;
 use crate::light::EmissiveTriangle;
@@ -59,6 +60,34 @@ pub fn bottom_sweep<N: LightNode<W>, const W: usize>(
     }
     let _ = roots;
     one_by_one(nodes, nodes.len(), first, triangles);
+}
+
+/// [`bottom_sweep`] of each of `trees`, ranges of nodes that do not overlap.
+pub fn trees<N: LightNode<W>, const W: usize>(
+    nodes: &mut [N],
+    triangles: &[EmissiveTriangle],
+    trees: &[Range<u32>],
+) {
+    #[cfg(feature = "rayon")]
+    if trees.len() > 1 && rayon::current_num_threads() > 1 {
+        use rayon::prelude::*;
+
+        let mut sorted = trees.to_vec();
+        sorted.sort_unstable_by_key(|tree| tree.start);
+        let (mut rest, mut at) = (nodes, 0);
+        let mut pieces = Vec::with_capacity(sorted.len());
+        for tree in sorted {
+            let (piece, after) = rest[(tree.start - at) as usize..].split_at_mut(tree.len());
+            pieces.push((tree.start, piece));
+            (rest, at) = (after, tree.end);
+        }
+        let sweep = |(start, piece): (u32, &mut [N])| bottom_sweep(piece, start, triangles, &[start]);
+        return pieces.into_par_iter().for_each(sweep);
+    }
+    for tree in trees {
+        let own = &mut nodes[tree.start as usize..tree.end as usize];
+        bottom_sweep(own, tree.start, triangles, &[tree.start]);
+    }
 }
 
 /// Nodes between the one computed and the one whose triangles are asked for.

@@ -15,7 +15,7 @@ use crate::shading::material::Material;
 use crate::shading::path::path_radiance;
 use crate::shading::pick::{PickLight, Power, Uniform};
 use crate::shading::pixel::Scene;
-use crate::shading::trace::{RayNode, SurfaceTriangle, Surfaces};
+use crate::shading::trace::{RayNode, SurfaceTriangle};
 
 /// The radiance that reaches the camera through pixel `index` along paths of up to `bounces` reflections, linear RGB,
 /// W/(m² sr): the mean of [`samples`](RenderParams::samples) paths. Pixels are numbered by rows from the upper left, and
@@ -89,14 +89,7 @@ macro_rules! path_pass {
         ) {
             let i = invocation(id);
             if i < push.count {
-                let scene = Scene {
-                    surfaces: Surfaces {
-                        nodes: ray_nodes,
-                        triangles: surfaces,
-                    },
-                    materials,
-                    lights,
-                };
+                let scene = Scene::new(ray_nodes, surfaces, materials, lights);
                 let picker: TreeOf<'_, $choice, _> = push.tree.tree(nodes, instances, trails);
                 results[i as usize] = path_pixel(
                     &scene,
@@ -129,14 +122,7 @@ pub fn path_power(
 ) {
     let i = invocation(id);
     if i < push.count {
-        let scene = Scene {
-            surfaces: Surfaces {
-                nodes: ray_nodes,
-                triangles: surfaces,
-            },
-            materials,
-            lights,
-        };
+        let scene = Scene::new(ray_nodes, surfaces, materials, lights);
         let picker = Power { thresholds };
         results[i as usize] = path_pixel(
             &scene,
@@ -163,14 +149,7 @@ pub fn path_uniform(
 ) {
     let i = invocation(id);
     if i < push.count {
-        let scene = Scene {
-            surfaces: Surfaces {
-                nodes: ray_nodes,
-                triangles: surfaces,
-            },
-            materials,
-            lights,
-        };
+        let scene = Scene::new(ray_nodes, surfaces, materials, lights);
         let picker = Uniform {
             count: lights.len() as u32,
         };

@@ -13,7 +13,7 @@ use crate::shading::camera::Camera;
 use crate::shading::material::Material;
 use crate::shading::pick::{PickLight, Power, Uniform};
 use crate::shading::pixel::{Scene, reflected, see};
-use crate::shading::trace::{RayNode, SurfaceTriangle, Surfaces};
+use crate::shading::trace::{RayNode, SurfaceTriangle};
 
 /// What all pixels of an image have in common besides the scene; push constants, 32 bytes.
 #[repr(C)]
@@ -92,14 +92,7 @@ macro_rules! render_pass {
         ) {
             let i = invocation(id);
             if i < push.count {
-                let scene = Scene {
-                    surfaces: Surfaces {
-                        nodes: ray_nodes,
-                        triangles: surfaces,
-                    },
-                    materials,
-                    lights,
-                };
+                let scene = Scene::new(ray_nodes, surfaces, materials, lights);
                 let picker: TreeOf<'_, $choice, _> = push.tree.tree(nodes, instances, trails);
                 results[i as usize] = render_pixel(
                     &scene,
@@ -131,14 +124,7 @@ pub fn render_power(
 ) {
     let i = invocation(id);
     if i < push.count {
-        let scene = Scene {
-            surfaces: Surfaces {
-                nodes: ray_nodes,
-                triangles: surfaces,
-            },
-            materials,
-            lights,
-        };
+        let scene = Scene::new(ray_nodes, surfaces, materials, lights);
         let picker = Power { thresholds };
         results[i as usize] = render_pixel(
             &scene,
@@ -164,14 +150,7 @@ pub fn render_uniform(
 ) {
     let i = invocation(id);
     if i < push.count {
-        let scene = Scene {
-            surfaces: Surfaces {
-                nodes: ray_nodes,
-                triangles: surfaces,
-            },
-            materials,
-            lights,
-        };
+        let scene = Scene::new(ray_nodes, surfaces, materials, lights);
         let picker = Uniform {
             count: lights.len() as u32,
         };

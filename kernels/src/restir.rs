@@ -64,14 +64,7 @@ pub fn restir_initial_power(
     let i = invocation(id);
     let pixel = push.first.wrapping_add(i);
     if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-        let scene = Scene {
-            surfaces: Surfaces {
-                nodes: ray_nodes,
-                triangles: surfaces,
-            },
-            materials,
-            lights,
-        };
+        let scene = Scene::new(ray_nodes, surfaces, materials, lights);
         let surface = first_surface(&scene, &camera[0], &push.params, pixel);
         let picker = Power { thresholds };
         gbuffer[pixel as usize] = surface;
@@ -101,14 +94,7 @@ macro_rules! initial_pass {
             let i = invocation(id);
             let pixel = push.first.wrapping_add(i);
             if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-                let scene = Scene {
-                    surfaces: Surfaces {
-                        nodes: ray_nodes,
-                        triangles: surfaces,
-                    },
-                    materials,
-                    lights,
-                };
+                let scene = Scene::new(ray_nodes, surfaces, materials, lights);
                 let surface = first_surface(&scene, &camera[0], &push.params, pixel);
                 let picker: TreeOf<'_, $choice, _> = push.tree.tree(nodes, instances, trails);
                 gbuffer[pixel as usize] = surface;
@@ -287,14 +273,7 @@ pub fn restir_shade(
     let i = invocation(id);
     let pixel = push.first.wrapping_add(i);
     if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-        let scene = Scene {
-            surfaces: Surfaces {
-                nodes: ray_nodes,
-                triangles: surfaces,
-            },
-            materials,
-            lights,
-        };
+        let scene = Scene::new(ray_nodes, surfaces, materials, lights);
         let surface = gbuffer[pixel as usize];
         let last = reservoirs[pixel as usize];
         let (shaded, kept) = shade(&scene, &push.params, &surface, &last);

@@ -218,14 +218,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             self.gather(pending)
         };
         self.refits += u64::from(work.computed() > 0);
-        for tree in &work.trees {
-            sweep::bottom_sweep(
-                &mut self.nodes[tree.start as usize..tree.end as usize],
-                tree.start,
-                &self.triangles,
-                &[tree.start],
-            );
-        }
+        sweep::trees(&mut self.nodes, &self.triangles, &work.trees);
         for &blas in &work.roots {
             let root = self.roots[blas as usize].node;
             self.roots[blas as usize] = refit::root(&self.nodes, root);

@@ -10,7 +10,7 @@ use super::grid::{TINY, TINY_AREA, flush_vector};
 use super::material::Material;
 use super::pick::PickLight;
 use super::ray::Ray;
-use super::trace::{NONE, Surfaces, any_hit, closest_hit, vertex};
+use super::trace::{NONE, RayNode, SurfaceTriangle, Surfaces, any_hit, closest_hit, vertex};
 
 /// Random numbers that one light sample uses.
 const RANDOM_PER_SAMPLE: u32 = 3;
@@ -24,6 +24,24 @@ pub struct Scene<'a> {
     pub materials: &'a [Material],
     /// What of it emits; indexed by the triangles.
     pub lights: &'a [EmissiveTriangle],
+}
+
+impl<'a> Scene<'a> {
+    /// The scene that a kernel's buffers hold.
+    #[inline]
+    #[must_use]
+    pub fn new(
+        nodes: &'a [RayNode],
+        triangles: &'a [SurfaceTriangle],
+        materials: &'a [Material],
+        lights: &'a [EmissiveTriangle],
+    ) -> Self {
+        Self {
+            surfaces: Surfaces { nodes, triangles },
+            materials,
+            lights,
+        }
+    }
 }
 
 /// What a camera ray sees.
