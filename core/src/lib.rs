@@ -123,7 +123,7 @@ pub mod rebuilder;
 #[cfg(feature = "alloc")]
 pub use build::{BuildParams, Effort, Heuristic};
 #[cfg(feature = "alloc")]
-pub use bvh::{Bvh, Edit, EditError, InstanceId, LightBvh, MeshId};
+pub use bvh::{Bvh, Edit, EditError, InstanceId, LightBvh, MeshId, ReadError};
 #[cfg(feature = "alloc")]
 pub use lights::{Lights, LightsError};
 #[cfg(feature = "std")]

@@ -22,6 +22,14 @@ pub struct InstanceId {
     pub(super) generation: u32,
 }
 
+impl MeshId {
+    /// Index of the mesh; free for another one after the mesh is removed.
+    #[must_use]
+    pub fn index(self) -> u32 {
+        self.index
+    }
+}
+
 impl InstanceId {
     /// Index of the instance among [`Bvh::instances`](super::Bvh::instances), and of the mesh light that its triangles
     /// belong to.

@@ -26,6 +26,7 @@ mod one;
 mod ranges;
 mod rebuild;
 mod refit;
+mod serial;
 #[cfg(test)]
 mod tests;
 mod top;
@@ -40,6 +41,7 @@ pub use apply::Added;
 pub use edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
 pub use rebuild::{Foreign, Rebuild, RebuildParams, Rebuilt};
 pub use refit::RefitPlan;
+pub use serial::{FORMAT, ReadError};
 pub use validate::Stats;
 
 use self::blas::Blas;
@@ -309,6 +311,17 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             tree: self.id,
             index: instance,
             generation: placed.generation,
+        })
+    }
+
+    /// The id of the mesh of index `mesh`, which is that of [`MeshId::index`]; `None` where there is no such.
+    #[must_use]
+    pub fn mesh_id(&self, mesh: u32) -> Option<MeshId> {
+        let own = self.meshes.get(mesh as usize).filter(|own| own.live)?;
+        Some(MeshId {
+            tree: self.id,
+            index: mesh,
+            generation: own.generation,
         })
     }
 

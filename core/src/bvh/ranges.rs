@@ -1,6 +1,7 @@
 //! Ranges of an index space that grows: handed out first fit, taken back and joined.
 
 use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
 use core::ops::Range;
 
 /// Which indices below `end` are free.
@@ -12,6 +13,26 @@ pub(super) struct Ranges {
 }
 
 impl Ranges {
+    /// The index space below `end` of which all but `used` is free; `None` where those overlap or lie beyond it. Empty ones are of
+    /// no account.
+    pub fn taken(end: u32, mut used: Vec<Range<u32>>) -> Option<Self> {
+        used.retain(|range| !range.is_empty());
+        used.sort_unstable_by_key(|range| range.start);
+        let mut ranges = Self {
+            free: BTreeMap::new(),
+            end,
+        };
+        let mut start = 0;
+        for range in used.into_iter().chain([end..end]) {
+            let gap = range.start.checked_sub(start)?;
+            if gap > 0 {
+                ranges.free.insert(start, gap);
+            }
+            start = range.end;
+        }
+        Some(ranges)
+    }
+
     /// One more than the greatest index ever handed out.
     pub fn end(&self) -> u32 {
         self.end
@@ -83,5 +104,18 @@ mod tests {
         ranges.give(0..2);
         ranges.give(2..11);
         assert_eq!(ranges.take(11), 0..11);
+    }
+
+    #[test]
+    fn what_is_not_taken_is_free() {
+        let mut ranges = Ranges::taken(9, alloc::vec![5..7, 2..3, 4..4, 3..4]).expect("they do not overlap");
+        assert_eq!(
+            [ranges.take(2), ranges.take(2), ranges.take(1)],
+            [0..2, 7..9, 4..5]
+        );
+        assert_eq!((ranges.take(1), ranges.end()), (9..10, 10));
+        for wrong in [alloc::vec![0..2, 1..3], alloc::vec![8..10]] {
+            assert!(Ranges::taken(9, wrong).is_none());
+        }
     }
 }
