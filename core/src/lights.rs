@@ -91,6 +91,7 @@ impl Lights {
 
 /// Why triangles are refused as lights.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum LightsError {
     /// There is no triangle.
     Empty,

@@ -39,6 +39,7 @@ use crate::node::LightNode;
 
 /// When results are swapped in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Swap {
     /// In the very frame that is due, waiting for the worker if it is not done: trees depend on the edits alone, never on
     /// how fast the worker was, so that runs and devices can be compared word for word.
@@ -73,6 +74,7 @@ impl Default for RebuilderParams {
 
 /// What the start of a frame did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct FrameStart {
     /// Whether a rebuild was swapped in.
     pub swapped: bool,

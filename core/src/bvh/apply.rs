@@ -14,6 +14,7 @@ use crate::tree::INVALID;
 
 /// What a batch of edits made.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Added {
     /// Ids of the meshes added, in the order of their edits.
     pub meshes: Vec<MeshId>,

@@ -41,6 +41,7 @@ impl InstanceId {
 
 /// One change of a scene.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Edit {
     /// A new mesh, not in the world yet. Triangles are in the mesh's own space; their `mesh` is ignored.
     AddMesh {

@@ -23,7 +23,7 @@ impl Ranges {
             end,
         };
         let mut start = 0;
-        for range in used.into_iter().chain([end..end]) {
+        for range in used.into_iter().chain(core::iter::once(end..end)) {
             let gap = range.start.checked_sub(start)?;
             if gap > 0 {
                 ranges.free.insert(start, gap);
@@ -72,9 +72,8 @@ impl Ranges {
             return;
         }
         let (mut start, mut length) = (range.start, range.end - range.start);
-        if let Some((&before, &size)) = self.free.range(..start).next_back()
-            && before + size == start
-        {
+        let before = self.free.range(..start).next_back();
+        if let Some((&before, &size)) = before.filter(|&(before, size)| before + size == start) {
             self.free.remove(&before);
             start = before;
             length += size;
@@ -114,8 +113,8 @@ mod tests {
             [0..2, 7..9, 4..5]
         );
         assert_eq!((ranges.take(1), ranges.end()), (9..10, 10));
-        for wrong in [alloc::vec![0..2, 1..3], alloc::vec![8..10]] {
-            assert!(Ranges::taken(9, wrong).is_none());
+        for wrong in [[0..2, 1..3], [8..10, 0..1]] {
+            assert!(Ranges::taken(9, wrong.to_vec()).is_none());
         }
     }
 }

@@ -157,6 +157,7 @@ impl Pending {
 /// nodes the same. Copy first, then run [`refit::bottom`], [`refit::root`] and [`refit::top`] over the lists in this order,
 /// each range of levels by itself.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct RefitPlan {
     /// Nodes whose links or kinds changed.
     pub written_nodes: Vec<Range<u32>>,

@@ -13,6 +13,7 @@ use crate::validate::{Violation, What, contained, equal, same_words};
 
 /// What a valid scene consists of.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Stats {
     /// Nodes in use.
     pub nodes: u32,

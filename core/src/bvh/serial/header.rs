@@ -20,6 +20,10 @@ const SINGLE: u32 = 1;
 const FORGOTTEN: u32 = 2;
 const PENDING: u32 = 4;
 
+fn flag(is_set: bool, bit: u32) -> u32 {
+    if is_set { bit } else { 0 }
+}
+
 /// What the first words say.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Header {
@@ -57,9 +61,7 @@ impl Header {
             0,
             layout(N::NAME),
             W as u32,
-            u32::from(self.single) * SINGLE
-                | u32::from(self.forgotten) * FORGOTTEN
-                | u32::from(self.pending) * PENDING,
+            flag(self.single, SINGLE) | flag(self.forgotten, FORGOTTEN) | flag(self.pending, PENDING),
             heuristic.unwrap_or(0) as u32 | ((effort.unwrap_or(0) as u32) << 8),
             self.params.buckets,
             self.bottom_depth,

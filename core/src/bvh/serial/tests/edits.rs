@@ -1,6 +1,6 @@
 //! Random edits, and the same ones of another light BVH.
 
-use std::vec::Vec;
+use alloc::vec::Vec;
 
 use crate::bvh::{Bvh, Edit};
 use crate::exact::{hash, max, pow2, unit_f32};

@@ -1,6 +1,6 @@
 //! Words that nobody wrote.
 
-use std::vec::Vec;
+use alloc::vec::Vec;
 
 use super::edits::{Random, batch};
 use super::{ReadError, alike, read};
@@ -51,7 +51,7 @@ fn every_bit<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(step: us
         taken += usize::from(harmless::<N, I, W>(&wrong, bit as u32));
     }
     // Most bits are those of coordinates: another triangle is a triangle too.
-    std::println!("{} words: {taken} flips are read", words.len());
+    super::std::println!("{} words: {taken} flips are read", words.len());
 }
 
 #[test]
