@@ -1,7 +1,7 @@
 //! Why input is refused: what is wrong, where, and what to do about it.
 
 #[cfg(feature = "alloc")]
-pub use crate::bvh::{EditError, EditReason, Foreign};
+pub use crate::bvh::{EditError, EditReason, Foreign, ReadError};
 pub use crate::light::LightError;
 #[cfg(feature = "alloc")]
 pub use crate::lights::LightsError;

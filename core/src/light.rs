@@ -93,6 +93,7 @@ impl EmissiveTriangle {
 
 /// Why a light is refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum LightError {
     /// A coordinate is NaN, infinite or beyond [`MAX_COORDINATE`].
     Coordinate {

@@ -89,6 +89,7 @@ impl Lights {
 
 /// Why triangles are refused as lights.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum LightsError {
     /// More than [`MAX_LIGHTS`] triangles.
     TooMany {

@@ -85,6 +85,7 @@ impl ShadingPoint {
 
 /// Why a shading point is refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum PointError {
     /// A coordinate is NaN, infinite or beyond [`MAX_COORDINATE`].
     Coordinate {

@@ -22,6 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod clock;
 mod handover;
 mod worker;
 
@@ -29,8 +30,8 @@ use alloc::collections::BTreeSet;
 use alloc::string::String;
 use core::fmt;
 use core::time::Duration;
-use std::time::Instant;
 
+use self::clock::Clock;
 use self::handover::Outcome;
 use self::worker::{Built, Worker, build};
 use crate::bvh::{Bvh, RebuildParams};
@@ -38,6 +39,7 @@ use crate::node::LightNode;
 
 /// When results are swapped in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Swap {
     /// In the very frame that is due, waiting for the worker if it is not done: trees depend on the edits alone, never on
     /// how fast the worker was, so that runs and devices can be compared word for word.
@@ -72,12 +74,13 @@ impl Default for RebuilderParams {
 
 /// What the start of a frame did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct FrameStart {
     /// Whether a rebuild was swapped in.
     pub swapped: bool,
-    /// How long the frame waited for the worker.
+    /// How long the frame waited for the worker; zero where there is no clock.
     pub waited: Duration,
-    /// How long the worker took for what was swapped in; zero if nothing was.
+    /// How long the worker took for what was swapped in; zero if nothing was, and where there is no clock.
     pub built: Duration,
     /// Whether it was built at the end of its frame on the frame's own thread, since no other could be started.
     pub inline: bool,
@@ -113,7 +116,9 @@ impl core::error::Error for RebuildError {}
 /// Runs the rebuilds of one [`Bvh`] beside its frames, one at a time.
 ///
 /// Dropping it waits for the worker to end the rebuild that it runs, if any. Where no thread can be started (a limit of
-/// the system, or a platform without threads) rebuilds run at the end of their frame, with the same results.
+/// the system, or a platform without threads) rebuilds run at the end of their frame, with the same results: so it is on
+/// `wasm32-unknown-unknown`, where there is no clock either, and all times are zero. Where panics abort, one while building does
+/// too.
 #[derive(Debug)]
 pub struct Rebuilder<N, const W: usize> {
     params: RebuilderParams,
@@ -182,7 +187,7 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
             start.inline = true;
             Some(built)
         } else {
-            let began = Instant::now();
+            let began = Clock::start();
             let outcome = self.worker.as_ref().and_then(|worker| match self.params.swap {
                 Swap::Deterministic => worker.handover().take(),
                 Swap::WhenReady => worker.handover().try_take(),

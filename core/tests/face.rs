@@ -104,6 +104,11 @@ fn no_lights_are_a_tree_that_answers_none() {
         assert_eq!(bvh.triangle(0, 0), None);
         assert!(bvh.world_lights().is_empty() && bvh.light_count() == 0);
         bvh.follow(&lights).expect("as empty as before");
+        let again = LightBvh::from_words(&bvh.to_words()).expect("its own words");
+        assert_eq!(
+            (again.to_words(), again.is_single_level()),
+            (bvh.to_words(), bvh.is_single_level())
+        );
     }
     let eq4 = Bvh::<CompactNode<4>, Eq4, 4>::single_level(&lights, &params);
     assert_eq!(eq4.sample(&POINT, 7_u32).light, INVALID);

@@ -10,6 +10,7 @@ mod exact;
 mod gltf;
 pub mod input;
 mod node_words;
+mod read_words;
 mod refit_equals_rebuild;
 mod sample_pmf;
 
@@ -21,6 +22,7 @@ pub use exact::exact;
 #[cfg(feature = "gltf")]
 pub use gltf::gltf;
 pub use node_words::node_words;
+pub use read_words::read_words;
 pub use refit_equals_rebuild::refit_equals_rebuild;
 pub use sample_pmf::sample_pmf;
 
@@ -35,6 +37,7 @@ pub const TARGETS: &[Target] = &[
     #[cfg(feature = "gltf")]
     ("gltf", gltf),
     ("node_words", node_words),
+    ("read_words", read_words),
     ("refit_equals_rebuild", refit_equals_rebuild),
     ("sample_pmf", sample_pmf),
 ];

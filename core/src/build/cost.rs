@@ -10,6 +10,7 @@ use crate::summary::Summary;
 
 /// How a tree is built: what a split is judged by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Heuristic {
     /// Surface area heuristic, paper Eq. 2: Σ n·a.
     Sah,

@@ -36,6 +36,7 @@ pub struct BuildParams {
 /// Sets of up to `4·W` lights are always built with [`Most`](Self::Most): a tree of few nodes stays small, and variance
 /// fell to between a quarter and a twentieth on such sets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Effort {
     /// The costliest of those with more than `W` lights, so that leaf nodes are full.
     Usual,

@@ -14,6 +14,7 @@ use crate::tree::INVALID;
 
 /// What a batch of edits made.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Added {
     /// Ids of the meshes added, in the order of their edits.
     pub meshes: Vec<MeshId>,
@@ -195,7 +196,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     /// Brings the words of an instance in line with its transform and radiance.
-    fn place(&mut self, index: u32) {
+    pub(super) fn place(&mut self, index: u32) {
         let placed = &self.placed[index as usize];
         let blas = self.meshes[placed.mesh as usize].blas;
         let old = self.instances[index as usize];
@@ -228,7 +229,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
 }
 
 /// The words of an instance that is not in use.
-const NO_INSTANCE: Instance = Instance {
+pub(super) const NO_INSTANCE: Instance = Instance {
     flux: 0.0,
     radiance: 0.0,
     ..Instance::IDENTITY

@@ -208,7 +208,8 @@ fn first_wrong(triangles: &mut [EmissiveTriangle], first: usize) -> Option<EditR
     None
 }
 
-fn factor(radiance: f32) -> Result<(), EditReason> {
+/// `Ok` for a factor on radiance that may be.
+pub(super) fn factor(radiance: f32) -> Result<(), EditReason> {
     if radiance == 0.0 || (RADIANCE_FACTORS[0]..=RADIANCE_FACTORS[1]).contains(&radiance) {
         Ok(())
     } else {

@@ -38,6 +38,12 @@ impl MeshId {
     pub(super) fn place_in_batch(self) -> Option<usize> {
         (self == Self::added(self.index)).then_some(self.index as usize)
     }
+
+    /// Index of the mesh; free for another one after the mesh is removed.
+    #[must_use]
+    pub fn index(self) -> u32 {
+        self.index
+    }
 }
 
 impl InstanceId {
@@ -51,6 +57,7 @@ impl InstanceId {
 
 /// One change of a scene.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Edit {
     /// A new mesh, not in the world yet. Triangles are in the mesh's own space; their `mesh` is ignored.
     AddMesh {

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::Bvh;
-use super::edit::InstanceId;
+use super::edit::{InstanceId, MeshId};
 use crate::light::EmissiveTriangle;
 use crate::node::LightNode;
 use crate::tree::INVALID;
@@ -47,6 +47,17 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             tree: self.id,
             index: instance,
             generation: placed.generation,
+        })
+    }
+
+    /// The id of the mesh of index `mesh`, which is that of [`MeshId::index`]; `None` where there is no such.
+    #[must_use]
+    pub fn mesh_id(&self, mesh: u32) -> Option<MeshId> {
+        let own = self.meshes.get(mesh as usize).filter(|own| own.live)?;
+        Some(MeshId {
+            tree: self.id,
+            index: mesh,
+            generation: own.generation,
         })
     }
 

@@ -27,6 +27,7 @@ mod one;
 mod ranges;
 mod rebuild;
 mod refit;
+mod serial;
 #[cfg(test)]
 mod tests;
 mod top;
@@ -41,6 +42,7 @@ pub use apply::Added;
 pub use edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
 pub use rebuild::{Foreign, Rebuild, RebuildParams, Rebuilt};
 pub use refit::RefitPlan;
+pub use serial::{FORMAT, ReadError};
 pub use validate::Stats;
 
 pub use crate::levels::Levels;

@@ -1,6 +1,7 @@
 //! Ranges of an index space that grows: handed out first fit, taken back and joined.
 
 use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
 use core::ops::Range;
 
 /// Which indices below `end` are free.
@@ -12,6 +13,26 @@ pub(super) struct Ranges {
 }
 
 impl Ranges {
+    /// The index space below `end` of which all but `used` is free; `None` where those overlap or lie beyond it. Empty ones are of
+    /// no account.
+    pub fn taken(end: u32, mut used: Vec<Range<u32>>) -> Option<Self> {
+        used.retain(|range| !range.is_empty());
+        used.sort_unstable_by_key(|range| range.start);
+        let mut ranges = Self {
+            free: BTreeMap::new(),
+            end,
+        };
+        let mut start = 0;
+        for range in used.into_iter().chain(core::iter::once(end..end)) {
+            let gap = range.start.checked_sub(start)?;
+            if gap > 0 {
+                ranges.free.insert(start, gap);
+            }
+            start = range.end;
+        }
+        Some(ranges)
+    }
+
     /// One more than the greatest index ever handed out.
     pub fn end(&self) -> u32 {
         self.end
@@ -51,9 +72,8 @@ impl Ranges {
             return;
         }
         let (mut start, mut length) = (range.start, range.end - range.start);
-        if let Some((&before, &size)) = self.free.range(..start).next_back()
-            && before + size == start
-        {
+        let before = self.free.range(..start).next_back();
+        if let Some((&before, &size)) = before.filter(|&(before, size)| before + size == start) {
             self.free.remove(&before);
             start = before;
             length += size;
@@ -83,5 +103,18 @@ mod tests {
         ranges.give(0..2);
         ranges.give(2..11);
         assert_eq!(ranges.take(11), 0..11);
+    }
+
+    #[test]
+    fn what_is_not_taken_is_free() {
+        let mut ranges = Ranges::taken(9, alloc::vec![5..7, 2..3, 4..4, 3..4]).expect("they do not overlap");
+        assert_eq!(
+            [ranges.take(2), ranges.take(2), ranges.take(1)],
+            [0..2, 7..9, 4..5]
+        );
+        assert_eq!((ranges.take(1), ranges.end()), (9..10, 10));
+        for wrong in [[0..2, 1..3], [8..10, 0..1]] {
+            assert!(Ranges::taken(9, wrong.to_vec()).is_none());
+        }
     }
 }

@@ -48,6 +48,19 @@ impl Changes {
         }
     }
 
+    /// The bottom levels whose roots a refit here would compute; `None` where it has nothing to do.
+    pub fn pending_roots(&self) -> Option<Vec<u32>> {
+        if self.new.is_empty() && self.unrefitted.is_empty() {
+            return None;
+        }
+        let lists = [&self.new, &self.unrefitted];
+        let roots: BTreeSet<u32> = lists
+            .into_iter()
+            .flat_map(|pending| pending.blases.union(&pending.built).copied())
+            .collect();
+        Some(roots.into_iter().collect())
+    }
+
     /// Whether a refit here has instances to look at.
     pub fn has_instances(&self) -> bool {
         !self.new.instances.is_empty() || !self.unrefitted.is_empty()
@@ -144,6 +157,7 @@ impl Pending {
 /// nodes the same. Copy first, then run [`refit::bottom`], [`refit::root`] and [`refit::top`] over the lists in this order,
 /// each range of levels by itself.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct RefitPlan {
     /// Nodes whose links or kinds changed.
     pub written_nodes: Vec<Range<u32>>,

@@ -252,7 +252,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     /// Walks the top level and notes where everything is: parents, levels, lists, and the place and trail of each instance.
-    fn index_top(&mut self) {
+    pub(super) fn index_top(&mut self) {
         let count = self.nodes.len();
         self.top.node_levels.resize(count, 0);
         self.top.marks.resize(count, 0);

@@ -13,6 +13,7 @@ use crate::validate::{Violation, What, contained, equal, same_words};
 
 /// What a valid scene consists of.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Stats {
     /// Nodes in use.
     pub nodes: u32,
@@ -27,12 +28,12 @@ pub struct Stats {
 }
 
 /// A tree that is walked: its nodes in order of the walk, and what was found.
-struct Found {
+pub(super) struct Found {
     /// Nodes by level.
-    levels: Vec<(u32, u32)>,
+    pub levels: Vec<(u32, u32)>,
     /// (leaf's link, node, slot, trail).
-    leaves: Vec<(u32, u32, u32, BitTrail)>,
-    depth: u32,
+    pub leaves: Vec<(u32, u32, u32, BitTrail)>,
+    pub depth: u32,
 }
 
 impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
@@ -150,7 +151,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     /// Walks the tree below `root`, whose leaves are to be of `leaf` kind.
-    fn walk(&self, root: u32, leaf: u32, seen: &mut [bool]) -> Result<Found, Violation> {
+    pub(super) fn walk(&self, root: u32, leaf: u32, seen: &mut [bool]) -> Result<Found, Violation> {
         let mut found = Found {
             levels: Vec::new(),
             leaves: Vec::new(),

@@ -6,8 +6,8 @@ use core::time::Duration;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::thread::{self, JoinHandle};
-use std::time::Instant;
 
+use super::clock::Clock;
 use super::handover::Handover;
 use crate::bvh::{Rebuild, Rebuilt};
 use crate::node::LightNode;
@@ -19,7 +19,7 @@ type Shared<N, const W: usize> = Arc<Handover<Rebuild<N, W>, Built<N, W>>>;
 
 /// Builds, here and now.
 pub(super) fn build<N: LightNode<W>, const W: usize>(job: Rebuild<N, W>) -> Built<N, W> {
-    let began = Instant::now();
+    let began = Clock::start();
     // The job is all that building touches, and a panic ends it.
     let rebuilt = catch_unwind(AssertUnwindSafe(|| job.run()));
     rebuilt

@@ -4,6 +4,7 @@ use core::fmt;
 
 /// Why a transform is refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum TransformError {
     /// An entry is NaN, infinite or beyond 2^40.
     Entry {

@@ -28,6 +28,7 @@ pub struct Violation {
 
 /// What a [`Violation`] is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum What {
     /// Bottom level of a mesh light (`slot` is its index).
     Blas,

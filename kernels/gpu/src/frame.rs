@@ -11,6 +11,7 @@ use crate::refit::Refit;
 
 /// What a device does for one frame: resize, copy, refit, in this order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Frame {
     /// Buffers that need another size, and that size in bytes. What they hold stays, up to the lesser size. A buffer may be
     /// larger than it needs to be.

@@ -10,6 +10,8 @@ mod device;
 mod dispatch;
 mod float_environment;
 mod float_modes;
+#[cfg(all(test, feature = "kernels"))]
+mod format_tests;
 mod frame;
 mod kernel;
 mod refit;

@@ -49,12 +49,12 @@ impl<L: Leaves, const W: usize> Emitter<'_, L, W> {
         trail: BitTrail,
         out: &mut Topology<N>,
     ) {
-        if let [group] = &*range.here
-            && L::LEVELS > 0
-        {
-            let node = out.node(level);
-            let mut slot = 0;
-            return self.lights(group.index, node, &mut slot, level, trail, out);
+        match &*range.here {
+            [group] if L::LEVELS > 0 => {
+                let node = out.node(level);
+                return self.lights(group.index, node, &mut 0, level, trail, out);
+            }
+            _ => {}
         }
         let children = self.children(range, level);
         let node = out.node(level);

@@ -15,6 +15,7 @@ const VERSIONS: RangeInclusive<u32> = 0x0001_0400..=0x0001_0500;
 
 /// Why a module cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct ModuleError {
     /// Index of the offending word, the magic number being 0.
     pub at: usize,
@@ -33,8 +34,10 @@ impl core::error::Error for ModuleError {}
 /// A module's bytes, little endian, as words; a ragged end is dropped, and the module will not parse then.
 #[must_use]
 pub fn words(bytes: &[u8]) -> Vec<u32> {
-    let (words, _) = bytes.as_chunks::<4>();
-    words.iter().map(|word| u32::from_le_bytes(*word)).collect()
+    let words = bytes.chunks_exact(4);
+    words
+        .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
+        .collect()
 }
 
 /// One instruction: its opcode, its operands, and where it starts.

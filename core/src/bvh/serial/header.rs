@@ -1,0 +1,172 @@
+//! The first words: what follows, and how much of it.
+
+use super::error::ReadError;
+use super::words::Words;
+use crate::build::{BuildParams, Effort, Heuristic};
+use crate::lights::MAX_LIGHTS;
+use crate::node::LightNode;
+use crate::trail::max_levels;
+
+/// Version of the words of [`Bvh::to_words`](crate::Bvh::to_words).
+pub const FORMAT: u32 = 1;
+
+/// "LBVH" as bytes in little-endian order.
+const MAGIC: u32 = u32::from_le_bytes(*b"LBVH");
+
+/// Words of a header.
+pub(super) const HEADER_WORDS: usize = 20;
+
+const SINGLE: u32 = 1;
+const FORGOTTEN: u32 = 2;
+const PENDING: u32 = 4;
+
+fn flag(is_set: bool, bit: u32) -> u32 {
+    if is_set { bit } else { 0 }
+}
+
+/// What the first words say.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Header {
+    pub params: BuildParams,
+    pub single: bool,
+    pub forgotten: bool,
+    /// Whether a refit is still to compute the roots.
+    pub pending: bool,
+    pub bottom_depth: u32,
+    /// Lengths of the arrays, places not in use included.
+    pub nodes: u32,
+    pub triangles: u32,
+    pub blases: u32,
+    pub meshes: u32,
+    pub instances: u32,
+    /// One more than the greatest number of a light.
+    pub lights: u32,
+    /// Number of ranges of lights that are no more.
+    pub removed: u32,
+    pub top_root: u32,
+    pub top_ranges: u32,
+    pub top_leaves: u32,
+    /// Number of roots that the last refit computed, or the next one will.
+    pub refitted: u32,
+}
+
+impl Header {
+    /// The words; that of the length is still to be set, to [`LENGTH`].
+    pub fn words<N: LightNode<W>, const W: usize>(&self) -> [u32; HEADER_WORDS] {
+        let heuristic = HEURISTICS.iter().position(|&own| own == self.params.heuristic);
+        let effort = EFFORTS.iter().position(|&own| own == self.params.effort);
+        [
+            MAGIC,
+            FORMAT,
+            0,
+            layout(N::NAME),
+            W as u32,
+            flag(self.single, SINGLE) | flag(self.forgotten, FORGOTTEN) | flag(self.pending, PENDING),
+            heuristic.unwrap_or(0) as u32 | ((effort.unwrap_or(0) as u32) << 8),
+            self.params.buckets,
+            self.bottom_depth,
+            self.nodes,
+            self.triangles,
+            self.blases,
+            self.meshes,
+            self.instances,
+            self.lights,
+            self.removed,
+            self.top_root,
+            self.top_ranges,
+            self.top_leaves,
+            self.refitted,
+        ]
+    }
+
+    pub fn read<N: LightNode<W>, const W: usize>(words: &mut Words<'_>) -> Result<Self, ReadError> {
+        let found = words.one()?;
+        if found != MAGIC {
+            return Err(ReadError::Magic { found });
+        }
+        let found = words.one()?;
+        if found != FORMAT {
+            return Err(ReadError::Version {
+                expected: FORMAT,
+                found,
+            });
+        }
+        let length = words.one()? as usize;
+        if length != words.len() {
+            return Err(ReadError::Length {
+                expected: length,
+                found: words.len(),
+            });
+        }
+        if words.one()? != layout(N::NAME) {
+            return Err(ReadError::Layout { expected: N::NAME });
+        }
+        let found = words.one()?;
+        if found as usize != W {
+            return Err(ReadError::Width { expected: W, found });
+        }
+        let flags = words.one()?;
+        words.expect(flags & !(SINGLE | FORGOTTEN | PENDING) == 0, "flags")?;
+        let built = words.one()?;
+        let heuristic = HEURISTICS.get((built & 255) as usize);
+        let effort = EFFORTS.get((built >> 8) as usize);
+        let (Some(&heuristic), Some(&effort)) = (heuristic, effort) else {
+            return Err(words.wrong("heuristic and effort"));
+        };
+        let buckets = words.one()?;
+        let bottom_depth = words.one()?;
+        words.expect(bottom_depth <= max_levels(W), "levels of the bottom levels")?;
+        let [nodes, triangles] = words.array()?;
+        words.expect(triangles as usize <= MAX_LIGHTS, "number of triangles")?;
+        let [blases, meshes, instances, lights] = words.array()?;
+        words.expect(lights as usize <= MAX_LIGHTS, "end of the lights' numbers")?;
+        let [removed, top_root, top_ranges, top_leaves, refitted] = words.array()?;
+        if top_root >= nodes {
+            return Err(ReadError::Places {
+                what: "the top level's root",
+            });
+        }
+        Ok(Self {
+            params: BuildParams {
+                heuristic,
+                buckets,
+                effort,
+            },
+            single: flags & SINGLE != 0,
+            forgotten: flags & FORGOTTEN != 0,
+            pending: flags & PENDING != 0,
+            bottom_depth,
+            nodes,
+            triangles,
+            blases,
+            meshes,
+            instances,
+            lights,
+            removed,
+            top_root,
+            top_ranges,
+            top_leaves,
+            refitted,
+        })
+    }
+}
+
+/// Place of the number of words.
+pub(super) const LENGTH: usize = 2;
+
+/// By code.
+const HEURISTICS: [Heuristic; 4] = [
+    Heuristic::Sah,
+    Heuristic::Saoh,
+    Heuristic::Ward,
+    Heuristic::Morton,
+];
+/// By code.
+const EFFORTS: [Effort; 2] = [Effort::Usual, Effort::Most];
+
+/// A layout's name as a word: FNV-1a of its bytes.
+pub(super) fn layout(name: &str) -> u32 {
+    name.bytes().fold(0x811c_9dc5, |hash, byte| {
+        (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)
+    })
+}

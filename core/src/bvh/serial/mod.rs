@@ -1,0 +1,55 @@
+//! A light BVH as words, to be kept in a file and read again.
+//!
+//! What is written is what cannot be computed: triangles, transforms, links, and what later edits depend on (which places are free,
+//! the order of lists, the cost of each bottom level when it was built). Nodes' summaries, instances' words, trails and levels are
+//! computed anew, by the functions that a refit calls: so they have the words that they had, whatever machine reads them.
+//! `docs/format.md` lists every word.
+
+mod error;
+mod header;
+mod read;
+mod restore;
+#[cfg(test)]
+mod tests;
+mod words;
+mod write;
+
+pub use error::ReadError;
+pub use header::FORMAT;
+
+use alloc::vec::Vec;
+
+use self::words::Words;
+use super::Bvh;
+use crate::node::LightNode;
+
+impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+    /// The BVH as words, which [`from_words`](Self::from_words) reads; a file holds them in little-endian order. They name the layout
+    /// `N` and the width `W`, not the importance `I`, of which no word depends. Takes time and memory in proportion to the arrays.
+    ///
+    /// Nothing is refitted here, and nothing need be: where edits wait for their refit, what is read has been refitted, and may be once
+    /// more.
+    #[must_use]
+    pub fn to_words(&self) -> Vec<u32> {
+        self.written()
+    }
+
+    /// Reads what [`to_words`](Self::to_words) wrote. The BVH goes on as the one that was written: the same samples and pmfs, and after
+    /// the same edits, refits and rebuilds the same words. Places of its arrays that are not in use hold the words of nothing.
+    ///
+    /// It is another BVH, so it has ids of its own: [`mesh_id`](Self::mesh_id) and [`instance_id`](Self::instance_id) give them by
+    /// the indices, which stay. What was planned for a mirror is not written: one takes all arrays over.
+    ///
+    /// The words may be anything. Reading takes time in proportion to them, but for sorting, and memory of at most 1 KiB for each; then
+    /// every invariant is checked, by [`validate`](Self::validate).
+    ///
+    /// # Errors
+    /// [`ReadError`], which says which word is wrong or what of the tree does not hold.
+    pub fn from_words(words: &[u32]) -> Result<Self, ReadError> {
+        let mut words = Words::of(words);
+        let bvh = Self::read(&mut words)?;
+        words.end()?;
+        bvh.validate().map_err(ReadError::Tree)?;
+        Ok(bvh)
+    }
+}

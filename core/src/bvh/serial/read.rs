@@ -1,0 +1,265 @@
+//! From words to what they say. Every number is checked before anything is done by it.
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use super::error::ReadError;
+use super::header::Header;
+use super::words::Words;
+use crate::bvh::blas::Blas;
+use crate::bvh::check::factor;
+use crate::bvh::ranges::Ranges;
+use crate::bvh::{Bvh, EditReason, InstanceState, Mesh};
+use crate::levels::Levels;
+use crate::light::EmissiveTriangle;
+use crate::node::{LightNode, kind};
+use crate::transform::{Extent, Transform};
+use crate::tree::INVALID;
+
+impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+    pub(super) fn read(words: &mut Words<'_>) -> Result<Self, ReadError> {
+        let header = Header::read::<N, W>(words)?;
+        let mut bvh = Self::new(header.params);
+        bvh.single = header.single;
+        bvh.forgotten = header.forgotten;
+        bvh.bottom_depth = header.bottom_depth;
+        bvh.read_bottoms(words, &header)?;
+        bvh.read_instances(words, &header)?;
+        bvh.removed_lights = read_ranges(words, header.removed, header.lights, "removed lights")?;
+        words.expect(!header.forgotten || header.removed > 0, "removed lights")?;
+        bvh.top.root = header.top_root;
+        bvh.top.ranges = read_ranges(words, header.top_ranges, header.nodes, "nodes of the top level")?;
+        let leaves = read_indices(words, header.top_leaves, header.nodes, "leaf of the top level")?;
+        let refitted = read_indices(words, header.refitted, header.blases, "refitted bottom level")?;
+        bvh.read_nodes(words, &header)?;
+        bvh.read_triangles(words, &header)?;
+        bvh.restore(&header, leaves)?;
+        bvh.restore_work(&header, refitted)?;
+        Ok(bvh)
+    }
+
+    fn read_bottoms(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
+        let mut nodes: Vec<Range<u32>> = Vec::new();
+        self.blases = Vec::with_capacity(words.need(header.blases)?);
+        for _ in 0..header.blases {
+            let mesh = words.one()?;
+            let mut blas = Blas {
+                nodes: 0..0,
+                triangles: 0..0,
+                mesh,
+                levels: Levels::default(),
+                depth: 0,
+                extent: Extent::of(&[]),
+                cost: 0.0,
+                created: 0,
+            };
+            if mesh != INVALID {
+                words.expect(mesh < header.meshes, "mesh of a bottom level")?;
+                blas.nodes = read_range(words, header.nodes, "nodes of a bottom level")?;
+                blas.triangles = read_range(words, header.triangles, "triangles of a bottom level")?;
+                nodes.push(blas.nodes.clone());
+                let [low, high] = words.array()?;
+                blas.cost = f64::from_bits(u64::from(low) | (u64::from(high) << 32));
+                words.expect(
+                    blas.cost.is_finite() && blas.cost >= 0.0,
+                    "cost of a bottom level",
+                )?;
+            }
+            self.blases.push(blas);
+        }
+        let live = |(_, blas): &(u32, &Blas)| !blas.nodes.is_empty();
+        let used = (0..).zip(&self.blases).filter(live);
+        self.blas_ranges = taken(
+            header.blases,
+            used.map(|(i, _)| i..i + 1).collect(),
+            "bottom levels",
+        )?;
+        let used = self.blases.iter().map(|blas| blas.triangles.clone()).collect();
+        self.triangle_ranges = taken(header.triangles, used, "triangles")?;
+
+        self.meshes = Vec::with_capacity(words.need(header.meshes)?);
+        for index in 0..header.meshes {
+            let blas = words.one()?;
+            let live = blas != INVALID;
+            if live {
+                let own = self.blases.get(blas as usize).filter(|own| own.mesh == index);
+                words.expect(own.is_some(), "bottom level of a mesh")?;
+            }
+            self.meshes.push(Mesh {
+                live,
+                generation: 0,
+                blas: if live { blas } else { 0 },
+                users: Vec::new(),
+            });
+        }
+        for (index, blas) in (0..).zip(&self.blases).filter(live) {
+            let mesh = &self.meshes[blas.mesh as usize];
+            if !mesh.live || mesh.blas != index {
+                return Err(ReadError::Places {
+                    what: "bottom levels",
+                });
+            }
+        }
+        let used = (0..).zip(&self.meshes).filter(|(_, mesh)| mesh.live);
+        self.mesh_ranges = taken(header.meshes, used.map(|(i, _)| i..i + 1).collect(), "meshes")?;
+        Ok(())
+    }
+
+    fn read_instances(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
+        self.placed = Vec::with_capacity(words.need(header.instances)?);
+        for _ in 0..header.instances {
+            let mesh = words.one()?;
+            let mut placed = InstanceState {
+                live: mesh != INVALID,
+                generation: 0,
+                mesh: 0,
+                user: 0,
+                transform: Transform::IDENTITY,
+                radiance: 0.0,
+                listed: 0,
+                lights: 0..0,
+                node: INVALID,
+                slot: 0,
+                created: 0,
+            };
+            if placed.live {
+                let own = self.meshes.get(mesh as usize).filter(|own| own.live);
+                let Some(own) = own else {
+                    return Err(words.wrong("mesh of an instance"));
+                };
+                placed.mesh = mesh;
+                placed.user = words.one()?;
+                placed.listed = words.one()?;
+                let first = words.one()?;
+                let triangles = self.blases[own.blas as usize].triangles.len() as u32;
+                let lights = first.checked_add(triangles).filter(|&end| end <= header.lights);
+                let Some(end) = lights else {
+                    return Err(words.wrong("first light of an instance"));
+                };
+                placed.lights = first..end;
+                placed.radiance = f32::from_bits(words.one()?);
+                let entries = words.array::<12>()?.map(f32::from_bits);
+                let column = |k: usize| [entries[3 * k], entries[3 * k + 1], entries[3 * k + 2]];
+                placed.transform = Transform {
+                    columns: [column(0), column(1), column(2)],
+                    translation: column(3),
+                };
+            }
+            self.placed.push(placed);
+        }
+        let used = (0..).zip(&self.placed).filter(|(_, placed)| placed.live);
+        self.placed_ranges = taken(
+            header.instances,
+            used.map(|(i, _)| i..i + 1).collect(),
+            "instances",
+        )?;
+        Ok(())
+    }
+
+    fn read_nodes(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
+        let count = words.need(header.nodes)?;
+        self.nodes = alloc::vec![N::EMPTY; count];
+        self.parents = alloc::vec![INVALID; count];
+        for index in 0..count {
+            let kinds = words.one()?;
+            words.expect(
+                kinds.checked_shr(2 * W as u32).unwrap_or(0) == 0,
+                "kinds of a node",
+            )?;
+            for slot in 0..W {
+                let to = (kinds >> (2 * slot)) & 3;
+                if to != kind::EMPTY {
+                    let link = words.one()?;
+                    self.nodes[index].set_child(slot, to, link);
+                    if to == kind::INNER {
+                        let parent = self.parents.get_mut(link as usize);
+                        *parent.ok_or_else(|| words.wrong("link of a node"))? = index as u32;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn read_triangles(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
+        let dark = EmissiveTriangle {
+            p: [[0.0; 3]; 3],
+            radiance: [0.0; 3],
+            mesh: INVALID,
+            flags: 0,
+        };
+        self.triangles = alloc::vec![dark; words.need(header.triangles)?];
+        for (blas, own) in (0..).zip(&self.blases) {
+            for triangle in &mut self.triangles[own.triangles.start as usize..own.triangles.end as usize] {
+                triangle.mesh = blas;
+            }
+        }
+        for (index, triangle) in (0..).zip(&mut self.triangles) {
+            if triangle.mesh == INVALID {
+                let gap = words.one()?;
+                words.expect(gap == 0, "place of no triangle")?;
+                continue;
+            }
+            let numbers = words.array::<12>()?.map(f32::from_bits);
+            let three = |k: usize| [numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]];
+            triangle.p = [three(0), three(1), three(2)];
+            triangle.radiance = three(3);
+            triangle.flags = words.one()?;
+            *triangle = triangle.checked().map_err(|error| ReadError::Light {
+                triangle: index,
+                error,
+            })?;
+        }
+        for blas in &mut self.blases {
+            let range = blas.triangles.start as usize..blas.triangles.end as usize;
+            blas.extent = Extent::of(&self.triangles[range]);
+        }
+        for (instance, placed) in (0..).zip(&self.placed).filter(|(_, placed)| placed.live) {
+            let wrong = |reason| ReadError::Instance { instance, reason };
+            let checked = placed.transform.check(&self.blas_of(placed).extent);
+            checked.map_err(|error| wrong(EditReason::Transform(error)))?;
+            factor(placed.radiance).map_err(wrong)?;
+        }
+        Ok(())
+    }
+}
+
+/// A range of at least one of `end`.
+fn read_range(words: &mut Words<'_>, end: u32, what: &'static str) -> Result<Range<u32>, ReadError> {
+    let [from, to] = words.array()?;
+    words.expect(from < to && to <= end, what)?;
+    Ok(from..to)
+}
+
+fn read_ranges(
+    words: &mut Words<'_>,
+    count: u32,
+    end: u32,
+    what: &'static str,
+) -> Result<Vec<Range<u32>>, ReadError> {
+    let mut ranges = Vec::with_capacity(words.need(count)?);
+    for _ in 0..count {
+        ranges.push(read_range(words, end, what)?);
+    }
+    Ok(ranges)
+}
+
+fn read_indices(
+    words: &mut Words<'_>,
+    count: u32,
+    end: u32,
+    what: &'static str,
+) -> Result<Vec<u32>, ReadError> {
+    let mut indices = Vec::with_capacity(words.need(count)?);
+    for _ in 0..count {
+        let index = words.one()?;
+        words.expect(index < end, what)?;
+        indices.push(index);
+    }
+    Ok(indices)
+}
+
+/// The index space of which `used` is in use.
+pub(super) fn taken(end: u32, used: Vec<Range<u32>>, what: &'static str) -> Result<Ranges, ReadError> {
+    Ranges::taken(end, used).ok_or(ReadError::Places { what })
+}

@@ -1,0 +1,232 @@
+//! What follows from the words that were read: links are walked before anything trusts them, then all is refitted.
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use super::error::ReadError;
+use super::header::Header;
+use super::read::taken;
+use crate::bvh::Bvh;
+use crate::bvh::apply::NO_INSTANCE;
+use crate::bvh::refit::Changes;
+use crate::bvh::validate::Found;
+use crate::levels::Levels;
+use crate::node::{LightNode, kind};
+use crate::refit::{self, BlasRoot};
+use crate::summary::Summary;
+use crate::sweep;
+use crate::trail::trail_words;
+use crate::transform::Transform;
+use crate::tree::INVALID;
+
+const NODES: ReadError = ReadError::Places { what: "nodes" };
+const LISTS: ReadError = ReadError::Places {
+    what: "instances in lists",
+};
+
+impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+    pub(super) fn restore(&mut self, header: &Header, top_leaves: Vec<u32>) -> Result<(), ReadError> {
+        let bottoms = self.blases.iter().map(|blas| blas.nodes.clone());
+        let used = bottoms.chain(self.top.ranges.iter().cloned()).collect();
+        self.node_ranges = taken(header.nodes, used, "nodes")?;
+        self.restore_lists()?;
+        self.restore_lights(header)?;
+        self.restore_bottoms()?;
+        self.restore_top(top_leaves)?;
+        if self.single {
+            self.check_single()?;
+        }
+        Ok(())
+    }
+
+    /// The roots that the last refit computed, whose bottom levels may have lost quality, or that the next one shall.
+    pub(super) fn restore_work(&mut self, header: &Header, roots: Vec<u32>) -> Result<(), ReadError> {
+        self.changes = Changes::default();
+        if header.pending {
+            if roots
+                .iter()
+                .any(|&blas| self.blases[blas as usize].nodes.is_empty())
+            {
+                return Err(ReadError::Places {
+                    what: "refitted bottom levels",
+                });
+            }
+            self.changes.new.built.extend(roots);
+        } else {
+            self.work.roots = roots;
+        }
+        Ok(())
+    }
+
+    /// The list of instances in use, and each mesh's.
+    fn restore_lists(&mut self) -> Result<(), ReadError> {
+        let live = self.placed.iter().filter(|placed| placed.live);
+        self.live = alloc::vec![INVALID; live.clone().count()];
+        for placed in live {
+            self.meshes[placed.mesh as usize].users.push(INVALID);
+        }
+        for (index, placed) in (0..).zip(&self.placed).filter(|(_, placed)| placed.live) {
+            let users = &mut self.meshes[placed.mesh as usize].users;
+            for (list, at) in [(users, placed.user), (&mut self.live, placed.listed)] {
+                match list.get_mut(at as usize) {
+                    Some(entry) if *entry == INVALID => *entry = index,
+                    _ => return Err(LISTS),
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Which numbers of lights are free.
+    fn restore_lights(&mut self, header: &Header) -> Result<(), ReadError> {
+        let live = self.placed.iter().filter(|placed| placed.live);
+        let mut used: Vec<Range<u32>> = live.map(|placed| placed.lights.clone()).collect();
+        self.light_count = used.iter().map(ExactSizeIterator::len).sum();
+        let waiting = &self.removed_lights[usize::from(self.forgotten)..];
+        self.waiting_lights = waiting.iter().map(ExactSizeIterator::len).sum();
+        used.extend_from_slice(waiting);
+        self.lights = taken(header.lights, used, "lights")?;
+        Ok(())
+    }
+
+    fn restore_bottoms(&mut self) -> Result<(), ReadError> {
+        self.trail_words = trail_words(W, self.bottom_depth);
+        self.trails = alloc::vec![0; self.triangles.len() * self.trail_words as usize];
+        self.roots = alloc::vec![BlasRoot::new(INVALID, &N::Summary::EMPTY); self.blases.len()];
+        let mut seen = alloc::vec![false; self.nodes.len()];
+        let mut leaves = alloc::vec![false; self.triangles.len()];
+        for index in 0..self.blases.len() {
+            let (range, triangles) = (
+                self.blases[index].nodes.clone(),
+                self.blases[index].triangles.clone(),
+            );
+            if range.is_empty() {
+                continue;
+            }
+            let found = self
+                .walk(range.start, kind::LIGHT, &mut seen)
+                .map_err(ReadError::Tree)?;
+            self.is_depth_first(&range, &found)?;
+            if found.depth > self.bottom_depth || found.leaves.len() != triangles.len() {
+                return Err(NODES);
+            }
+            for &(triangle, _, _, trail) in &found.leaves {
+                // As many as there are triangles, each for the first time: so all of them.
+                if !triangles.contains(&triangle) || core::mem::replace(&mut leaves[triangle as usize], true)
+                {
+                    return Err(NODES);
+                }
+                let at = triangle as usize * self.trail_words as usize;
+                self.trails[at] = trail.low;
+                if self.trail_words == 2 {
+                    self.trails[at + 1] = trail.high;
+                }
+            }
+            self.blases[index].depth = found.depth;
+            self.blases[index].levels = Levels::gather(found.levels);
+            sweep::bottom_sweep(
+                &mut self.nodes[range.start as usize..range.end as usize],
+                range.start,
+                &self.triangles,
+                &[range.start],
+            );
+            self.roots[index] = refit::root(&self.nodes, range.start);
+        }
+        Ok(())
+    }
+
+    /// Whether the nodes found are those of `range`, and those below any one of them follow it without a gap: what a sweep needs.
+    fn is_depth_first(&self, range: &Range<u32>, found: &Found) -> Result<(), ReadError> {
+        if found.levels.len() != range.len() || found.levels.iter().any(|(_, node)| !range.contains(node)) {
+            return Err(NODES);
+        }
+        // By node of the range: how many are below it and itself, and the end of their range.
+        let mut below: Vec<(u32, u32)> = range.clone().map(|node| (1, node + 1)).collect();
+        for node in range.clone().rev() {
+            let (count, end) = below[(node - range.start) as usize];
+            let parent = self.parents[node as usize];
+            if end - node != count || (node != range.start && parent >= node) {
+                return Err(NODES);
+            }
+            if node != range.start {
+                let above = &mut below[(parent - range.start) as usize];
+                *above = (above.0 + count, above.1.max(end));
+            }
+        }
+        Ok(())
+    }
+
+    fn restore_top(&mut self, top_leaves: Vec<u32>) -> Result<(), ReadError> {
+        self.instances = alloc::vec![NO_INSTANCE; self.placed.len()];
+        for (instance, &listed) in self.instances.iter_mut().zip(&self.live) {
+            instance.listed = listed;
+        }
+        for index in self.live.clone() {
+            self.place(index);
+        }
+        let mut seen = alloc::vec![false; self.nodes.len()];
+        let found = self
+            .walk(self.top.root, kind::MESH, &mut seen)
+            .map_err(ReadError::Tree)?;
+        let mut leaves = alloc::vec![false; self.placed.len()];
+        for &(instance, ..) in &found.leaves {
+            let live = self
+                .placed
+                .get(instance as usize)
+                .is_some_and(|placed| placed.live);
+            if !live || core::mem::replace(&mut leaves[instance as usize], true) {
+                return Err(LISTS);
+            }
+        }
+        // Each is in one place at most, and so in a place of its own.
+        let mut in_ranges = alloc::vec![false; self.nodes.len()];
+        for range in &self.top.ranges {
+            in_ranges[range.start as usize..range.end as usize].fill(true);
+        }
+        let own: usize = self.top.ranges.iter().map(ExactSizeIterator::len).sum();
+        let found_nodes = found.levels.iter().map(|&(_, node)| node);
+        let mut nodes = found_nodes.chain(top_leaves.iter().copied());
+        if found.leaves.len() != self.live.len()
+            || found.levels.len() != own
+            || top_leaves.len() > own
+            || !nodes.all(|node| in_ranges[node as usize])
+        {
+            return Err(NODES);
+        }
+        self.index_top();
+        // Those that have lost their instances are among them.
+        if top_leaves.len() < self.top.leaves.len() {
+            return Err(NODES);
+        }
+        self.top.leaves = top_leaves;
+        for range in self.top.levels.ranges() {
+            let nodes = &self.top.levels.nodes()[range];
+            sweep::top(&mut self.nodes, &self.instances, &self.roots, nodes);
+        }
+        Ok(())
+    }
+
+    /// Whether it is one mesh that stands where it is.
+    fn check_single(&self) -> Result<(), ReadError> {
+        let is_alone = match (&*self.placed, &*self.meshes) {
+            ([placed], [mesh]) => {
+                placed.live
+                    && mesh.blas == 0
+                    && placed.transform == Transform::IDENTITY
+                    && placed.radiance == 1.0
+                    && placed.lights.start == 0
+                    && self.blases[0].triangles.start == 0
+            }
+            // Over no lights.
+            ([], []) => true,
+            _ => false,
+        };
+        if is_alone {
+            Ok(())
+        } else {
+            Err(ReadError::Places {
+                what: "the single level",
+            })
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Words that nobody wrote.
+
+use alloc::vec::Vec;
+
+use super::edits::{Random, batch};
+use super::{ReadError, alike, read};
+use crate::bvh::Bvh;
+use crate::importance::{Eq4, ImportanceModel, Moments};
+use crate::node::{CompactNode, LightNode, MomentNode};
+
+/// A small BVH with places not in use.
+fn small<N: LightNode<W>, I, const W: usize>() -> Bvh<N, I, W> {
+    let random = &mut Random(5);
+    let mut bvh = Bvh::<N, I, W>::default();
+    for _ in 0..12 {
+        let edits = batch(random, &bvh);
+        // One that is refused is not done.
+        let _ = bvh.apply(edits);
+        bvh.refit();
+    }
+    assert!(bvh.light_count() > 0 && !bvh.removed_lights().is_empty());
+    bvh
+}
+
+/// What is read, if it is, is valid, and edits do not break it.
+fn harmless<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(words: &[u32], seed: u32) -> bool {
+    let Ok(mut bvh) = Bvh::<N, I, W>::from_words(words) else {
+        return false;
+    };
+    alike(&bvh, &read(&bvh));
+    let random = &mut Random(seed);
+    for _ in 0..2 {
+        let edits = batch(random, &bvh);
+        let _ = bvh.apply(edits);
+        bvh.refit();
+        let rebuilt = bvh.rebuild(&crate::bvh::RebuildParams::default()).run();
+        bvh.install(rebuilt).expect("its own");
+        bvh.refit();
+        bvh.validate().unwrap_or_else(|violation| panic!("{violation}"));
+    }
+    true
+}
+
+fn every_bit<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(step: usize) {
+    let words = small::<N, I, W>().to_words();
+    assert!(harmless::<N, I, W>(&words, 0));
+    let mut taken = 0;
+    for bit in (0..32 * words.len()).step_by(step) {
+        let mut wrong = words.clone();
+        wrong[bit / 32] ^= 1 << (bit % 32);
+        taken += usize::from(harmless::<N, I, W>(&wrong, bit as u32));
+    }
+    // Most bits are those of coordinates: another triangle is a triangle too.
+    super::std::println!("{} words: {taken} flips are read", words.len());
+}
+
+#[test]
+fn every_flipped_bit_is_refused_or_harmless() {
+    every_bit::<MomentNode<8>, Moments, 8>(23);
+    every_bit::<CompactNode<4>, Eq4, 4>(19);
+}
+
+/// Words of numbers that say how many, where and which, all of them, to other small numbers and to great ones.
+#[test]
+fn wrong_numbers_are_refused_or_harmless() {
+    let words = small::<CompactNode<4>, Eq4, 4>().to_words();
+    for at in 0..words.len() {
+        for value in [
+            0,
+            1,
+            2,
+            3,
+            words[at].wrapping_add(1),
+            words[at].wrapping_sub(1),
+            1 << 30,
+            u32::MAX,
+        ] {
+            let mut wrong = words.clone();
+            wrong[at] = value;
+            harmless::<CompactNode<4>, Eq4, 4>(&wrong, value);
+        }
+    }
+}
+
+#[test]
+fn cut_words_are_refused() {
+    let words = small::<MomentNode<8>, Moments, 8>().to_words();
+    for length in 0..words.len() {
+        let mut cut = words[..length].to_vec();
+        let error = Bvh::<MomentNode<8>, Moments, 8>::from_words(&cut).expect_err("words are missing");
+        assert!(matches!(error, ReadError::Length { .. }), "{error}");
+        // As long as it says.
+        if length > 2 {
+            cut[2] = length as u32;
+            assert!(Bvh::<MomentNode<8>, Moments, 8>::from_words(&cut).is_err());
+        }
+    }
+    let mut more = words.clone();
+    more.push(0);
+    more[2] += 1;
+    let error = Bvh::<MomentNode<8>, Moments, 8>::from_words(&more).expect_err("one too many");
+    assert!(matches!(error, ReadError::Length { .. }), "{error}");
+}
+
+#[test]
+fn random_words_are_refused() {
+    let random = &mut Random(9);
+    let header = Bvh::<MomentNode<8>, Moments, 8>::default().to_words();
+    for k in 0..20_000 {
+        let mut words: Vec<u32> = (0..random.below(80))
+            .map(|_| {
+                if k % 2 == 0 {
+                    random.bits()
+                } else {
+                    random.below(4)
+                }
+            })
+            .collect();
+        assert!(Bvh::<MomentNode<8>, Moments, 8>::from_words(&words).is_err());
+        // Past the first checks.
+        let length = words.len() as u32;
+        for (to, from) in words.iter_mut().zip(&header[..8]) {
+            *to = *from;
+        }
+        if length > 2 {
+            words[2] = length;
+        }
+        harmless::<MomentNode<8>, Moments, 8>(&words, k);
+    }
+}

@@ -1,0 +1,118 @@
+//! From a light BVH to words.
+
+use alloc::vec::Vec;
+
+use super::header::{Header, LENGTH};
+use crate::bvh::{Bvh, InstanceState};
+use crate::node::{LightNode, kind};
+use crate::tree::INVALID;
+
+impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+    pub(super) fn written(&self) -> Vec<u32> {
+        // A refit that is still to come computes these.
+        let pending = self.changes.pending_roots();
+        let refitted = pending.as_deref().unwrap_or(&self.work.roots);
+        let header = Header {
+            params: self.params,
+            single: self.single,
+            forgotten: self.forgotten,
+            pending: pending.as_ref().is_some_and(|roots| !roots.is_empty()),
+            bottom_depth: self.bottom_depth,
+            nodes: self.nodes.len() as u32,
+            triangles: self.triangles.len() as u32,
+            blases: self.blases.len() as u32,
+            meshes: self.meshes.len() as u32,
+            instances: self.placed.len() as u32,
+            lights: self.lights.end(),
+            removed: self.removed_lights.len() as u32,
+            top_root: self.top.root,
+            top_ranges: self.top.ranges.len() as u32,
+            top_leaves: self.top.leaves.len() as u32,
+            refitted: refitted.len() as u32,
+        };
+        let mut words = header.words::<N, W>().to_vec();
+        self.write_bottoms(&mut words);
+        self.write_instances(&mut words);
+        for range in self.removed_lights.iter().chain(&self.top.ranges) {
+            words.extend([range.start, range.end]);
+        }
+        words.extend(&self.top.leaves);
+        words.extend(refitted);
+        self.write_nodes(&mut words);
+        self.write_triangles_to(&mut words);
+        words[LENGTH] = words.len() as u32;
+        words
+    }
+
+    fn write_bottoms(&self, words: &mut Vec<u32>) {
+        for blas in &self.blases {
+            if blas.nodes.is_empty() {
+                words.push(INVALID);
+                continue;
+            }
+            let cost = blas.cost.to_bits();
+            words.extend([
+                blas.mesh,
+                blas.nodes.start,
+                blas.nodes.end,
+                blas.triangles.start,
+                blas.triangles.end,
+                cost as u32,
+                (cost >> 32) as u32,
+            ]);
+        }
+        words.extend(
+            self.meshes
+                .iter()
+                .map(|mesh| if mesh.live { mesh.blas } else { INVALID }),
+        );
+    }
+
+    fn write_instances(&self, words: &mut Vec<u32>) {
+        for placed in &self.placed {
+            if !placed.live {
+                words.push(INVALID);
+                continue;
+            }
+            let InstanceState {
+                mesh, user, listed, ..
+            } = *placed;
+            words.extend([mesh, user, listed, placed.lights.start, placed.radiance.to_bits()]);
+            let transform = &placed.transform;
+            let entries = transform.columns.iter().flatten().chain(&transform.translation);
+            words.extend(entries.map(|x| x.to_bits()));
+        }
+    }
+
+    /// Kinds and links of the nodes in use.
+    fn write_nodes(&self, words: &mut Vec<u32>) {
+        let mut used = alloc::vec![false; self.nodes.len()];
+        let bottoms = self.blases.iter().map(|blas| &blas.nodes);
+        for range in bottoms.chain(&self.top.ranges) {
+            used[range.start as usize..range.end as usize].fill(true);
+        }
+        for (node, &used) in self.nodes.iter().zip(&used) {
+            let kind = |slot: usize| if used { node.kind(slot) } else { kind::EMPTY };
+            words.push((0..W).fold(0, |kinds, slot| kinds | (kind(slot) << (2 * slot))));
+            let children = (0..W).filter(|&slot| kind(slot) != kind::EMPTY);
+            words.extend(children.map(|slot| node.link(slot)));
+        }
+    }
+
+    /// The triangles in use, and a word for each place that is not.
+    fn write_triangles_to(&self, words: &mut Vec<u32>) {
+        let mut used = alloc::vec![false; self.triangles.len()];
+        for blas in &self.blases {
+            used[blas.triangles.start as usize..blas.triangles.end as usize].fill(true);
+        }
+        for (triangle, &used) in self.triangles.iter().zip(&used) {
+            if used {
+                words.extend(triangle.p.iter().flatten().map(|x| x.to_bits()));
+                words.extend(triangle.radiance.map(f32::to_bits));
+                words.push(triangle.flags);
+            } else {
+                words.push(0);
+            }
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! How long something took, where there is a clock.
+
+use core::time::Duration;
+#[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
+use std::time::Instant;
+
+/// A moment.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Clock(#[cfg(not(all(target_family = "wasm", target_os = "unknown")))] Instant);
+
+impl Clock {
+    /// Now.
+    pub fn start() -> Self {
+        Self(
+            #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
+            Instant::now(),
+        )
+    }
+
+    /// The time since then; zero in `wasm32-unknown-unknown`, which has no clock and ends a program that asks for one.
+    #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
+    pub fn elapsed(self) -> Duration {
+        self.0.elapsed()
+    }
+
+    /// The time since then; zero in `wasm32-unknown-unknown`, which has no clock and ends a program that asks for one.
+    #[cfg(all(target_family = "wasm", target_os = "unknown"))]
+    pub fn elapsed(self) -> Duration {
+        Duration::ZERO
+    }
+}

@@ -1,0 +1,217 @@
+//! `docs/format.md` against the types that it describes.
+
+extern crate std;
+
+use alloc::vec::Vec;
+use core::mem::offset_of;
+use core::ops::Range;
+
+use lightbvh::refit::BlasRoot;
+use lightbvh::{
+    CompactNode, EmissiveTriangle, FullMomentNode, FullNode, Instance, LeanMomentNode, LightBvh, MomentNode,
+    SampledLight,
+};
+
+use crate::{Access, Buffer, KERNELS};
+
+const PAGE: &str = include_str!("../../../docs/format.md");
+
+/// The cells of the rows of the first table below `heading`.
+fn table(heading: &str) -> Vec<Vec<&'static str>> {
+    let below = PAGE
+        .split_once(heading)
+        .unwrap_or_else(|| panic!("no {heading}"))
+        .1;
+    let rows = below.lines().skip_while(|line| !line.starts_with('|'));
+    let rows = rows.take_while(|line| line.starts_with('|')).skip(2);
+    rows.map(|row| row.split('|').skip(1).map(str::trim).collect())
+        .collect()
+}
+
+/// "3" or "3 to 5".
+fn range(cell: &str) -> Range<usize> {
+    let number = |text: &str| text.parse::<usize>().unwrap_or_else(|_| panic!("{cell}"));
+    match cell.split_once(" to ") {
+        Some((first, last)) => number(first)..number(last) + 1,
+        None => number(cell)..number(cell) + 1,
+    }
+}
+
+/// Rows without a gap, several of which may be of the same words.
+fn length(heading: &str) -> usize {
+    table(heading).iter().fold(0, |end, row| {
+        let own = range(row[0]);
+        assert!(own.start == end || own.end == end, "{heading}: {row:?}");
+        own.end
+    })
+}
+
+fn code(cell: &str) -> &str {
+    cell.trim_matches('`')
+}
+
+#[test]
+fn layouts_have_their_words() {
+    let sizes = [
+        ("MomentNode<8>", size_of::<MomentNode<8>>(), 8),
+        ("MomentNode<16>", size_of::<MomentNode<16>>(), 16),
+        ("LeanMomentNode<8>", size_of::<LeanMomentNode<8>>(), 8),
+        ("FullMomentNode<8>", size_of::<FullMomentNode<8>>(), 8),
+        ("CompactNode<4>", size_of::<CompactNode<4>>(), 4),
+        ("FullNode<4>", size_of::<FullNode<4>>(), 4),
+    ];
+    let rows = table("\n## Nodes\n");
+    assert_eq!(rows.len(), sizes.len());
+    for (row, (name, bytes, width)) in rows.iter().zip(sizes) {
+        assert_eq!(code(row[0]), name);
+        assert_eq!(range(row[2]).start * 4, bytes, "{name}");
+        assert_eq!(range(row[1]).start * 4 * width, bytes, "{name}");
+        let (layout, _) = name.split_once('<').expect("a width");
+        let heading = std::format!("\n### `{layout}`\n");
+        assert_eq!(length(&heading) * 4 * width, bytes, "{name}");
+    }
+}
+
+/// The bits of each row of a packed layout, from the highest to the lowest.
+#[test]
+fn bits_of_a_row_are_told_once() {
+    for layout in ["MomentNode", "LeanMomentNode", "CompactNode"] {
+        let mut end: Option<(usize, usize)> = None;
+        for row in table(&std::format!("\n### `{layout}`\n")) {
+            let at = range(row[0]).start;
+            let is_bits = row[1].starts_with(|c: char| c.is_ascii_digit());
+            if !is_bits {
+                continue;
+            }
+            let bits = range(row[1]);
+            match end {
+                Some((before, low)) if before == at => assert_eq!(bits.end, low, "{layout}: {row:?}"),
+                Some((_, low)) => assert_eq!(low, 0, "{layout}: {row:?}"),
+                None => {}
+            }
+            end = Some((at, bits.start));
+        }
+        assert_eq!(end.map(|(_, low)| low), Some(0), "{layout}");
+    }
+}
+
+/// Words of a record, and where each of its fields begins.
+fn record(name: &str, bytes: usize, fields: &[(&str, usize)]) {
+    let heading = std::format!("\n### {name}\n");
+    assert_eq!(length(&heading) * 4, bytes, "{name}");
+    let rows = table(&heading);
+    for &(field, offset) in fields {
+        let row = rows.iter().find(|row| code(row[1]) == field);
+        let row = row.unwrap_or_else(|| panic!("{name} has no {field}"));
+        assert_eq!(range(row[0]).start * 4, offset, "{name}.{field}");
+    }
+    assert_eq!(
+        rows.iter().filter(|row| !row[1].is_empty()).count(),
+        fields.len(),
+        "{name}"
+    );
+}
+
+macro_rules! record {
+    ($type:ident: $($field:ident),*) => {
+        record(
+            concat!("`", stringify!($type), "`"),
+            size_of::<$type>(),
+            &[$((stringify!($field), offset_of!($type, $field))),*],
+        )
+    };
+}
+
+#[test]
+fn records_have_their_fields() {
+    record!(Instance: root, trail, blas, first, first_triangle, count, listed, columns, translation, inverse, per_inverse,
+        flux, radiance, mirrored);
+    record!(BlasRoot: node, words);
+    record!(EmissiveTriangle: p, radiance, mesh, flags);
+    record!(SampledLight: light, instance, pmf);
+    record("Query", 32, &[("p", 0), ("n", 12)]);
+}
+
+/// Each binding of a kernel that the page names, of a buffer that it names.
+#[test]
+fn buffers_have_their_strides_readers_and_writers() {
+    let rows = table("\n## Buffers\n");
+    for buffer in Buffer::ALL {
+        assert!(rows.iter().any(|row| code(row[0]) == buffer.name()), "{buffer:?}");
+    }
+    let own = [
+        "refit_",
+        "sample",
+        "pmf",
+        "render_bvh",
+        "path_bvh",
+        "restir_initial_bvh",
+    ];
+    for kernel in KERNELS {
+        let (name, is_paper) = match kernel.name.strip_suffix("_eq4") {
+            Some(name) => (name, true),
+            None => (kernel.name, false),
+        };
+        if !own.iter().any(|own| name.starts_with(own)) {
+            continue;
+        }
+        for binding in kernel.bindings {
+            let Some(row) = rows.iter().find(|row| code(row[0]) == binding.name) else {
+                continue;
+            };
+            let (strides, writers, readers) = (row[1], row[2], row[3]);
+            if binding.name == "results" && !["sample", "pmf"].contains(&name) {
+                continue;
+            }
+            let stride = match (binding.name, is_paper) {
+                ("nodes", true) => strides.split_once("`_eq4` ").expect("a second one").1,
+                ("nodes", false) => strides.split_once(',').expect("a first one").0,
+                ("results", _) => {
+                    let own = std::format!("`{name}` ");
+                    let after = strides.split_once(&*own).expect("its results").1;
+                    after.split(',').next().unwrap_or(after)
+                }
+                _ => strides,
+            };
+            assert_eq!(stride.parse(), Ok(binding.stride), "{name}: {binding:?}");
+            let named = |cell: &str| {
+                cell.split(", ").map(code).any(|own| {
+                    own == name || own.strip_suffix('*').is_some_and(|start| name.starts_with(start))
+                })
+            };
+            if binding.access != Access::Read {
+                assert!(named(writers), "{name} writes {}", binding.name);
+            }
+            if binding.access == Access::Read {
+                assert!(named(readers), "{name} reads {}", binding.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn files_begin_with_their_header() {
+    let words = LightBvh::default().to_words();
+    let header = length("\n## Files\n");
+    let at = |what: &str| {
+        let rows = table("\n## Files\n");
+        let row = rows.iter().find(|row| row[1].starts_with(what));
+        words[range(row.unwrap_or_else(|| panic!("no {what}"))[0]).start]
+    };
+    assert_eq!(at("\"LBVH\""), u32::from_le_bytes(*b"LBVH"));
+    assert_eq!(at("`FORMAT`"), lightbvh::bvh::FORMAT);
+    assert_eq!(at("number of all words"), words.len() as u32);
+    assert_eq!((at("`W`"), at("length of the array of nodes")), (8, 1));
+    // Behind it the one range of the top level, and the kinds of its one node.
+    assert_eq!(words.len(), header + 2 + 1);
+    let versions = [
+        "lightbvh::node::NODE_FORMAT`, now ",
+        "lightbvh::bvh::FORMAT`, now ",
+    ];
+    for (text, version) in versions
+        .iter()
+        .zip([lightbvh::node::NODE_FORMAT, lightbvh::bvh::FORMAT])
+    {
+        assert!(PAGE.contains(&*std::format!("{text}{version},")), "{text}");
+    }
+}
