@@ -11,15 +11,17 @@ use glam::Vec3;
 
 use crate::bounds::LightBounds;
 use crate::exact::{self, flush, pow2};
-use crate::light::{EmissiveTriangle, MIN_COORDINATE};
+use crate::light::{EmissiveTriangle, MAX_COORDINATE, MIN_COORDINATE};
 use crate::point::ShadingPoint;
 use crate::trail::BitTrail;
 use crate::tree::INVALID;
-use crate::vector::{dot, length_squared};
+use crate::vector::{dot, flush3, length_squared};
 
 /// Lengths below this in a mesh's space count as zero, metres: 2^-60. Entries of the maps are zero or at least 2^-60, so no
 /// product with them is subnormal.
 const TINY: f32 = pow2(-60);
+/// Products below this count as zero, metres: what a device flushes is below it.
+const LEAST_PRODUCT: f32 = pow2(-120);
 /// Greatest magnitude of a coordinate in a mesh's space, 2^60.
 const FAR: f32 = pow2(60);
 
@@ -142,12 +144,15 @@ impl Instance {
     #[inline]
     #[must_use]
     pub fn vertex(&self, p: [f32; 3]) -> [f32; 3] {
-        let v = self.forward(flushed(vector(&p))) + self.origin();
-        [
-            flush(v.x, MIN_COORDINATE),
-            flush(v.y, MIN_COORDINATE),
-            flush(v.z, MIN_COORDINATE),
-        ]
+        let (a, b, c) = (
+            self.column(0) * p[0],
+            self.column(1) * p[1],
+            self.column(2) * p[2],
+        );
+        let v = (flush3(a, LEAST_PRODUCT) + flush3(b, LEAST_PRODUCT)) + flush3(c, LEAST_PRODUCT);
+        let within = |x: f32| flush(exact::clamp(x, -MAX_COORDINATE, MAX_COORDINATE), MIN_COORDINATE);
+        let v = v + self.origin();
+        [within(v.x), within(v.y), within(v.z)]
     }
 
     /// Triangle `local` of the mesh as it stands in the world, as part of mesh light `index`. Where the map mirrors, two

@@ -313,12 +313,12 @@ fn dropped_while_it_builds_it_ends() {
     let (done, ended) = mpsc::channel();
     let dropping = thread::spawn(move || {
         slowed::spare();
-        let (scene, _) = town::<TEST>(&mut Random::new(40), 30);
+        let (mut scene, _) = town::<TEST>(&mut Random::new(40), 30);
         // Never used; idle after a rebuild; in the middle of one.
         drop(Rebuilder::<Slowed<TEST>, 4>::new(RebuilderParams::default()));
         let mut idle = Rebuilder::new(RebuilderParams::default());
         idle.end_frame(&scene);
-        idle.begin_frame(&mut scene.clone()).expect("no panic");
+        idle.begin_frame(&mut scene).expect("no panic");
         drop(idle);
         let mut busy = Rebuilder::new(RebuilderParams::default());
         slowed::set::<TEST>(Pace::Held);

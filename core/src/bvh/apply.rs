@@ -23,7 +23,9 @@ pub struct Added {
 }
 
 impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
-    /// Does a batch of edits, all or none. Sampling sees them after the next [`refit`](Self::refit).
+    /// Does a batch of edits, all or none. Sampling is as good as before after the next [`refit`](Self::refit); until then
+    /// probabilities are exact and no light that is gone is returned, but there may be none where one was removed, and lights that
+    /// were added may have the uniform share alone.
     ///
     /// # Errors
     /// [`EditError`] naming the first edit that cannot be done; the scene is as before then.
@@ -76,6 +78,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         added.sort_unstable();
         added.dedup();
         self.insert_instances(&added);
+        self.bound_changes();
         Ok(updated)
     }
 
@@ -94,7 +97,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         };
         put(&mut self.meshes, index, mesh.clone(), &mesh);
         MeshId {
-            tree: self.id,
+            tree: self.id.0,
             index,
             generation,
         }
@@ -136,6 +139,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             node: INVALID,
             slot: 0,
             created: self.epoch,
+            changed: self.epoch,
         };
         put(&mut self.placed, index, placed.clone(), &placed);
         // The record may hold an entry of the list, which is not this instance's to take.
@@ -149,7 +153,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         self.list(self.live.len() as u32 - 1);
         self.place(index);
         InstanceId {
-            tree: self.id,
+            tree: self.id.0,
             index,
             generation,
         }
@@ -197,6 +201,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
 
     /// Brings the words of an instance in line with its transform and radiance.
     pub(super) fn place(&mut self, index: u32) {
+        self.epoch += 1;
+        self.placed[index as usize].changed = self.epoch;
         let placed = &self.placed[index as usize];
         let blas = self.meshes[placed.mesh as usize].blas;
         let old = self.instances[index as usize];

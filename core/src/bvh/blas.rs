@@ -31,6 +31,8 @@ pub(super) struct Blas {
     pub cost: f64,
     /// When its topology was made.
     pub created: u64,
+    /// When what is known of it as a whole changed last.
+    pub changed: u64,
 }
 
 impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
@@ -52,6 +54,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             extent: Extent::of(triangles),
             cost: 0.0,
             created: 0,
+            changed: 0,
         };
         put(&mut self.blases, index, empty.clone(), &empty);
         put(
@@ -127,6 +130,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         blas.levels = levels;
         blas.depth = topology.depth;
         blas.created = created;
+        blas.changed = created;
         self.roots[index as usize].node = nodes.start;
 
         let range = nodes.start as usize..nodes.end as usize;

@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 
 use super::Bvh;
 use super::edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
+use super::ranges::Ranges;
 use crate::light::EmissiveTriangle;
 use crate::lights::MAX_LIGHTS;
 use crate::node::LightNode;
@@ -27,8 +28,11 @@ struct Batch {
     added: BTreeMap<MeshId, Vec<Transform>>,
     /// Whether a later edit may ask for those.
     deforms: bool,
+    /// Ends of the numbers of lights and of triangles.
     lights: usize,
     triangles: usize,
+    /// Which of them are free, where those ends alone would be too great.
+    space: Option<(Ranges, Ranges)>,
     /// Meshes added: number of triangles, and extent.
     meshes: Vec<(usize, Extent)>,
     /// Of the batch's deformed meshes, in the order of their edits.
@@ -39,9 +43,24 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// Brings all triangles of the batch into the domain, or says which edit cannot be done. Returns the new extents of the
     /// deformed meshes, in the order of their edits.
     pub(super) fn check(&self, edits: &mut [Edit]) -> Result<Vec<Extent>, EditError> {
+        match self.check_all(edits, None) {
+            // Perhaps there is room among what is free.
+            Err(error) if error.reason == EditReason::TooMany => {
+                self.check_all(edits, Some((self.lights.clone(), self.triangle_ranges.clone())))
+            }
+            checked => checked,
+        }
+    }
+
+    fn check_all(
+        &self,
+        edits: &mut [Edit],
+        space: Option<(Ranges, Ranges)>,
+    ) -> Result<Vec<Extent>, EditError> {
         let mut batch = Batch {
             lights: self.lights.end() as usize,
-            triangles: self.triangles.len(),
+            triangles: self.triangle_ranges.end() as usize,
+            space,
             deforms: edits.iter().any(|edit| matches!(edit, Edit::SetTriangles { .. })),
             ..Batch::default()
         };
@@ -59,7 +78,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         match edit {
             Edit::AddMesh { triangles } => {
                 checked(triangles)?;
-                batch.triangles += triangles.len();
+                batch.take_triangles(triangles.len());
                 batch.meshes.push((triangles.len(), Extent::of(triangles)));
             }
             &mut Edit::AddInstance {
@@ -77,7 +96,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 if batch.deforms {
                     batch.added.entry(mesh).or_default().push(transform);
                 }
-                batch.lights += count;
+                batch.take_lights(count);
             }
             &mut Edit::SetTransform { instance, transform } => {
                 let mesh = self.known_instance(batch, instance)?;
@@ -103,7 +122,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 for &index in &self.meshes[mesh.index as usize].users {
                     let placed = &self.placed[index as usize];
                     let id = InstanceId {
-                        tree: self.id,
+                        tree: self.id.0,
                         index,
                         generation: placed.generation,
                     };
@@ -133,6 +152,10 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                     });
                 }
                 batch.removed_meshes.insert(id);
+                if let Some((_, triangles)) = &mut batch.space {
+                    let blas = self.meshes[id.index as usize].blas;
+                    triangles.give(self.blases[blas as usize].triangles.clone());
+                }
             }
         }
         if batch.lights > MAX_LIGHTS || batch.triangles > MAX_LIGHTS {
@@ -146,7 +169,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         let known = self
             .meshes
             .get(id.index as usize)
-            .is_some_and(|mesh| mesh.live && id.tree == self.id && mesh.generation == id.generation);
+            .is_some_and(|mesh| mesh.live && id.tree == self.id.0 && mesh.generation == id.generation);
         if known && !batch.removed_meshes.contains(&id) {
             Ok(self.mesh_len(id))
         } else {
@@ -158,7 +181,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     fn known_instance(&self, batch: &Batch, id: InstanceId) -> Result<MeshId, EditReason> {
         match self.live(id) {
             Some(placed) if !batch.removed_instances.contains(&id) => Ok(MeshId {
-                tree: self.id,
+                tree: self.id.0,
                 index: placed.mesh,
                 generation: self.meshes[placed.mesh as usize].generation,
             }),
@@ -178,6 +201,31 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             None => self.blases[self.meshes[id.index as usize].blas as usize].extent,
         }
     }
+}
+
+impl Batch {
+    fn take_lights(&mut self, count: usize) {
+        self.lights = match &mut self.space {
+            Some((lights, _)) => end_after(lights, count),
+            None => self.lights + count,
+        };
+    }
+
+    fn take_triangles(&mut self, count: usize) {
+        self.triangles = match &mut self.space {
+            Some((_, triangles)) => end_after(triangles, count),
+            None => self.triangles + count,
+        };
+    }
+}
+
+/// The end of `ranges` once `count` more are taken; more than all where that is more than there can be.
+fn end_after(ranges: &mut Ranges, count: usize) -> usize {
+    if count > MAX_LIGHTS || ranges.end() as usize > MAX_LIGHTS {
+        return usize::MAX;
+    }
+    ranges.take(count as u32);
+    ranges.end() as usize
 }
 
 fn checked(triangles: &mut [EmissiveTriangle]) -> Result<(), EditReason> {

@@ -6,6 +6,7 @@ use core::ops::Range;
 use super::Bvh;
 use super::edit::{InstanceId, MeshId};
 use crate::light::EmissiveTriangle;
+use crate::lights::MAX_LIGHTS;
 use crate::node::LightNode;
 use crate::tree::INVALID;
 
@@ -44,7 +45,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     pub fn instance_id(&self, instance: u32) -> Option<InstanceId> {
         let placed = self.placed.get(instance as usize).filter(|placed| placed.live)?;
         Some(InstanceId {
-            tree: self.id,
+            tree: self.id.0,
             index: instance,
             generation: placed.generation,
         })
@@ -55,7 +56,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     pub fn mesh_id(&self, mesh: u32) -> Option<MeshId> {
         let own = self.meshes.get(mesh as usize).filter(|own| own.live)?;
         Some(MeshId {
-            tree: self.id,
+            tree: self.id.0,
             index: mesh,
             generation: own.generation,
         })
@@ -117,7 +118,11 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         self.light_count -= lights.len();
         self.waiting_lights += lights.len();
         self.removed_lights.push(lights);
-        if self.waiting_lights > LEAST_WAITING.max(self.light_count) {
+        // As many as there are lights, but not so many that numbers run out.
+        let most = self
+            .light_count
+            .min(MAX_LIGHTS.saturating_sub(self.light_count) / 2);
+        if self.waiting_lights > LEAST_WAITING.max(most) {
             self.take_removed_lights();
             self.removed_lights.push(0..self.lights.end());
             self.forgotten = true;

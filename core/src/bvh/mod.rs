@@ -19,6 +19,7 @@
 
 mod apply;
 mod blas;
+mod changes;
 mod check;
 mod construct;
 mod edit;
@@ -34,6 +35,7 @@ mod top;
 mod validate;
 
 use alloc::vec::Vec;
+use core::fmt;
 use core::marker::PhantomData;
 use core::ops::Range;
 use core::sync::atomic::{AtomicU32, Ordering};
@@ -65,10 +67,13 @@ use crate::tree::LightTree;
 
 /// A light BVH that owns its arrays: two levels over instances of emissive meshes, with nodes of layout `N` and width `W`, whose
 /// children are chosen by `I`.
+///
+/// A clone is another light BVH: ids and rebuilds of the one are refused by the other, which knows its own by index
+/// ([`mesh_id`](Self::mesh_id), [`instance_id`](Self::instance_id)).
 #[derive(Clone, Debug)]
 pub struct Bvh<N, I, const W: usize> {
     /// What its ids belong to.
-    id: u32,
+    id: TreeId,
     params: BuildParams,
     nodes: Vec<N>,
     node_ranges: Ranges,
@@ -92,7 +97,7 @@ pub struct Bvh<N, I, const W: usize> {
     lights: Ranges,
     top: Top,
     work: RefitPlan,
-    changes: refit::Changes,
+    changes: changes::Changes,
     /// Numbers of lights that are no more, not yet taken by the caller nor given again.
     removed_lights: Vec<Range<u32>>,
     /// How many they are.
@@ -103,10 +108,8 @@ pub struct Bvh<N, I, const W: usize> {
     light_count: usize,
     /// Greatest number of levels of a bottom level so far.
     bottom_depth: u32,
-    /// Counts what comes, goes or is built, so that a rebuild can tell who came after it began.
+    /// Counts what comes, goes, changes or is built, so that a rebuild can tell what did so after it began.
     epoch: u64,
-    /// Counts refits that changed something.
-    refits: u64,
     /// Whether it is one mesh alone, walked from the root of its bottom level.
     single: bool,
     importance: PhantomData<I>,
@@ -154,10 +157,32 @@ struct InstanceState {
     slot: u32,
     /// When it came into the scene.
     created: u64,
+    /// When its words changed last.
+    changed: u64,
 }
 
-/// The next BVH's.
-static NEXT_ID: AtomicU32 = AtomicU32::new(0);
+/// The number by which a BVH tells its own ids and rebuilds from another's. A copy has another.
+struct TreeId(u32);
+
+impl TreeId {
+    fn next() -> Self {
+        static NEXT: AtomicU32 = AtomicU32::new(0);
+        Self(NEXT.fetch_add(1, Ordering::Relaxed))
+    }
+}
+
+impl Clone for TreeId {
+    fn clone(&self) -> Self {
+        Self::next()
+    }
+}
+
+/// Equal BVHs read alike, whatever their numbers are.
+impl fmt::Debug for TreeId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("TreeId")
+    }
+}
 
 impl<N: LightNode<W>, I, const W: usize> Default for Bvh<N, I, W> {
     fn default() -> Self {
@@ -170,7 +195,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     #[must_use]
     pub fn new(params: BuildParams) -> Self {
         let mut scene = Self {
-            id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
+            id: TreeId::next(),
             params,
             nodes: Vec::new(),
             node_ranges: Ranges::default(),
@@ -191,14 +216,13 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             lights: Ranges::default(),
             top: Top::default(),
             work: RefitPlan::default(),
-            changes: refit::Changes::default(),
+            changes: changes::Changes::default(),
             removed_lights: Vec::new(),
             waiting_lights: 0,
             forgotten: false,
             light_count: 0,
             bottom_depth: 0,
             epoch: 0,
-            refits: 0,
             single: false,
             importance: PhantomData,
         };
@@ -283,7 +307,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     fn live(&self, id: InstanceId) -> Option<&InstanceState> {
         self.placed
             .get(id.index as usize)
-            .filter(|placed| placed.live && id.tree == self.id && placed.generation == id.generation)
+            .filter(|placed| placed.live && id.tree == self.id.0 && placed.generation == id.generation)
     }
 
     /// Bytes that sampling and pmf read, unused parts included.

@@ -47,12 +47,11 @@ pub struct Rebuild<N, const W: usize> {
     layout: PhantomData<N>,
 }
 
-/// When a copy was taken: the scene's counts of edits and of refits.
+/// When a copy was taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Taken {
     tree: u32,
     epoch: u64,
-    refits: u64,
 }
 
 /// What the leaves of the top level are computed from.
@@ -206,12 +205,9 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// # Errors
     /// [`Foreign`] where it was taken from another light BVH; this one is as before then.
     pub fn install(&mut self, rebuilt: Rebuilt<N, W>) -> Result<(), Foreign> {
-        if rebuilt.taken.tree != self.id {
+        if rebuilt.taken.tree != self.id.0 {
             return Err(Foreign);
         }
-        // Words computed from the instances of then are those of now unless something came between: any edit does, also one whose
-        // refit is still to come.
-        let stale = rebuilt.taken != self.now() || self.changes.has_instances();
         for (bottom, topology) in &rebuilt.bottoms {
             let same = |own: &Blas| own.created == bottom.created && own.triangles == bottom.range;
             if self.blases.get(bottom.blas as usize).is_some_and(same) {
@@ -227,16 +223,22 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 .map(|(index, _)| index)
                 .collect();
             self.insert_instances(&added);
-            self.changes.new.whole_top |= stale;
+            // Its words are those of the copy.
+            for (index, placed) in (0..).zip(&self.placed).filter(|(_, placed)| placed.live) {
+                let blas = &self.blases[self.meshes[placed.mesh as usize].blas as usize];
+                if placed.changed.max(blas.changed) > rebuilt.taken.epoch {
+                    self.changes.new.instances.push(index);
+                }
+            }
         }
+        self.bound_changes();
         Ok(())
     }
 
     fn now(&self) -> Taken {
         Taken {
-            tree: self.id,
+            tree: self.id.0,
             epoch: self.epoch,
-            refits: self.refits,
         }
     }
 }

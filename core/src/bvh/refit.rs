@@ -1,10 +1,10 @@
 //! Refit of what changed, on the CPU, and the lists by which a device does the same.
 
-use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::Bvh;
+use super::changes::Pending;
 use crate::levels::Levels;
 use crate::node::LightNode;
 use crate::refit;
@@ -13,145 +13,6 @@ use crate::tree::INVALID;
 
 /// Where more than this share of the top level's leaves changed, all of it is refitted by its ready-made lists.
 const MOST: usize = 3;
-
-/// What changed, for whom: edits mark what is new; what a plan has taken is still to be refitted here, and what a refit has done is
-/// still to be told by a plan.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Changes {
-    /// Since the last plan or refit.
-    pub new: Pending,
-    /// Planned since the last refit.
-    unrefitted: Pending,
-    /// Refitted since the last plan, if there ever was one.
-    unplanned: Pending,
-    /// Whether anybody takes plans.
-    is_planned: bool,
-    /// Whether the last lists are those of all that a refit has to do.
-    is_fresh: bool,
-}
-
-impl Changes {
-    /// A bottom level is gone.
-    pub fn forget_blas(&mut self, index: u32) {
-        self.is_fresh = false;
-        for pending in self.all() {
-            pending.blases.remove(&index);
-            pending.built.remove(&index);
-        }
-    }
-
-    /// The nodes of the top level are others.
-    pub fn forget_top(&mut self) {
-        self.is_fresh = false;
-        for pending in self.all() {
-            pending.top_nodes.clear();
-        }
-    }
-
-    /// The bottom levels whose roots a refit here would compute; `None` where it has nothing to do.
-    pub fn pending_roots(&self) -> Option<Vec<u32>> {
-        if self.new.is_empty() && self.unrefitted.is_empty() {
-            return None;
-        }
-        let lists = [&self.new, &self.unrefitted];
-        let roots: BTreeSet<u32> = lists
-            .into_iter()
-            .flat_map(|pending| pending.blases.union(&pending.built).copied())
-            .collect();
-        Some(roots.into_iter().collect())
-    }
-
-    /// Whether a refit here has instances to look at.
-    pub fn has_instances(&self) -> bool {
-        !self.new.instances.is_empty() || !self.unrefitted.is_empty()
-    }
-
-    fn all(&mut self) -> [&mut Pending; 3] {
-        [&mut self.new, &mut self.unrefitted, &mut self.unplanned]
-    }
-}
-
-/// Changes of one kind of lists.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Pending {
-    /// Bottom levels whose triangles changed.
-    pub blases: BTreeSet<u32>,
-    /// Bottom levels that are new, their bounds known.
-    pub built: BTreeSet<u32>,
-    /// Indices of instances; may repeat.
-    pub instances: Vec<u32>,
-    /// Nodes of the top level that lost a child or were made anew; may repeat.
-    pub top_nodes: Vec<u32>,
-    /// Whether the whole top level is new.
-    pub whole_top: bool,
-    pub written_nodes: Vec<Range<u32>>,
-    pub written_triangles: Vec<Range<u32>>,
-    pub written_trails: Vec<Range<u32>>,
-    /// Indices of instances whose words changed; may repeat.
-    pub written_instances: Vec<u32>,
-}
-
-impl Pending {
-    /// The triangles of a bottom level changed.
-    pub fn mark_blas(&mut self, index: u32) {
-        self.blases.insert(index);
-    }
-
-    /// A bottom level was built, with the bounds of its triangles as they are.
-    pub fn mark_built(&mut self, index: u32) {
-        self.blases.remove(&index);
-        self.built.insert(index);
-    }
-
-    fn is_empty(&self) -> bool {
-        self.blases.is_empty()
-            && self.built.is_empty()
-            && self.instances.is_empty()
-            && self.top_nodes.is_empty()
-            && !self.whole_top
-            && self.written_nodes.is_empty()
-            && self.written_triangles.is_empty()
-            && self.written_trails.is_empty()
-            && self.written_instances.is_empty()
-    }
-
-    /// Takes over what another list holds; what is there twice is kept once, so that lists stay as short as the arrays.
-    fn join(&mut self, other: Self) {
-        if self.is_empty() {
-            *self = other;
-            return;
-        }
-        self.blases.extend(other.blases);
-        self.built.extend(other.built);
-        self.instances.extend(other.instances);
-        self.top_nodes.extend(other.top_nodes);
-        self.whole_top |= other.whole_top;
-        self.written_nodes.extend(other.written_nodes);
-        self.written_triangles.extend(other.written_triangles);
-        self.written_trails.extend(other.written_trails);
-        self.written_instances.extend(other.written_instances);
-        for list in [
-            &mut self.instances,
-            &mut self.top_nodes,
-            &mut self.written_instances,
-        ] {
-            list.sort_unstable();
-            list.dedup();
-        }
-        for list in [
-            &mut self.written_nodes,
-            &mut self.written_triangles,
-            &mut self.written_trails,
-        ] {
-            *list = merged(core::mem::take(list));
-        }
-    }
-
-    pub fn mark_instance(&mut self, index: u32) {
-        self.instances.push(index);
-        self.written_instances.push(index);
-    }
-}
 
 /// What a refit does: what a mirror of the scene's arrays must copy before it, and the lists of the passes that then make its
 /// nodes the same. Copy first, then run [`refit::bottom`], [`refit::root`] and [`refit::top`] over the lists in this order,
@@ -197,6 +58,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         let is_whole = self.changes.unrefitted.is_empty() && told.is_empty();
         self.changes.unrefitted.join(new.clone());
         told.join(new);
+        self.bound_changes();
         self.work = self.gather(told);
         self.changes.is_fresh = is_whole;
         &self.work
@@ -225,17 +87,19 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         if self.changes.is_planned {
             self.changes.unplanned.join(new.clone());
         }
+        self.bound_changes();
         let work = if is_listed {
             core::mem::take(&mut self.work)
         } else {
             pending.join(new);
             self.gather(pending)
         };
-        self.refits += u64::from(work.computed() > 0);
+        self.epoch += 1;
         sweep::trees(&mut self.nodes, &self.triangles, &work.trees);
         for &blas in &work.roots {
             let root = self.roots[blas as usize].node;
             self.roots[blas as usize] = refit::root(&self.nodes, root);
+            self.blases[blas as usize].changed = self.epoch;
         }
         for range in work.top.ranges() {
             sweep::top(
@@ -271,6 +135,9 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             written_instances: joined(pending.written_instances.clone()),
             ..RefitPlan::default()
         };
+        if pending.all_instances {
+            work.written_instances = alloc::vec![0..self.placed.len() as u32];
+        }
         let mut instances = pending.instances.clone();
         let mut lists = Vec::new();
         for &blas in &pending.blases {
@@ -286,12 +153,21 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         }
 
         let all = self.top.leaves.len();
-        if pending.whole_top || instances.len() > all * W / MOST {
+        if pending.whole_top || pending.all_instances || instances.len() > all * W / MOST {
             work.top = self.top.levels.clone();
         } else {
             self.dirty_top(&instances, &pending.top_nodes, &mut work);
         }
         work
+    }
+
+    /// Keeps the lists of changes as short as the arrays, however many edits come before a refit or a plan.
+    pub(super) fn bound_changes(&mut self) {
+        let instances = self.placed.len();
+        let top_nodes = self.top.levels.nodes().len();
+        for pending in self.changes.all() {
+            pending.bound(instances, top_nodes);
+        }
     }
 
     /// The leaves of the given instances, the given nodes, and all nodes above them.
@@ -320,19 +196,6 @@ fn joined(mut indices: Vec<u32>) -> Vec<Range<u32>> {
             Some(last) if i < last.end => {}
             Some(last) if i == last.end => last.end += 1,
             _ => out.push(i..i + 1),
-        }
-    }
-    out
-}
-
-/// Ranges in order, those that touch made one.
-fn merged(mut ranges: Vec<Range<u32>>) -> Vec<Range<u32>> {
-    ranges.sort_unstable_by_key(|range| (range.start, range.end));
-    let mut out: Vec<Range<u32>> = Vec::with_capacity(ranges.len());
-    for range in ranges {
-        match out.last_mut() {
-            Some(last) if range.start <= last.end => last.end = last.end.max(range.end),
-            _ => out.push(range),
         }
     }
     out

@@ -133,6 +133,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                         let placed = self.placed.get(own.link(slot) as usize);
                         if !placed.is_some_and(|placed| placed.live && placed.created <= since) {
                             own.set_child(slot, kind::EMPTY, 0);
+                            self.changes.new.top_nodes.push(node);
                         }
                     }
                 }
@@ -221,7 +222,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             self.nodes[root.start as usize].relink(slot, child);
             self.parents[child as usize] = root.start;
         }
-        // Summaries as they are now, so that the scene may be sampled before its next refit.
+        // Summaries of what is new, so that as much as possible is right before the next refit.
         for node in new.clone().rev().chain([root.start]) {
             self.nodes[node as usize] = refit::top(&self.nodes, &self.instances, &self.roots, node);
         }

@@ -52,6 +52,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 extent: Extent::of(&[]),
                 cost: 0.0,
                 created: 0,
+                changed: 0,
             };
             if mesh != INVALID {
                 words.expect(mesh < header.meshes, "mesh of a bottom level")?;
@@ -121,6 +122,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 node: INVALID,
                 slot: 0,
                 created: 0,
+                changed: 0,
             };
             if placed.live {
                 let own = self.meshes.get(mesh as usize).filter(|own| own.live);

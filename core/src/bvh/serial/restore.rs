@@ -8,7 +8,7 @@ use super::header::Header;
 use super::read::taken;
 use crate::bvh::Bvh;
 use crate::bvh::apply::NO_INSTANCE;
-use crate::bvh::refit::Changes;
+use crate::bvh::changes::Changes;
 use crate::bvh::validate::Found;
 use crate::levels::Levels;
 use crate::node::{LightNode, kind};

@@ -1,0 +1,175 @@
+//! What changed since the last refit, and since the last plan.
+
+use alloc::collections::BTreeSet;
+use alloc::vec::Vec;
+use core::ops::Range;
+
+/// What changed, for whom: edits mark what is new; what a plan has taken is still to be refitted here, and what a refit has done is
+/// still to be told by a plan.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Changes {
+    /// Since the last plan or refit.
+    pub new: Pending,
+    /// Planned since the last refit.
+    pub unrefitted: Pending,
+    /// Refitted since the last plan, if there ever was one.
+    pub unplanned: Pending,
+    /// Whether anybody takes plans.
+    pub is_planned: bool,
+    /// Whether the last lists are those of all that a refit has to do.
+    pub is_fresh: bool,
+}
+
+impl Changes {
+    /// A bottom level is gone.
+    pub fn forget_blas(&mut self, index: u32) {
+        self.is_fresh = false;
+        for pending in self.all() {
+            pending.blases.remove(&index);
+            pending.built.remove(&index);
+        }
+    }
+
+    /// The nodes of the top level are others.
+    pub fn forget_top(&mut self) {
+        self.is_fresh = false;
+        for pending in self.all() {
+            pending.top_nodes.clear();
+        }
+    }
+
+    /// The bottom levels whose roots a refit here would compute; `None` where it has nothing to do.
+    pub fn pending_roots(&self) -> Option<Vec<u32>> {
+        if self.new.is_empty() && self.unrefitted.is_empty() {
+            return None;
+        }
+        let lists = [&self.new, &self.unrefitted];
+        let roots: BTreeSet<u32> = lists
+            .into_iter()
+            .flat_map(|pending| pending.blases.union(&pending.built).copied())
+            .collect();
+        Some(roots.into_iter().collect())
+    }
+
+    /// What is kept for anybody.
+    pub fn all(&mut self) -> [&mut Pending; 3] {
+        [&mut self.new, &mut self.unrefitted, &mut self.unplanned]
+    }
+}
+
+/// Changes of one kind of lists.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Pending {
+    /// Bottom levels whose triangles changed.
+    pub blases: BTreeSet<u32>,
+    /// Bottom levels that are new, their bounds known.
+    pub built: BTreeSet<u32>,
+    /// Indices of instances; may repeat.
+    pub instances: Vec<u32>,
+    /// Nodes of the top level that lost a child or were made anew; may repeat.
+    pub top_nodes: Vec<u32>,
+    /// Whether the whole top level is new.
+    pub whole_top: bool,
+    /// Whether all instances count as changed; they are in no list then.
+    pub all_instances: bool,
+    pub written_nodes: Vec<Range<u32>>,
+    pub written_triangles: Vec<Range<u32>>,
+    pub written_trails: Vec<Range<u32>>,
+    /// Indices of instances whose words changed; may repeat.
+    pub written_instances: Vec<u32>,
+    /// How many ranges were left when they were merged last.
+    merged: usize,
+}
+
+impl Pending {
+    /// The triangles of a bottom level changed.
+    pub fn mark_blas(&mut self, index: u32) {
+        self.blases.insert(index);
+    }
+
+    /// A bottom level was built, with the bounds of its triangles as they are.
+    pub fn mark_built(&mut self, index: u32) {
+        self.blases.remove(&index);
+        self.built.insert(index);
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.blases.is_empty()
+            && self.built.is_empty()
+            && self.instances.is_empty()
+            && self.top_nodes.is_empty()
+            && !self.whole_top
+            && !self.all_instances
+            && self.written_nodes.is_empty()
+            && self.written_triangles.is_empty()
+            && self.written_trails.is_empty()
+            && self.written_instances.is_empty()
+    }
+
+    /// Takes over what another list holds.
+    pub fn join(&mut self, other: Self) {
+        if self.is_empty() {
+            *self = other;
+            return;
+        }
+        self.blases.extend(other.blases);
+        self.built.extend(other.built);
+        self.instances.extend(other.instances);
+        self.top_nodes.extend(other.top_nodes);
+        self.whole_top |= other.whole_top;
+        self.all_instances |= other.all_instances;
+        self.written_nodes.extend(other.written_nodes);
+        self.written_triangles.extend(other.written_triangles);
+        self.written_trails.extend(other.written_trails);
+        self.written_instances.extend(other.written_instances);
+    }
+
+    /// Makes lists that have grown longer than the arrays of so many instances and nodes of the top level short again. It takes no
+    /// longer than the edits that made them long, together.
+    pub fn bound(&mut self, instances: usize, top_nodes: usize) {
+        if self.instances.len().max(self.written_instances.len()) > 2 * instances + 64 {
+            self.all_instances = true;
+        }
+        if self.all_instances {
+            self.instances.clear();
+            self.written_instances.clear();
+        }
+        if self.top_nodes.len() > 2 * top_nodes + 64 {
+            self.top_nodes.clear();
+            self.whole_top = true;
+        }
+        let ranges = self.written_nodes.len() + self.written_triangles.len() + self.written_trails.len();
+        if ranges > 2 * self.merged + 64 {
+            self.merged = 0;
+            for list in [
+                &mut self.written_nodes,
+                &mut self.written_triangles,
+                &mut self.written_trails,
+            ] {
+                *list = merged(core::mem::take(list));
+                self.merged += list.len();
+            }
+        }
+    }
+
+    pub fn mark_instance(&mut self, index: u32) {
+        self.instances.push(index);
+        self.written_instances.push(index);
+    }
+}
+
+/// Ranges in order, those that touch made one.
+fn merged(mut ranges: Vec<Range<u32>>) -> Vec<Range<u32>> {
+    ranges.sort_unstable_by_key(|range| (range.start, range.end));
+    let mut out: Vec<Range<u32>> = Vec::with_capacity(ranges.len());
+    for range in ranges {
+        match out.last_mut() {
+            Some(last) if range.start <= last.end => last.end = last.end.max(range.end),
+            _ => out.push(range),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests;

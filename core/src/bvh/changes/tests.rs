@@ -1,0 +1,211 @@
+//! What edits, plans and rebuilds in any order leave to be done: all that is needed, and no more than in proportion.
+
+extern crate std;
+
+use std::vec::Vec;
+
+use crate::bvh::{EditReason, InstanceId, Rebuild, RebuildParams};
+use crate::lights::MAX_LIGHTS;
+use crate::{Edit, EmissiveTriangle, LightBvh, Transform};
+
+fn lamp() -> EmissiveTriangle {
+    EmissiveTriangle {
+        p: [[0.0; 3], [0.5, 0.0, 0.0], [0.0, 0.0, 0.5]],
+        radiance: [1.0; 3],
+        mesh: 0,
+        flags: 0,
+    }
+}
+
+/// Lamps in a square, refitted, below a top level that was built.
+fn lamps(count: u32) -> (LightBvh, Vec<InstanceId>) {
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(std::vec![lamp()]).expect("a mesh");
+    let edits = (0..count).map(|i| Edit::AddInstance {
+        mesh,
+        transform: Transform::at([(i % 32) as f32, 0.0, (i / 32) as f32]),
+        radiance: 1.0,
+    });
+    let ids = bvh.apply(edits.collect()).expect("lamps").instances;
+    bvh.refit();
+    (bvh, ids)
+}
+
+fn up(instance: InstanceId, y: f32) -> Edit {
+    Edit::SetTransform {
+        instance,
+        transform: Transform::at([0.0, y, 0.0]),
+    }
+}
+
+#[test]
+fn an_older_rebuild_costs_what_changed_since() {
+    let (mut bvh, ids) = lamps(1000);
+    let rebuild: Rebuild<_, 8> = bvh.rebuild(&RebuildParams::default());
+    bvh.set_transform(ids[17], Transform::at([0.0, 9.0, 0.0]))
+        .expect("there");
+    bvh.set_radiance(ids[400], 0.5).expect("there");
+    bvh.refit();
+    bvh.remove_instance(ids[900]).expect("there");
+    bvh.install(rebuild.run()).expect("its own");
+    bvh.refit();
+    let depth = bvh.depth() as usize;
+    assert!(
+        (2..=3 * depth).contains(&bvh.work().top.nodes().len()),
+        "{} nodes",
+        bvh.work().top.nodes().len()
+    );
+    bvh.validate().expect("valid");
+}
+
+#[test]
+fn a_deformed_mesh_is_told_to_an_older_rebuild() {
+    let (mut bvh, _) = lamps(100);
+    let mesh = bvh.mesh_id(0).expect("there");
+    for refit_first in [true, false] {
+        let rebuild: Rebuild<_, 8> = bvh.rebuild(&RebuildParams::default());
+        let mut triangle = lamp();
+        triangle.p[1][0] = if refit_first { 3.0 } else { 4.0 };
+        bvh.set_triangles(mesh, std::vec![triangle]).expect("as many");
+        if refit_first {
+            bvh.refit();
+        }
+        bvh.install(rebuild.run()).expect("its own");
+        bvh.refit();
+        bvh.validate().expect("valid");
+    }
+}
+
+#[test]
+fn edits_without_end_before_a_refit_take_no_more_room_than_the_arrays() {
+    let (mut bvh, ids) = lamps(200);
+    let mesh = bvh.mesh_id(0).expect("there");
+    for round in 0..200 {
+        let y = round as f32;
+        bvh.apply(ids.iter().map(|&id| up(id, y)).collect())
+            .expect("moved");
+        bvh.set_triangles(mesh, std::vec![lamp()]).expect("as many");
+        let one = bvh.add_instance(mesh, Transform::IDENTITY).expect("one more");
+        bvh.remove_instance(one).expect("there");
+        bvh.take_removed_lights();
+        let new = &bvh.changes.new;
+        assert!(new.instances.len().max(new.written_instances.len()) <= 2 * 201 + 64);
+        assert!(new.written_nodes.len() + new.written_triangles.len() + new.written_trails.len() <= 600);
+    }
+    bvh.refit();
+    bvh.validate().expect("valid");
+    // The next edit costs as much as ever.
+    bvh.set_radiance(ids[3], 2.0).expect("there");
+    bvh.refit();
+    assert!(bvh.work().top.nodes().len() <= bvh.depth() as usize);
+    bvh.validate().expect("valid");
+}
+
+/// Whoever plans and never refits here, or the other way round, pays for what is new.
+#[test]
+fn what_only_one_side_does_stays_short() {
+    let (mut bvh, ids) = lamps(500);
+    let moved = |bvh: &mut LightBvh, y| {
+        let edits = ids.iter().map(|&id| up(id, y)).collect();
+        bvh.apply(edits).expect("moved");
+    };
+    for round in 0..100 {
+        moved(&mut bvh, round as f32);
+        assert_eq!(bvh.plan().written_instances.len(), 1);
+        assert!(bvh.changes.unrefitted.instances.len() <= 2 * 500 + 64);
+    }
+    bvh.refit();
+    bvh.validate().expect("valid");
+    for round in 0..100 {
+        moved(&mut bvh, 0.5 + round as f32);
+        bvh.refit();
+        assert!(bvh.changes.unplanned.instances.len() <= 2 * 500 + 64);
+    }
+    // One mirror takes all of it at once.
+    let told = bvh.plan();
+    assert_eq!(told.written_instances, [0..500]);
+    assert!(!told.top.nodes().is_empty());
+    bvh.refit();
+    bvh.validate().expect("valid");
+}
+
+#[test]
+fn a_copy_has_ids_and_rebuilds_of_its_own() {
+    let (mut bvh, ids) = lamps(20);
+    let mut copy = bvh.clone();
+    let error = copy.set_radiance(ids[3], 2.0).expect_err("not its own");
+    assert_eq!(error.reason, EditReason::UnknownInstance(ids[3]));
+    let own = copy.instance_id(ids[3].index()).expect("there");
+    copy.set_radiance(own, 2.0).expect("its own");
+    bvh.set_radiance(ids[4], 0.0).expect("its own");
+    copy.refit();
+    bvh.refit();
+    copy.install(bvh.rebuild(&RebuildParams::default()).run())
+        .expect_err("another's");
+    let (one, other) = (bvh.add_mesh(std::vec![lamp()]), copy.add_mesh(std::vec![lamp()]));
+    assert_ne!(one, other);
+    copy.refit();
+    copy.validate().expect("valid");
+}
+
+#[test]
+fn numbers_that_are_free_again_make_room() {
+    let (mut bvh, ids) = lamps(1);
+    let mesh = bvh.mesh_id(0).expect("there");
+    // As if a great mesh had been there: all numbers but one are free, and the end is at the limit.
+    let rest = MAX_LIGHTS as u32 - 1;
+    let (lights, triangles) = (bvh.lights.take(rest), bvh.triangle_ranges.take(rest));
+    bvh.add_instance(mesh, Transform::IDENTITY)
+        .expect_err("none is free");
+    assert_eq!(
+        bvh.add_mesh(std::vec![lamp()]).expect_err("none is free").reason,
+        EditReason::TooMany
+    );
+    bvh.lights.give(lights);
+    let two = || Edit::AddInstance {
+        mesh,
+        transform: Transform::IDENTITY,
+        radiance: 1.0,
+    };
+    bvh.apply(std::vec![two(), two()]).expect("room");
+    // Not done, for the array would be of that length.
+    bvh.triangle_ranges.give(triangles);
+    let mut edits = [Edit::AddMesh {
+        triangles: std::vec![lamp()],
+    }];
+    assert!(bvh.check(&mut edits).is_ok());
+    assert!(bvh.lights_of(ids[0]).is_some());
+}
+
+#[test]
+fn small_and_far_lights_are_in_the_world_what_they_are_in_their_mesh() {
+    let small = crate::exact::pow2(-90);
+    let light = EmissiveTriangle {
+        p: [[small, 0.0, 0.0], [0.0, small, 0.0], [0.0, 0.0, small]],
+        mesh: 0,
+        ..lamp()
+    };
+    let lights = crate::Lights::new(std::vec![light]).expect("in the domain");
+    let bvh = LightBvh::single_level(&lights, &crate::BuildParams::default());
+    assert_eq!(bvh.triangle(0, crate::INVALID).expect("there").p, light.p);
+
+    // Its reach is 2^40 m at most, which rounding must not pass.
+    let e = 385_757_540_000.0;
+    let far = EmissiveTriangle {
+        p: [[e; 3], [e, e, 0.0], [0.0, e, e]],
+        ..lamp()
+    };
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(std::vec![far]).expect("in the domain");
+    let transform = Transform {
+        columns: [
+            [0.944_021_64, 0.0, 0.0],
+            [0.849_532_4, 1.0, 0.0],
+            [0.885_961_65, 0.0, 1.0],
+        ],
+        translation: [65_868_220_000.0, 0.0, 0.0],
+    };
+    let instance = bvh.add_instance(mesh, transform).expect("within reach");
+    let world = bvh.triangle(0, instance.index()).expect("there");
+    world.checked().expect("in the domain");
+}
