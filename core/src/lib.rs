@@ -25,7 +25,7 @@
 //! | [`reservoir`] | resampling of light samples, over candidates and over other reservoirs (ReSTIR) |
 //! | `bvh`, `transform` (feature `alloc`) | the light BVH that owns its arrays: edits, instances, refit of what changed, rebuilds |
 //! | `lights`, `build`, `validate` (feature `alloc`) | lights that stand in the world, builders, invariants |
-//! | `rebuilder` (feature `std`) | rebuilds on a thread beside the frame |
+//! | `rebuilder` (feature `std`) | rebuilds on a thread beside the frame, or within it where there are no threads |
 //!
 #![cfg_attr(
     feature = "std",
