@@ -18,7 +18,7 @@
 //! | [`LightBvh`], [`Bvh`] | the light BVH that owns its arrays: edits, refit of what changed, samples and their probabilities |
 //! | [`EmissiveTriangle`], [`Lights`], [`Transform`] | lights, and where their meshes stand |
 //! | [`ShadingPoint`], [`Random64`], [`SampledLight`], [`LightPoint`] | what is lit, the number that chooses, the light chosen, a point on it |
-//! | [`Rebuilder`] | rebuilds on a thread beside the frame |
+//! | [`Rebuilder`] | rebuilds on a thread beside the frame, or within it where there are no threads |
 //! | [`bvh`], [`build`] | edits, ids, plans and rebuilds; builders |
 //! | [`importance`], [`node`] | what children are chosen by, and what nodes store of them |
 //! | [`LightTree`], [`refit`], [`exact`] | arrays, passes and arithmetic, the same on devices |

@@ -7,7 +7,6 @@ use lightbvh::{Bvh, EmissiveTriangle, Instance, LightTree};
 
 /// An array of a light BVH that a device holds in a storage buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[non_exhaustive]
 pub enum Buffer {
     /// The nodes of both levels. A refit writes them.
     Nodes,

@@ -10,8 +10,6 @@ mod device;
 mod dispatch;
 mod float_environment;
 mod float_modes;
-#[cfg(all(test, feature = "kernels"))]
-mod format_tests;
 mod frame;
 mod kernel;
 mod refit;

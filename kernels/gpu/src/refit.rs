@@ -7,7 +7,6 @@ use lightbvh::levels::Levels;
 
 /// What a dispatch of a refit computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
 pub enum Pass {
     /// Nodes of bottom levels.
     Bottom,

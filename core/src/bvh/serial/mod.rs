@@ -7,6 +7,7 @@
 
 mod error;
 mod header;
+mod places;
 mod read;
 mod restore;
 #[cfg(test)]
@@ -40,8 +41,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// It is another BVH, so it has ids of its own: [`mesh_id`](Self::mesh_id) and [`instance_id`](Self::instance_id) give them by
     /// the indices, which stay. What was planned for a mirror is not written: one takes all arrays over.
     ///
-    /// The words may be anything. Reading takes time in proportion to them, but for sorting, and memory of at most 1 KiB for each; then
-    /// every invariant is checked, by [`validate`](Self::validate).
+    /// The words may be anything. Reading takes time in proportion to them, but for sorting, and for each no more memory than a node
+    /// and an instance take; then every invariant is checked by [`validate`](Self::validate), which takes as much again.
     ///
     /// # Errors
     /// [`ReadError`], which says which word is wrong or what of the tree does not hold.

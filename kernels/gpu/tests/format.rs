@@ -1,18 +1,16 @@
 //! `docs/format.md` against the types that it describes.
 
-extern crate std;
+#![cfg(feature = "kernels")]
 
-use alloc::vec::Vec;
-use core::mem::offset_of;
-use core::ops::Range;
+use std::mem::offset_of;
+use std::ops::Range;
 
 use lightbvh::refit::BlasRoot;
 use lightbvh::{
     CompactNode, EmissiveTriangle, FullMomentNode, FullNode, Instance, LeanMomentNode, LightBvh, MomentNode,
     SampledLight,
 };
-
-use crate::{Access, Buffer, KERNELS};
+use lightbvh_gpu::{Access, Buffer, KERNELS};
 
 const PAGE: &str = include_str!("../../../docs/format.md");
 
@@ -67,7 +65,7 @@ fn layouts_have_their_words() {
         assert_eq!(range(row[2]).start * 4, bytes, "{name}");
         assert_eq!(range(row[1]).start * 4 * width, bytes, "{name}");
         let (layout, _) = name.split_once('<').expect("a width");
-        let heading = std::format!("\n### `{layout}`\n");
+        let heading = format!("\n### `{layout}`\n");
         assert_eq!(length(&heading) * 4 * width, bytes, "{name}");
     }
 }
@@ -77,7 +75,7 @@ fn layouts_have_their_words() {
 fn bits_of_a_row_are_told_once() {
     for layout in ["MomentNode", "LeanMomentNode", "CompactNode"] {
         let mut end: Option<(usize, usize)> = None;
-        for row in table(&std::format!("\n### `{layout}`\n")) {
+        for row in table(&format!("\n### `{layout}`\n")) {
             let at = range(row[0]).start;
             let is_bits = row[1].starts_with(|c: char| c.is_ascii_digit());
             if !is_bits {
@@ -97,7 +95,7 @@ fn bits_of_a_row_are_told_once() {
 
 /// Words of a record, and where each of its fields begins.
 fn record(name: &str, bytes: usize, fields: &[(&str, usize)]) {
-    let heading = std::format!("\n### {name}\n");
+    let heading = format!("\n### {name}\n");
     assert_eq!(length(&heading) * 4, bytes, "{name}");
     let rows = table(&heading);
     for &(field, offset) in fields {
@@ -167,7 +165,7 @@ fn buffers_have_their_strides_readers_and_writers() {
                 ("nodes", true) => strides.split_once("`_eq4` ").expect("a second one").1,
                 ("nodes", false) => strides.split_once(',').expect("a first one").0,
                 ("results", _) => {
-                    let own = std::format!("`{name}` ");
+                    let own = format!("`{name}` ");
                     let after = strides.split_once(&*own).expect("its results").1;
                     after.split(',').next().unwrap_or(after)
                 }
@@ -212,6 +210,6 @@ fn files_begin_with_their_header() {
         .iter()
         .zip([lightbvh::node::NODE_FORMAT, lightbvh::bvh::FORMAT])
     {
-        assert!(PAGE.contains(&*std::format!("{text}{version},")), "{text}");
+        assert!(PAGE.contains(&*format!("{text}{version},")), "{text}");
     }
 }
