@@ -12,6 +12,7 @@ mod float_environment;
 mod float_modes;
 mod frame;
 mod kernel;
+mod query;
 mod refit;
 #[cfg(feature = "kernels")]
 mod set;
@@ -27,6 +28,7 @@ pub use float_environment::FloatEnvironment;
 pub use float_modes::{FloatControls, with_float_modes};
 pub use frame::{Copy, Frame, Mirror};
 pub use kernel::{Access, Binding, Kernel};
+pub use query::{Query, query_push};
 pub use refit::{Dispatch, Pass, Refit};
 #[cfg(feature = "kernels")]
 pub use set::{EQ4, KernelSet, MOMENTS};
