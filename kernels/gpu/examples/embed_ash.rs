@@ -53,9 +53,9 @@ impl DeviceLights {
                 .collect::<Result<_>>()?,
             refits: passes
                 .into_iter()
-                .map(|pass| Ok((pass, Pipeline::of(gpu, MOMENTS.refit(pass))?)))
+                .map(|pass| Ok((pass, kernel(gpu, MOMENTS.refit(pass))?)))
                 .collect::<Result<_>>()?,
-            sample: Pipeline::of(gpu, MOMENTS.sample)?,
+            sample: kernel(gpu, MOMENTS.sample)?,
         })
     }
 
@@ -142,6 +142,13 @@ impl DeviceLights {
         let found = self.refits.iter().find(|(pass, _)| *pass == wanted);
         &found.expect("there is one for each pass").1
     }
+}
+
+/// A pipeline of a kernel: all that Vulkan wants to know stands beside its module.
+fn kernel(gpu: &Rc<Gpu>, kernel: &lightbvh_gpu::Kernel) -> Result<Pipeline> {
+    let names = kernel.bindings.iter().map(|binding| binding.name);
+    let (push, width) = (kernel.push_constants, kernel.workgroup[0]);
+    Pipeline::new(gpu, &kernel.words(), kernel.name, names, push, width)
 }
 
 /// Runs all frames on one device. Returns how many words were compared.

@@ -24,20 +24,7 @@ pub struct Pipeline {
 }
 
 impl Pipeline {
-    /// A kernel of lightbvh.
-    pub fn of(gpu: &Rc<Gpu>, kernel: &lightbvh_gpu::Kernel) -> Result<Self> {
-        let names = kernel.bindings.iter().map(|binding| binding.name);
-        Self::new(
-            gpu,
-            &kernel.words(),
-            kernel.name,
-            names,
-            kernel.push_constants,
-            kernel.workgroup[0],
-        )
-    }
-
-    /// Any module. Binding k is the storage buffer that the k-th of `names` means.
+    /// A pipeline of a module of SPIR-V. Binding k is the storage buffer that the k-th of `names` means.
     pub fn new<'a>(
         gpu: &Rc<Gpu>,
         words: &[u32],
