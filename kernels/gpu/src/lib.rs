@@ -12,6 +12,7 @@ mod float_environment;
 mod float_modes;
 mod frame;
 mod kernel;
+mod memory_model;
 mod query;
 mod refit;
 #[cfg(feature = "kernels")]
@@ -28,6 +29,7 @@ pub use float_environment::FloatEnvironment;
 pub use float_modes::{FloatControls, with_float_modes};
 pub use frame::{Copy, Frame, Mirror};
 pub use kernel::{Access, Binding, Kernel};
+pub use memory_model::without_vulkan_memory_model;
 pub use query::{Query, query_push};
 pub use refit::{Dispatch, Pass, Refit};
 #[cfg(feature = "kernels")]
