@@ -100,6 +100,28 @@ fn c_prints_the_words_of_rust() {
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
+/// Where there is a C++ compiler, it takes the header too.
+#[test]
+fn the_header_is_also_cpp() {
+    if Command::new("c++").arg("--version").output().is_err() {
+        println!("skipped: no C++ compiler");
+        return;
+    }
+    let header = Path::new(env!("CARGO_MANIFEST_DIR")).join("include/lightbvh.h");
+    run(Command::new("c++")
+        .args([
+            "-fsyntax-only",
+            "-Wall",
+            "-Wextra",
+            "-Werror",
+            "-x",
+            "c++",
+            "-include",
+        ])
+        .arg(header)
+        .arg("/dev/null"));
+}
+
 /// Every function of the header is in the library, and the other way round.
 #[test]
 fn header_and_library_have_the_same_functions() {
