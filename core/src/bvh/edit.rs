@@ -44,9 +44,43 @@ impl MeshId {
     pub fn index(self) -> u32 {
         self.index
     }
+
+    /// The id as words, for another language. They mean something to this light BVH alone, as long as the program runs.
+    #[must_use]
+    pub const fn to_bits(self) -> [u32; 3] {
+        [self.tree, self.index, self.generation]
+    }
+
+    /// The id that [`to_bits`](Self::to_bits) made words of. Any words give an id; one that no light BVH has given is
+    /// refused wherever it is used, as the id of a removed mesh is.
+    #[must_use]
+    pub const fn from_bits([tree, index, generation]: [u32; 3]) -> Self {
+        Self {
+            tree,
+            index,
+            generation,
+        }
+    }
 }
 
 impl InstanceId {
+    /// The id as words, for another language. They mean something to this light BVH alone, as long as the program runs.
+    #[must_use]
+    pub const fn to_bits(self) -> [u32; 3] {
+        [self.tree, self.index, self.generation]
+    }
+
+    /// The id that [`to_bits`](Self::to_bits) made words of. Any words give an id; one that no light BVH has given is
+    /// refused wherever it is used, as the id of a removed instance is.
+    #[must_use]
+    pub const fn from_bits([tree, index, generation]: [u32; 3]) -> Self {
+        Self {
+            tree,
+            index,
+            generation,
+        }
+    }
+
     /// Index of the instance among [`Bvh::instances`](super::Bvh::instances), and of the mesh light that its triangles
     /// belong to.
     #[must_use]
@@ -197,3 +231,56 @@ impl fmt::Display for EditReason {
 }
 
 impl core::error::Error for EditError {}
+
+#[cfg(test)]
+mod tests {
+    use alloc::vec;
+
+    use super::*;
+    use crate::LightBvh;
+
+    fn scene() -> (LightBvh, MeshId, InstanceId) {
+        let lamp = EmissiveTriangle {
+            p: [[0.0, 3.0, 0.0], [1.0, 3.0, 0.0], [0.0, 3.0, 1.0]],
+            radiance: [1.0; 3],
+            mesh: 0,
+            flags: 0,
+        };
+        let mut bvh = LightBvh::default();
+        let mesh = bvh.add_mesh(vec![lamp]).unwrap();
+        let instance = bvh.add_instance(mesh, Transform::IDENTITY).unwrap();
+        (bvh, mesh, instance)
+    }
+
+    #[test]
+    fn ids_survive_as_words() {
+        let (mut bvh, mesh, instance) = scene();
+        assert_eq!(MeshId::from_bits(mesh.to_bits()), mesh);
+        assert_eq!(InstanceId::from_bits(instance.to_bits()), instance);
+        bvh.set_radiance(InstanceId::from_bits(instance.to_bits()), 2.0)
+            .unwrap();
+        for bits in [[1, 2, 3], [u32::MAX, 0, 7]] {
+            assert_eq!(MeshId::from_bits(bits).to_bits(), bits);
+            assert_eq!(InstanceId::from_bits(bits).to_bits(), bits);
+        }
+    }
+
+    #[test]
+    fn words_of_no_id_are_refused() {
+        let (mut bvh, mesh, instance) = scene();
+        for word in 0..3 {
+            for wrong in [1, u32::MAX] {
+                let mut bits = instance.to_bits();
+                bits[word] ^= wrong;
+                let id = InstanceId::from_bits(bits);
+                let error = bvh.set_radiance(id, 2.0).unwrap_err();
+                assert_eq!(error.reason, EditReason::UnknownInstance(id));
+                let mut bits = mesh.to_bits();
+                bits[word] ^= wrong;
+                let id = MeshId::from_bits(bits);
+                let error = bvh.add_instance(id, Transform::IDENTITY).unwrap_err();
+                assert_eq!(error.reason, EditReason::UnknownMesh(id));
+            }
+        }
+    }
+}

@@ -1,4 +1,4 @@
-//! Runs rust-gpu on the kernels. Only with the features `prebuilt-backend` or `upstream`.
+//! Runs rust-gpu on the kernels, or on any crate of kernels. Only with the features `prebuilt-backend` or `upstream`.
 
 use crate::decorate::decorate;
 use crate::files::{self, FileError};
@@ -16,15 +16,12 @@ use std::process::Command;
 /// Vulkan 1.2 with SPIR-V 1.5: the widest that has the Vulkan memory model in its core.
 const TARGET: &str = "spirv-unknown-vulkan1.2";
 
-/// What the compiler makes, below the repository's root.
+/// What the compiler makes, below the root of the repository or of another crate.
 const TARGET_DIR: &str = "target/kernels";
 
-/// In there: all kernels as one module that has its names still. Relative to the repository's root, where Cargo runs the
+/// In there: all kernels as one module that has its names still. For lightbvh relative to the repository's root, where Cargo runs the
 /// compiler, so that the compiler's options and with them its cache do not depend on where the checkout is.
 const NAMED: &str = "target/kernels/named";
-
-/// The module in there.
-const NAMED_FILE: &str = "lightbvh_kernels.spv";
 
 /// The version of spirv-builder, which `Cargo.toml` pins, and with it of the backend.
 const BACKEND: &str = "rustc_codegen_spirv 0.11.0";
@@ -49,6 +46,9 @@ pub enum CompileError {
     /// The compiler gave one module for all entry points.
     #[error("rust-gpu gave one module where one per entry point was asked for")]
     SingleModule,
+    /// The crate has nothing to compile.
+    #[error("the crate has no entry point: no function with #[spirv(compute(..))]")]
+    NoEntryPoint,
     /// A module that cannot be parsed.
     #[error("{file}: {source}")]
     Unreadable {
@@ -90,43 +90,31 @@ struct Prebuilt {
     toolchain: String,
 }
 
+/// Modules by the names of their files, and where the compiler left what they were made of.
+struct Compiled {
+    modules: Vec<(ModuleRecord, Vec<u32>)>,
+    raw: PathBuf,
+}
+
 /// Compiles, decorates and verifies every entry point of the repository at `root`.
 ///
 /// # Errors
 /// What the compiler, the verifier or the file system said.
 pub fn compile(root: &Path) -> Result<Built, CompileError> {
-    // Cargo names files by their resolved paths, and they are compared with this one.
-    let root = &root
-        .canonicalize()
-        .map_err(|source| FileError::new("resolve", root, source))?;
+    let root = &resolved(root)?;
     let prebuilt = prebuilt()?;
     let compiler = compiler(prebuilt.as_ref())?;
-    let named = root.join(NAMED);
-    std::fs::create_dir_all(&named).map_err(|source| FileError::new("create", &named, source))?;
-    let result = run(root, prebuilt)?;
-    let ModuleResult::MultiModule(raw) = result.module else {
-        return Err(CompileError::SingleModule);
-    };
-    let mut names = names(&named)?;
-    let mut modules = Vec::new();
-    let mut records = Vec::new();
-    for (entry_point, path) in &raw {
-        let file = format!("{entry_point}.spv");
-        let words = files::words(&files::read(path)?).ok_or_else(|| ManifestError::Module {
-            file: file.clone(),
-            what: "not whole words",
-        })?;
-        let words = decorate(&words).map_err(|source| CompileError::Unreadable {
-            file: file.clone(),
-            source,
-        })?;
-        verify(&file, &words)?;
-        let buffers = names.remove(entry_point).unwrap_or_default();
-        records.push(ModuleRecord::new(file.clone(), &words, buffers));
-        modules.push((file, words));
-    }
-    let any = raw.values().next().ok_or(CompileError::SingleModule)?;
-    let source_files = source_files(root, any)?;
+    let compiled = modules(
+        prebuilt,
+        &root.join("kernels"),
+        &root.join(TARGET_DIR),
+        root,
+        NAMED,
+    )?;
+    let source_files = source_files(root, &compiled.raw)?;
+    let (records, modules) = (compiled.modules.into_iter())
+        .map(|(record, words)| (record.clone(), (record.file, words)))
+        .unzip();
     let manifest = Manifest {
         format: FORMAT,
         source_sha256: sources::hash(root, &source_files)?,
@@ -139,6 +127,67 @@ pub fn compile(root: &Path) -> Result<Built, CompileError> {
     Ok(Built { manifest, modules })
 }
 
+/// Compiles, decorates and verifies every entry point of the crate in the folder `path`, as those of lightbvh are, and writes
+/// the modules into the folder `out`. What the compiler makes stays in `target/kernels` of the crate.
+///
+/// # Errors
+/// As [`compile`]; nothing is written then.
+pub fn compile_crate(path: &Path, out: &Path) -> Result<Vec<(ModuleRecord, Vec<u32>)>, CompileError> {
+    let path = resolved(path)?;
+    let target = path.join(TARGET_DIR);
+    let named = path.join(NAMED);
+    let compiled = modules(prebuilt()?, &path, &target, &path, &named.to_string_lossy())?;
+    std::fs::create_dir_all(out).map_err(|source| FileError::new("create", out, source))?;
+    for (record, words) in &compiled.modules {
+        files::replace(&out.join(&record.file), &files::bytes(words))?;
+    }
+    Ok(compiled.modules)
+}
+
+/// Cargo names files by their resolved paths, and they are compared with this one.
+fn resolved(path: &Path) -> Result<PathBuf, FileError> {
+    path.canonicalize()
+        .map_err(|source| FileError::new("resolve", path, source))
+}
+
+/// The finished modules of the crate in the folder `kernels`, sorted by name. `named` is where the compiler leaves its names,
+/// which is below `root`.
+fn modules(
+    prebuilt: Option<Prebuilt>,
+    kernels: &Path,
+    target: &Path,
+    root: &Path,
+    named: &str,
+) -> Result<Compiled, CompileError> {
+    let directory = root.join(named);
+    std::fs::create_dir_all(&directory).map_err(|source| FileError::new("create", &directory, source))?;
+    let result = run(kernels, target, named, prebuilt)?;
+    let ModuleResult::MultiModule(raw) = result.module else {
+        return Err(CompileError::SingleModule);
+    };
+    let any = raw.values().next().ok_or(CompileError::NoEntryPoint)?;
+    // .../NAME.spvs/ENTRY.spv
+    let crate_name = any.parent().and_then(Path::file_stem).unwrap_or_default();
+    let mut names = names(&directory.join(crate_name).with_extension("spv"))?;
+    let mut modules = Vec::new();
+    for (entry_point, path) in &raw {
+        let file = format!("{entry_point}.spv");
+        let words = files::words(&files::read(path)?).ok_or_else(|| ManifestError::Module {
+            file: file.clone(),
+            what: "not whole words",
+        })?;
+        let words = decorate(&words).map_err(|source| CompileError::Unreadable {
+            file: file.clone(),
+            source,
+        })?;
+        verify(&file, &words)?;
+        let buffers = names.remove(entry_point).unwrap_or_default();
+        modules.push((ModuleRecord::new(file, &words, buffers), words));
+    }
+    let raw = any.clone();
+    Ok(Compiled { modules, raw })
+}
+
 /// Writes what [`compile`] made below `kernels/gpu/spirv`.
 ///
 /// # Errors
@@ -147,8 +196,13 @@ pub fn install(root: &Path, built: &Built) -> Result<(), CompileError> {
     Ok(manifest::write(root, &built.manifest, &built.modules)?)
 }
 
-fn run(root: &Path, prebuilt: Option<Prebuilt>) -> Result<CompileResult, CompileError> {
-    let mut builder = SpirvBuilder::new(root.join("kernels"), TARGET);
+fn run(
+    kernels: &Path,
+    target: &Path,
+    named: &str,
+    prebuilt: Option<Prebuilt>,
+) -> Result<CompileResult, CompileError> {
+    let mut builder = SpirvBuilder::new(kernels, TARGET);
     if let Some(Prebuilt { library, toolchain }) = prebuilt {
         builder.rustc_codegen_spirv_location = Some(library.into());
         builder.toolchain_overwrite = Some(toolchain);
@@ -159,15 +213,14 @@ fn run(root: &Path, prebuilt: Option<Prebuilt>) -> Result<CompileResult, Compile
     builder.capabilities.push(Capability::SignedZeroInfNanPreserve);
     // An unused parameter keeps its binding: bindings are numbered by parameter order.
     builder.optimizer.preserve_bindings = true;
-    builder.target_dir_path = Some(root.join(TARGET_DIR));
-    builder.extra_args.push(format!("--dump-pre-inline={NAMED}"));
+    builder.target_dir_path = Some(target.to_owned());
+    builder.extra_args.push(format!("--dump-pre-inline={named}"));
     Ok(builder.build()?)
 }
 
-/// The names of buffers by entry point, from what the compiler left in `directory`.
-fn names(directory: &Path) -> Result<BTreeMap<String, Vec<String>>, CompileError> {
-    let file = directory.join(NAMED_FILE);
-    let words = files::words(&files::read(&file)?).unwrap_or_default();
+/// The names of buffers by entry point, from what the compiler left in `file`.
+fn names(file: &Path) -> Result<BTreeMap<String, Vec<String>>, CompileError> {
+    let words = files::words(&files::read(file)?).unwrap_or_default();
     buffer_names(&words).map_err(|source| CompileError::Unreadable {
         file: file.display().to_string(),
         source,

@@ -1,6 +1,7 @@
-//! `build-kernels`: compiles every entry point of `kernels` to `kernels/gpu/spirv/*.spv`, writes the manifest and the table.
+//! `build-kernels`: compiles every entry point of `kernels` to `kernels/gpu/spirv/*.spv`, writes the manifest and the table; or
+//! those of another crate, to modules under the same rules.
 
-use lightbvh_kernels_builder::compile::{Built, compile, install};
+use lightbvh_kernels_builder::compile::{Built, compile, compile_crate, install};
 use lightbvh_kernels_builder::files;
 use lightbvh_kernels_builder::manifest::{self, DIRECTORY, ManifestError, ModuleRecord};
 use std::path::{Path, PathBuf};
@@ -11,38 +12,32 @@ Compiles the kernels to kernels/gpu/spirv/*.spv, decorates and verifies them, an
 and the table of kernels, kernels/gpu/src/table.rs.
 
 Usage: build-kernels [--check]
+       build-kernels --crate PATH --out DIR
 
-  --check   write nothing; fail when the committed modules are not what the sources give
+  --check       write nothing; fail when the committed modules are not what the sources give
+  --crate PATH  compile the entry points of the crate in the folder PATH instead, under the same rules
+  --out DIR     where its modules go, one file ENTRY_POINT.spv for each
 
-The current directory must be inside the repository. See kernels/README.md for the compiler it needs.";
+Without --crate the current directory must be inside the repository. See kernels/README.md for the compiler it needs.";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let check = match arguments
-        .iter()
-        .map(String::as_str)
-        .collect::<Vec<_>>()
-        .as_slice()
-    {
-        [] => false,
-        ["--check"] => true,
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let done = match words.as_slice() {
+        [] => kernels(false),
+        ["--check"] => kernels(true),
+        ["--crate", path, "--out", out] | ["--out", out, "--crate", path] => {
+            another(Path::new(path), Path::new(out))
+        }
         ["--help" | "-h"] => {
             println!("{USAGE}");
-            return ExitCode::SUCCESS;
+            Ok(())
         }
         _ => {
             eprintln!("build-kernels: unknown arguments {arguments:?}\n\n{USAGE}");
             return ExitCode::from(2);
         }
     };
-    let done = repository().and_then(|root| {
-        let built = compile(&root).map_err(|error| error.to_string())?;
-        if check {
-            compare(&root, &built)
-        } else {
-            write(&root, &built)
-        }
-    });
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
@@ -50,6 +45,34 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Builds lightbvh's own kernels.
+fn kernels(check: bool) -> Result<(), String> {
+    let root = repository()?;
+    let built = compile(&root).map_err(|error| error.to_string())?;
+    if check {
+        compare(&root, &built)
+    } else {
+        write(&root, &built)
+    }
+}
+
+/// Builds another crate's kernels, and says what they take.
+fn another(path: &Path, out: &Path) -> Result<(), String> {
+    let modules = compile_crate(path, out).map_err(|error| error.to_string())?;
+    for (record, words) in &modules {
+        println!("{}", describe(record, words).map_err(|error| error.to_string())?);
+        let interface = record.interface(words).map_err(|error| error.to_string())?;
+        for (binding, (name, buffer)) in interface.buffers.iter().enumerate() {
+            println!(
+                "  binding {binding}: {name}, {:?}, {} bytes an element",
+                buffer.access, buffer.stride
+            );
+        }
+        validate(&out.join(&record.file))?;
+    }
+    Ok(())
 }
 
 /// The directory above the current one that holds the kernels.

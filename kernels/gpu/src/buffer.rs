@@ -79,8 +79,8 @@ impl Buffer {
 /// Number of [`tree_words`].
 pub const TREE_WORDS: usize = 5;
 
-/// What the kernels take of a tree besides its buffers: the push constants of `sample` and `pmf` are the number of queries and
-/// these words. They may change with every edit.
+/// What the kernels take of a tree besides its buffers; [`query_push`](crate::query_push) makes push constants of them. They may
+/// change with every edit.
 #[must_use]
 pub fn tree_words<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>) -> [u32; TREE_WORDS] {
     [tree.root, tree.trail_words, tree.live, tree.lights, tree.depth]

@@ -1,5 +1,7 @@
 //! What a device must have to run the kernels.
 
+pub use crate::memory_model::without_vulkan_memory_model;
+
 /// Major and minor version of Vulkan: the modules are SPIR-V 1.5.
 pub const VULKAN: (u32, u32) = (1, 2);
 

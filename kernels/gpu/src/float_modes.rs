@@ -4,6 +4,8 @@
 //! NaNs do not matter; `RoundingModeRTE 32` pins round-to-nearest-even. Both are legal only where the device reports
 //! them (Vulkan specification, "Validation Rules within a Module"), so they cannot be in the stored module.
 
+pub use crate::float_environment::FloatEnvironment;
+
 use alloc::vec::Vec;
 
 use crate::spirv::ModuleError;

@@ -1,5 +1,7 @@
 //! A compiled kernel and what it takes.
 
+pub use crate::dispatch::{ROW_GROUPS, groups};
+
 use alloc::vec::Vec;
 
 use crate::dispatch::groups;

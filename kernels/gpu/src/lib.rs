@@ -6,29 +6,41 @@
 extern crate alloc;
 
 mod buffer;
-mod device;
+pub mod device;
 mod dispatch;
 mod float_environment;
-mod float_modes;
+pub mod float_modes;
 mod frame;
-mod kernel;
+pub mod kernel;
+mod memory_model;
+mod query;
 mod refit;
 #[cfg(feature = "kernels")]
 mod set;
+// For the kernels' builder and the host.
+#[doc(hidden)]
 pub mod spirv;
 #[cfg(feature = "kernels")]
+#[doc(hidden)]
 #[rustfmt::skip]
 pub mod table;
 
-pub use buffer::{Buffer, TREE_WORDS, tree_words};
-pub use device::{PUSH_CONSTANTS, REQUIRED_FEATURES, STORAGE_BUFFERS, VULKAN};
-pub use dispatch::{ROW_GROUPS, groups};
-pub use float_environment::FloatEnvironment;
-pub use float_modes::{FloatControls, with_float_modes};
+pub use buffer::{Buffer, tree_words};
 pub use frame::{Copy, Frame, Mirror};
-pub use kernel::{Access, Binding, Kernel};
+pub use query::{Query, query_push};
 pub use refit::{Dispatch, Pass, Refit};
 #[cfg(feature = "kernels")]
 pub use set::{EQ4, KernelSet, MOMENTS};
 #[cfg(feature = "kernels")]
+#[doc(inline)]
 pub use table::{KERNELS, LIGHT_POINTS};
+
+// Short paths to what is documented in a module.
+#[doc(hidden)]
+pub use buffer::TREE_WORDS;
+#[doc(hidden)]
+pub use device::{PUSH_CONSTANTS, REQUIRED_FEATURES, STORAGE_BUFFERS, VULKAN, without_vulkan_memory_model};
+#[doc(hidden)]
+pub use float_modes::{FloatControls, FloatEnvironment, with_float_modes};
+#[doc(hidden)]
+pub use kernel::{Access, Binding, Kernel, ROW_GROUPS, groups};

@@ -1,0 +1,196 @@
+//! Functions that change a light BVH.
+
+use lightbvh::bvh::{EditError, RebuildParams};
+use lightbvh::{Edit, EmissiveTriangle, Transform};
+
+use crate::error::{Fault, Status};
+use crate::handle::Handle;
+use crate::ids::{CInstance, CMesh};
+use crate::raw;
+
+/// `lightbvh_transform`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct CTransform {
+    columns: [[f32; 3]; 3],
+    translation: [f32; 3],
+}
+
+impl From<CTransform> for Transform {
+    fn from(c: CTransform) -> Self {
+        Self {
+            columns: c.columns,
+            translation: c.translation,
+        }
+    }
+}
+
+/// C has no batches, so the number of the edit says nothing.
+fn refused(error: EditError) -> Fault {
+    Fault::new(Status::Refused, error.reason)
+}
+
+/// A new mesh.
+///
+/// # Safety
+/// The pointers are null or as `lightbvh.h` says: `bvh` is a light BVH that nobody else uses meanwhile, `triangles` points to
+/// `count` of them, `mesh` to memory of one. The same holds for the functions below.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_add_mesh(
+    bvh: *mut Handle,
+    triangles: *const EmissiveTriangle,
+    count: usize,
+    mesh: *mut CMesh,
+) -> Status {
+    // SAFETY: the caller's promise, here and below.
+    unsafe {
+        Handle::change(bvh, |bvh| {
+            let triangles = raw::array(triangles, count, "triangles")?;
+            let mesh = raw::place(mesh, "mesh")?;
+            mesh.write(bvh.add_mesh(triangles.to_vec()).map_err(refused)?.into());
+            Ok(())
+        })
+    }
+}
+
+/// A mesh put into the world.
+///
+/// # Safety
+/// As [`lightbvh_add_mesh`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_add_instance(
+    bvh: *mut Handle,
+    mesh: CMesh,
+    transform: *const CTransform,
+    radiance: f32,
+    instance: *mut CInstance,
+) -> Status {
+    // SAFETY: the caller's promise, here and below.
+    unsafe {
+        Handle::change(bvh, |bvh| {
+            let transform = *raw::shared(transform, "transform")?;
+            let instance = raw::place(instance, "instance")?;
+            let add = Edit::AddInstance {
+                mesh: mesh.id()?,
+                transform: transform.into(),
+                radiance,
+            };
+            let added = bvh.apply(vec![add]).map_err(refused)?;
+            instance.write(added.instances[0].into());
+            Ok(())
+        })
+    }
+}
+
+/// An instance moved.
+///
+/// # Safety
+/// As [`lightbvh_add_mesh`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_set_transform(
+    bvh: *mut Handle,
+    instance: CInstance,
+    transform: *const CTransform,
+) -> Status {
+    // SAFETY: the caller's promise, here and below.
+    unsafe {
+        Handle::change(bvh, |bvh| {
+            let transform = *raw::shared(transform, "transform")?;
+            bvh.set_transform(instance.id()?, transform.into())
+                .map_err(refused)
+        })
+    }
+}
+
+/// An instance made brighter, dimmed, or turned off.
+///
+/// # Safety
+/// As [`lightbvh_add_mesh`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_set_radiance(
+    bvh: *mut Handle,
+    instance: CInstance,
+    radiance: f32,
+) -> Status {
+    // SAFETY: the caller's promise.
+    unsafe {
+        Handle::change(bvh, |bvh| {
+            bvh.set_radiance(instance.id()?, radiance).map_err(refused)
+        })
+    }
+}
+
+/// New triangles of a mesh.
+///
+/// # Safety
+/// As [`lightbvh_add_mesh`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_set_triangles(
+    bvh: *mut Handle,
+    mesh: CMesh,
+    triangles: *const EmissiveTriangle,
+    count: usize,
+) -> Status {
+    // SAFETY: the caller's promise, here and below.
+    unsafe {
+        Handle::change(bvh, |bvh| {
+            let triangles = raw::array(triangles, count, "triangles")?;
+            bvh.set_triangles(mesh.id()?, triangles.to_vec()).map_err(refused)
+        })
+    }
+}
+
+/// An instance taken out of the world.
+///
+/// # Safety
+/// As [`lightbvh_add_mesh`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_remove_instance(bvh: *mut Handle, instance: CInstance) -> Status {
+    // SAFETY: the caller's promise.
+    unsafe { Handle::change(bvh, |bvh| bvh.remove_instance(instance.id()?).map_err(refused)) }
+}
+
+/// A mesh without instances removed.
+///
+/// # Safety
+/// As [`lightbvh_add_mesh`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_remove_mesh(bvh: *mut Handle, mesh: CMesh) -> Status {
+    // SAFETY: the caller's promise.
+    unsafe { Handle::change(bvh, |bvh| bvh.remove_mesh(mesh.id()?).map_err(refused)) }
+}
+
+/// Computes the nodes that edits touched.
+///
+/// # Safety
+/// As [`lightbvh_add_mesh`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_refit(bvh: *mut Handle) -> Status {
+    // SAFETY: the caller's promise.
+    unsafe {
+        Handle::change(bvh, |bvh| {
+            bvh.refit();
+            Ok(())
+        })
+    }
+}
+
+/// Builds anew what refits alone make worse, and refits.
+///
+/// # Safety
+/// As [`lightbvh_add_mesh`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_rebuild(bvh: *mut Handle) -> Status {
+    // SAFETY: the caller's promise.
+    unsafe {
+        Handle::change(bvh, |bvh| {
+            // A rebuild starts from what a refit left.
+            bvh.refit();
+            let rebuilt = bvh.rebuild(&RebuildParams::default()).run();
+            bvh.install(rebuilt)
+                .map_err(|foreign| Fault::new(Status::Refused, foreign))?;
+            bvh.refit();
+            Ok(())
+        })
+    }
+}

@@ -1,0 +1,21 @@
+#![doc = include_str!("../README.md")]
+#![warn(unsafe_op_in_unsafe_fn)]
+
+mod edit;
+mod error;
+mod handle;
+mod ids;
+mod query;
+mod raw;
+
+pub use edit::{
+    CTransform, lightbvh_add_instance, lightbvh_add_mesh, lightbvh_rebuild, lightbvh_refit,
+    lightbvh_remove_instance, lightbvh_remove_mesh, lightbvh_set_radiance, lightbvh_set_transform,
+    lightbvh_set_triangles,
+};
+pub use error::{Status, lightbvh_last_error};
+pub use handle::{Handle, lightbvh_create, lightbvh_free};
+pub use ids::{CInstance, CMesh};
+pub use query::{
+    lightbvh_light_count, lightbvh_pmf, lightbvh_sample_batch, lightbvh_sample_light, lightbvh_triangle_of,
+};

@@ -1,0 +1,158 @@
+//! Functions that ask a light BVH.
+
+use std::mem::MaybeUninit;
+
+use lightbvh::{EmissiveTriangle, PointError, Random64, SampledLight, ShadingPoint};
+
+use crate::error::{Fault, Status};
+use crate::handle::Handle;
+use crate::raw;
+
+/// Points that are sampled together, held on the stack.
+const BATCH: usize = 64;
+
+fn bad_point(error: PointError) -> Fault {
+    Fault::new(Status::BadPoint, error)
+}
+
+/// Chooses a light for a point.
+///
+/// # Safety
+/// The pointers are null or as `lightbvh.h` says: `bvh` is a light BVH that nobody changes meanwhile, the others point to one of
+/// theirs. The same holds for the functions below.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_sample_light(
+    bvh: *const Handle,
+    point: *const ShadingPoint,
+    random: u64,
+    sample: *mut SampledLight,
+) -> Status {
+    // SAFETY: the caller's promise, here and below.
+    unsafe {
+        Handle::ask(bvh, |bvh| {
+            let point = raw::shared(point, "point")?.checked().map_err(bad_point)?;
+            raw::place(sample, "sample")?.write(bvh.sample(&point, random));
+            Ok(())
+        })
+    }
+}
+
+/// Chooses a light for each point.
+///
+/// # Safety
+/// As [`lightbvh_sample_light`], with `count` points, numbers and samples.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_sample_batch(
+    bvh: *const Handle,
+    points: *const ShadingPoint,
+    randoms: *const u64,
+    count: usize,
+    samples: *mut SampledLight,
+) -> Status {
+    // SAFETY: the caller's promise, here and below.
+    unsafe {
+        Handle::ask(bvh, |bvh| {
+            let points = raw::array(points, count, "points")?;
+            let randoms = raw::array(randoms, count, "randoms")?;
+            let samples = raw::places(samples, count, "samples")?;
+            // Nothing is written where one of them is bad.
+            for (index, point) in points.iter().enumerate() {
+                let bad = |error| Fault::new(Status::BadPoint, format!("point {index}: {error}"));
+                point.checked().map_err(bad)?;
+            }
+            let parts = points.chunks(BATCH).zip(randoms.chunks(BATCH));
+            for ((points, randoms), samples) in parts.zip(samples.chunks_mut(BATCH)) {
+                batch(points, randoms, samples, |points, randoms, sampled| {
+                    bvh.sample_batch(points, randoms, sampled);
+                });
+            }
+            Ok(())
+        })
+    }
+}
+
+/// Samples at most [`BATCH`] points, all of them good.
+fn batch(
+    points: &[ShadingPoint],
+    randoms: &[u64],
+    samples: &mut [MaybeUninit<SampledLight>],
+    sample: impl FnOnce(&[ShadingPoint], &[Random64], &mut [SampledLight]),
+) {
+    let count = points.len();
+    let mut flushed = [ShadingPoint {
+        p: [0.0; 3],
+        n: [0.0; 3],
+    }; BATCH];
+    let mut numbers = [Random64::from(0_u64); BATCH];
+    let mut sampled = [SampledLight::NONE; BATCH];
+    for k in 0..count {
+        flushed[k] = points[k].checked().unwrap_or(flushed[k]);
+        numbers[k] = Random64::from(randoms[k]);
+    }
+    sample(&flushed[..count], &numbers[..count], &mut sampled[..count]);
+    for (place, sampled) in samples.iter_mut().zip(sampled) {
+        place.write(sampled);
+    }
+}
+
+/// The probability of a light at a point.
+///
+/// # Safety
+/// As [`lightbvh_sample_light`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_pmf(
+    bvh: *const Handle,
+    point: *const ShadingPoint,
+    light: u32,
+    instance: u32,
+    pmf: *mut f32,
+) -> Status {
+    // SAFETY: the caller's promise, here and below.
+    unsafe {
+        Handle::ask(bvh, |bvh| {
+            let point = raw::shared(point, "point")?.checked().map_err(bad_point)?;
+            raw::place(pmf, "pmf")?.write(bvh.pmf(&point, light, instance));
+            Ok(())
+        })
+    }
+}
+
+/// The triangle, in the world, that a sample names.
+///
+/// # Safety
+/// As [`lightbvh_sample_light`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_triangle_of(
+    bvh: *const Handle,
+    light: u32,
+    instance: u32,
+    triangle: *mut EmissiveTriangle,
+) -> Status {
+    // SAFETY: the caller's promise, here and below.
+    unsafe {
+        Handle::ask(bvh, |bvh| {
+            let place = raw::place(triangle, "triangle")?;
+            let found = bvh.triangle(light, instance).ok_or_else(|| {
+                let message = format!("no light {light} in an instance {instance}");
+                Fault::new(Status::NoLight, message)
+            })?;
+            place.write(found);
+            Ok(())
+        })
+    }
+}
+
+/// How many lights there are.
+///
+/// # Safety
+/// As [`lightbvh_sample_light`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_light_count(bvh: *const Handle, count: *mut usize) -> Status {
+    // SAFETY: the caller's promise, here and below.
+    unsafe {
+        Handle::ask(bvh, |bvh| {
+            raw::place(count, "count")?.write(bvh.light_count());
+            Ok(())
+        })
+    }
+}

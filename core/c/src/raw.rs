@@ -1,0 +1,83 @@
+//! Pointers from C, checked as far as a pointer can be.
+
+use std::mem::MaybeUninit;
+
+use crate::error::{Fault, Status};
+
+fn bad(what: &str) -> Fault {
+    Fault::new(Status::BadPointer, what)
+}
+
+/// A pointer to be read.
+///
+/// # Safety
+/// It is null, not aligned, or points to a `T` that nobody writes meanwhile.
+pub(crate) unsafe fn shared<'a, T>(pointer: *const T, what: &str) -> Result<&'a T, Fault> {
+    if pointer.is_null() || !pointer.is_aligned() {
+        return Err(bad(&format!("{what} is null or not aligned")));
+    }
+    // SAFETY: neither null nor unaligned; the rest is the caller's promise.
+    Ok(unsafe { &*pointer })
+}
+
+/// A pointer to be changed.
+///
+/// # Safety
+/// It is null, not aligned, or points to a `T` that nobody else uses meanwhile.
+pub(crate) unsafe fn exclusive<'a, T>(pointer: *mut T, what: &str) -> Result<&'a mut T, Fault> {
+    if pointer.is_null() || !pointer.is_aligned() {
+        return Err(bad(&format!("{what} is null or not aligned")));
+    }
+    // SAFETY: neither null nor unaligned; the rest is the caller's promise.
+    Ok(unsafe { &mut *pointer })
+}
+
+/// A place for a result.
+///
+/// # Safety
+/// It is null, not aligned, or points to memory of a `T` that nobody else uses meanwhile.
+pub(crate) unsafe fn place<'a, T>(pointer: *mut T, what: &str) -> Result<&'a mut MaybeUninit<T>, Fault> {
+    // SAFETY: memory of a `T` is one of a `MaybeUninit<T>`, whatever it holds.
+    unsafe { exclusive(pointer.cast::<MaybeUninit<T>>(), what) }
+}
+
+/// An array to be read; null where it has no elements.
+///
+/// # Safety
+/// It is null, not aligned, or points to `count` of `T` that nobody writes meanwhile.
+pub(crate) unsafe fn array<'a, T>(pointer: *const T, count: usize, what: &str) -> Result<&'a [T], Fault> {
+    if count == 0 {
+        return Ok(&[]);
+    }
+    fits::<T>(count, what)?;
+    // SAFETY: the caller's promise, of which an array's first element is a part.
+    unsafe { shared(pointer, what) }?;
+    // SAFETY: not null, aligned, not longer than memory; the rest is the caller's promise.
+    Ok(unsafe { std::slice::from_raw_parts(pointer, count) })
+}
+
+/// An array of plain words to be written; null where it has no elements.
+///
+/// # Safety
+/// It is null, not aligned, or points to memory of `count` of `T` that nobody else uses meanwhile.
+pub(crate) unsafe fn places<'a, T>(
+    pointer: *mut T,
+    count: usize,
+    what: &str,
+) -> Result<&'a mut [MaybeUninit<T>], Fault> {
+    if count == 0 {
+        return Ok(&mut []);
+    }
+    fits::<T>(count, what)?;
+    // SAFETY: the caller's promise, of which an array's first element is a part.
+    unsafe { place(pointer, what) }?;
+    // SAFETY: not null, aligned, not longer than memory; the rest is the caller's promise.
+    Ok(unsafe { std::slice::from_raw_parts_mut(pointer.cast(), count) })
+}
+
+fn fits<T>(count: usize, what: &str) -> Result<(), Fault> {
+    match count.checked_mul(size_of::<T>()) {
+        Some(bytes) if bytes <= isize::MAX as usize => Ok(()),
+        _ => Err(bad(&format!("{what} of {count} elements is beyond all memory"))),
+    }
+}

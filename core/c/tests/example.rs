@@ -1,0 +1,154 @@
+//! `example.c`, compiled by the C compiler of the machine, prints the words that Rust computes.
+#![cfg(unix)]
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use lightbvh::bvh::RebuildParams;
+use lightbvh::{EmissiveTriangle, LightBvh, ShadingPoint, Transform};
+
+/// The static library that Cargo made for this test: beside the test's own program.
+fn library() -> PathBuf {
+    let program = std::env::current_exe().expect("a test is a program");
+    let made = program.parent().expect("it lies in a folder");
+    let newest = made
+        .read_dir()
+        .expect("it can be read")
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            name.starts_with("liblightbvh_c") && name.ends_with(".a")
+        })
+        .max_by_key(|path| path.metadata().and_then(|data| data.modified()).ok());
+    newest.unwrap_or_else(|| panic!("no static library in {}", made.display()))
+}
+
+fn run(command: &mut Command) -> String {
+    let output = command
+        .output()
+        .unwrap_or_else(|error| panic!("{command:?}: {error}"));
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{command:?}: {error}");
+    String::from_utf8(output.stdout).expect("it prints ASCII")
+}
+
+/// What `example.c` does, in Rust.
+fn expected() -> String {
+    let mut lamp = EmissiveTriangle {
+        p: [[0.0, 3.0, 0.0], [0.031_25, 3.0, 0.0], [0.0, 3.0, 0.031_25]],
+        radiance: [900.0; 3],
+        mesh: 0,
+        flags: 0,
+    };
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(vec![lamp]).unwrap();
+    let lamps: Vec<_> = (0..100)
+        .map(|k| {
+            bvh.add_instance(mesh, Transform::at([k as f32, 0.0, 0.0]))
+                .unwrap()
+        })
+        .collect();
+    bvh.refit();
+    bvh.set_transform(lamps[40], Transform::at([40.0, 2.0, 0.0]))
+        .unwrap();
+    bvh.set_radiance(lamps[41], 0.5).unwrap();
+    bvh.remove_instance(lamps[42]).unwrap();
+    lamp.p[1][0] = 0.0625;
+    bvh.set_triangles(mesh, vec![lamp]).unwrap();
+    bvh.refit();
+    let rebuilt = bvh.rebuild(&RebuildParams::default()).run();
+    bvh.install(rebuilt).unwrap();
+    bvh.refit();
+    let mut text = format!("{} lights\n", bvh.light_count());
+    for k in 0..1000_u16 {
+        let point = ShadingPoint {
+            p: [0.125 * f32::from(k), 0.0, 0.5],
+            n: [0.0, 1.0, 0.0],
+        };
+        let random = 0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(u64::from(k) + 1);
+        let sample = bvh.sample(&point, random);
+        let triangle = bvh.triangle(sample.light, sample.instance).unwrap();
+        let (pmf, x) = (sample.pmf.to_bits(), triangle.p[1][0].to_bits());
+        writeln!(text, "{} {} {pmf:08x} {x:08x}", sample.light, sample.instance).unwrap();
+    }
+    let error = bvh.remove_mesh(mesh).unwrap_err().reason;
+    writeln!(text, "{error}").unwrap();
+    text
+}
+
+#[test]
+fn c_prints_the_words_of_rust() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folder = std::env::temp_dir().join(format!("lightbvh-c-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let program = folder.join("example");
+    run(Command::new("cc")
+        .args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-O1"])
+        .arg("-I")
+        .arg(here.join("include"))
+        .arg(here.join("example.c"))
+        .arg(library())
+        .args(["-lpthread", "-ldl", "-lm", "-o"])
+        .arg(&program));
+    let printed = run(&mut Command::new(&program));
+    let expected = expected();
+    for (line, (c, rust)) in printed.lines().zip(expected.lines()).enumerate() {
+        assert_eq!(c, rust, "line {}", line + 1);
+    }
+    assert_eq!(printed, expected);
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+/// Where there is a C++ compiler, it takes the header too.
+#[test]
+fn the_header_is_also_cpp() {
+    if Command::new("c++").arg("--version").output().is_err() {
+        println!("skipped: no C++ compiler");
+        return;
+    }
+    let header = Path::new(env!("CARGO_MANIFEST_DIR")).join("include/lightbvh.h");
+    run(Command::new("c++")
+        .args([
+            "-fsyntax-only",
+            "-Wall",
+            "-Wextra",
+            "-Werror",
+            "-x",
+            "c++",
+            "-include",
+        ])
+        .arg(header)
+        .arg("/dev/null"));
+}
+
+/// Every function of the header is in the library, and the other way round.
+#[test]
+fn header_and_library_have_the_same_functions() {
+    let header = include_str!("../include/lightbvh.h");
+    let source = concat!(
+        include_str!("../src/edit.rs"),
+        include_str!("../src/error.rs"),
+        include_str!("../src/handle.rs"),
+        include_str!("../src/query.rs"),
+    );
+    let name = |text: &str| text.split('(').next().unwrap_or_default().to_owned();
+    let mut in_rust: Vec<String> = source.split("extern \"C\" fn ").skip(1).map(name).collect();
+    let mut in_c: Vec<String> = header
+        .lines()
+        .filter(|line| line.contains("lightbvh_") && line.contains('(') && !line.starts_with(['/', ' ', '#']))
+        .filter_map(|line| line.split('(').next()?.split([' ', '*']).next_back())
+        .filter(|name| name.starts_with("lightbvh_"))
+        .map(str::to_owned)
+        .collect();
+    in_rust.sort();
+    in_c.sort();
+    assert_eq!(in_rust, in_c);
+    let example = include_str!("../example.c");
+    for name in in_c {
+        assert!(
+            example.contains(&format!("{name}(")),
+            "example.c leaves out {name}"
+        );
+    }
+}

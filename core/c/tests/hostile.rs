@@ -1,0 +1,138 @@
+//! What C may get wrong is answered by a status.
+
+use std::ffi::CStr;
+use std::ptr::{null, null_mut};
+
+use lightbvh::{EmissiveTriangle, SampledLight, ShadingPoint};
+use lightbvh_c::*;
+
+const LAMP: EmissiveTriangle = EmissiveTriangle {
+    p: [[0.0, 3.0, 0.0], [1.0, 3.0, 0.0], [0.0, 3.0, 1.0]],
+    radiance: [1.0; 3],
+    mesh: 0,
+    flags: 0,
+};
+const POINT: ShadingPoint = ShadingPoint {
+    p: [0.0; 3],
+    n: [0.0, 1.0, 0.0],
+};
+
+fn last() -> String {
+    // SAFETY: a string that stays until the next failure on this thread.
+    let text = unsafe { CStr::from_ptr(lightbvh_last_error()) };
+    text.to_str().unwrap().to_owned()
+}
+
+/// A transform, an id: plain words of C.
+fn words<T: Copy, const N: usize>(words: [u32; N]) -> T {
+    assert_eq!(size_of::<T>(), 4 * N);
+    // SAFETY: `T` is one of the structures of the header, whose words may be any, and it has as many.
+    unsafe { words.as_ptr().cast::<T>().read_unaligned() }
+}
+
+fn identity() -> CTransform {
+    let one = 1.0_f32.to_bits();
+    words([one, 0, 0, 0, one, 0, 0, 0, one, 0, 0, 0])
+}
+
+#[test]
+fn null_and_unaligned_pointers_are_refused() {
+    let bvh = lightbvh_create();
+    let mut mesh: CMesh = words([0; 4]);
+    let mut sample = SampledLight::NONE;
+    let (mut pmf, mut count) = (0.0, 0);
+    let unaligned = std::ptr::from_ref(&LAMP)
+        .cast::<u8>()
+        .wrapping_add(1)
+        .cast::<EmissiveTriangle>();
+    // SAFETY: pointers are null, unaligned, or good.
+    unsafe {
+        let refused = [
+            lightbvh_add_mesh(null_mut(), &LAMP, 1, &mut mesh),
+            lightbvh_add_mesh(bvh, null(), 1, &mut mesh),
+            lightbvh_add_mesh(bvh, unaligned, 1, &mut mesh),
+            lightbvh_add_mesh(bvh, &LAMP, usize::MAX, &mut mesh),
+            lightbvh_add_mesh(bvh, &LAMP, 1, null_mut()),
+            lightbvh_set_transform(bvh, words([0, 0, 0, 2]), null()),
+            lightbvh_refit(null_mut()),
+            lightbvh_rebuild(null_mut()),
+            lightbvh_sample_light(null(), &POINT, 0, &mut sample),
+            lightbvh_sample_light(bvh, null(), 0, &mut sample),
+            lightbvh_sample_light(bvh, &POINT, 0, null_mut()),
+            lightbvh_sample_batch(bvh, null(), &7, 1, &mut sample),
+            lightbvh_sample_batch(bvh, &POINT, null(), 1, &mut sample),
+            lightbvh_sample_batch(bvh, &POINT, &7, 1, null_mut()),
+            lightbvh_pmf(bvh, &POINT, 0, 0, null_mut()),
+            lightbvh_triangle_of(bvh, 0, 0, null_mut()),
+            lightbvh_light_count(bvh, null_mut()),
+        ];
+        assert_eq!(refused, [Status::BadPointer; 17]);
+        // A mesh whose id could not be returned was not made.
+        assert_eq!(lightbvh_light_count(bvh, &mut count), Status::Ok);
+        assert_eq!(count, 0);
+        // No elements need no array.
+        assert_eq!(
+            lightbvh_sample_batch(bvh, null(), null(), 0, null_mut()),
+            Status::Ok
+        );
+        assert_eq!(lightbvh_pmf(bvh, &POINT, 0, 0, &mut pmf), Status::Ok);
+        assert_eq!(pmf.to_bits(), 0);
+        lightbvh_free(bvh);
+        lightbvh_free(null_mut());
+    }
+}
+
+#[test]
+fn wrong_ids_points_and_lights_are_refused() {
+    let (bvh, other) = (lightbvh_create(), lightbvh_create());
+    let (mut mesh, mut instance): (CMesh, CInstance) = (words([0; 4]), words([0; 4]));
+    let mut samples = [SampledLight::NONE; 2];
+    let mut triangle = LAMP;
+    let place = identity();
+    // SAFETY: all pointers are good.
+    unsafe {
+        assert_eq!(lightbvh_add_mesh(bvh, null(), 0, &mut mesh), Status::Refused);
+        assert_eq!(lightbvh_add_mesh(bvh, &LAMP, 1, &mut mesh), Status::Ok);
+        // Cleared memory, another light BVH, a bad factor.
+        let cleared = words([0; 4]);
+        assert_eq!(
+            lightbvh_add_instance(bvh, cleared, &place, 1.0, &mut instance),
+            Status::Refused
+        );
+        assert!(last().contains("lightbvh_add_mesh"), "{}", last());
+        assert_eq!(
+            lightbvh_add_instance(other, mesh, &place, 1.0, &mut instance),
+            Status::Refused
+        );
+        assert_eq!(
+            lightbvh_add_instance(bvh, mesh, &place, f32::NAN, &mut instance),
+            Status::Refused
+        );
+        assert_eq!(
+            lightbvh_add_instance(bvh, mesh, &place, 1.0, &mut instance),
+            Status::Ok
+        );
+        assert_eq!(lightbvh_refit(bvh), Status::Ok);
+        // The second point is bad, so the first one is not answered either.
+        let far = ShadingPoint {
+            p: [f32::INFINITY, 0.0, 0.0],
+            ..POINT
+        };
+        let points = [POINT, far];
+        let status = lightbvh_sample_batch(bvh, points.as_ptr(), [0, 0].as_ptr(), 2, samples.as_mut_ptr());
+        assert_eq!(status, Status::BadPoint);
+        assert!(last().starts_with("point 1"), "{}", last());
+        assert_eq!(samples, [SampledLight::NONE; 2]);
+        assert_eq!(lightbvh_triangle_of(bvh, 0, 0, &mut triangle), Status::Ok);
+        assert_eq!(lightbvh_triangle_of(bvh, 1, 0, &mut triangle), Status::NoLight);
+        assert_eq!(
+            lightbvh_triangle_of(bvh, 0, u32::MAX, &mut triangle),
+            Status::NoLight
+        );
+        assert_eq!(lightbvh_remove_instance(bvh, instance), Status::Ok);
+        assert_eq!(lightbvh_remove_instance(bvh, instance), Status::Refused);
+        assert_eq!(lightbvh_remove_mesh(bvh, mesh), Status::Ok);
+        lightbvh_free(bvh);
+        lightbvh_free(other);
+    }
+}

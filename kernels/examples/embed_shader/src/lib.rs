@@ -1,0 +1,67 @@
+//! A compute shader of one's own that samples a light BVH: direct light on points, without shadows.
+//!
+//! This file is the entry point, `direct.rs` what it computes. It is built by lightbvh's builder, which keeps the arithmetic exact,
+//! and run by an example of `lightbvh-gpu`:
+//!
+//! ```sh
+//! cargo run --release -p lightbvh-kernels-builder --features prebuilt-backend -- \
+//!     --crate kernels/examples/embed_shader --out target/embed_shader
+//! cargo run --release -p lightbvh-gpu --example embed_shader -- target/embed_shader/direct.spv
+//! ```
+#![cfg_attr(target_arch = "spirv", no_std)]
+// An entry point has as many parameters as bindings.
+#![allow(clippy::too_many_arguments)]
+
+mod direct;
+
+use core::marker::PhantomData;
+
+use bytemuck::{Pod, Zeroable};
+use direct::{Node, direct_light};
+use lightbvh::{EmissiveTriangle, Instance, LightTree, ShadingPoint};
+use spirv_std::glam::UVec3;
+use spirv_std::spirv;
+
+/// Push constants. The last five are `lightbvh_gpu::tree_words`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct Push {
+    /// Number of points.
+    pub count: u32,
+    /// Light samples for each point.
+    pub samples: u32,
+    pub root: u32,
+    pub trail_words: u32,
+    pub live: u32,
+    pub lights: u32,
+    pub depth: u32,
+}
+
+/// One invocation lights one point: W/m² of red, green and blue that arrive there, without shadows.
+#[spirv(compute(threads(64)))]
+pub fn direct(
+    #[spirv(global_invocation_id)] id: UVec3,
+    #[spirv(push_constant)] push: &Push,
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[Node],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] trails: &[u32],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] points: &[ShadingPoint],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] results: &mut [[f32; 3]],
+) {
+    if id.x < push.count {
+        let tree = LightTree {
+            nodes,
+            root: push.root,
+            instances,
+            trails,
+            trail_words: push.trail_words,
+            live: push.live,
+            lights: push.lights,
+            depth: push.depth,
+            importance: PhantomData,
+        };
+        let i = id.x as usize;
+        results[i] = direct_light(&tree, triangles, &points[i], push.samples, id.x);
+    }
+}

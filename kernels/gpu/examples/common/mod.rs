@@ -1,0 +1,11 @@
+//! A small engine that knows nothing of lights: an instance, a device, buffers and pipelines, all made here with `ash`. The
+//! examples drive lightbvh with it; yours takes its place.
+
+pub mod buffer;
+pub mod gpu;
+pub mod pipeline;
+pub mod words;
+pub mod world;
+
+/// What the examples fail with: a sentence.
+pub type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;

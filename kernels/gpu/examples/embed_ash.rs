@@ -1,0 +1,208 @@
+//! Moving lights on the engine's own Vulkan device: twenty frames, every word compared with the CPU.
+//!
+//! `cargo run --release -p lightbvh-gpu --example embed_ash`
+//!
+//! The folder `common` is the engine: it opens the device, owns buffers and pipelines, and knows nothing of lights. This file
+//! is what an engine adds for lightbvh. Each frame it copies what the edits changed, dispatches the refit, and samples.
+
+#[path = "common/mod.rs"]
+mod common;
+
+use std::process::ExitCode;
+use std::rc::Rc;
+
+use bytemuck::cast_slice;
+use common::Result;
+use common::buffer::Buffer;
+use common::gpu::Gpu;
+use common::pipeline::Pipeline;
+use common::words::compare;
+use common::world::{World, points};
+use lightbvh::{LightBvh, Random64, SampledLight};
+use lightbvh_gpu::{Buffer as Array, Frame, MOMENTS, Mirror, Pass, Query, query_push};
+
+const FRAMES: u16 = 20;
+const QUERIES: u32 = 10_000;
+
+/// What an engine keeps for the lights of one scene.
+struct DeviceLights {
+    gpu: Rc<Gpu>,
+    /// Knows which bytes the device holds.
+    mirror: Mirror,
+    /// One for each of `Array::ALL`.
+    arrays: Vec<Buffer>,
+    refits: Vec<(Pass, Pipeline)>,
+    sample: Pipeline,
+}
+
+/// What one frame gave, copied back to be compared.
+struct Results {
+    nodes: Vec<u8>,
+    samples: Vec<u8>,
+}
+
+impl DeviceLights {
+    fn new(gpu: &Rc<Gpu>) -> Result<Self> {
+        let passes = [Pass::Bottom, Pass::Roots, Pass::Top];
+        Ok(Self {
+            gpu: Rc::clone(gpu),
+            mirror: Mirror::default(),
+            arrays: Array::ALL
+                .iter()
+                .map(|_| Buffer::storage(gpu, 0))
+                .collect::<Result<_>>()?,
+            refits: passes
+                .into_iter()
+                .map(|pass| Ok((pass, kernel(gpu, MOMENTS.refit(pass))?)))
+                .collect::<Result<_>>()?,
+            sample: kernel(gpu, MOMENTS.sample)?,
+        })
+    }
+
+    /// Brings the device to the frame that was planned last, and samples there.
+    fn frame(&mut self, bvh: &LightBvh, queries: &[Query]) -> Result<Results> {
+        let frame = self.mirror.follow(bvh);
+        let outgrown = self.grow(&frame)?;
+        // The bytes of all copies, one after another.
+        let staging: Vec<u8> = frame
+            .copies
+            .iter()
+            .flat_map(|copy| &copy.buffer.bytes(bvh)[copy.bytes.start as usize..copy.bytes.end as usize])
+            .copied()
+            .collect();
+        let staging = Buffer::staged(&self.gpu, &staging)?;
+        let list = Buffer::staged(&self.gpu, cast_slice(&frame.refit.list))?;
+        let asked = Buffer::staged(&self.gpu, cast_slice(queries))?;
+        let answers = Buffer::storage(&self.gpu, size_of::<SampledLight>() as u64 * queries.len() as u64)?;
+
+        // Bindings have names. Those that `Array::named` does not know are this frame's.
+        let named = |name: &str| match (Array::named(name), name) {
+            (Some(array), _) => &self.arrays[array as usize],
+            (None, "list") => &list,
+            (None, "queries") => &asked,
+            (None, "results") => &answers,
+            (None, other) => panic!("no kernel here has a binding {other}"),
+        };
+        for (_, pipeline) in &self.refits {
+            pipeline.bind(named);
+        }
+        self.sample.bind(named);
+
+        let nodes = &self.arrays[Array::Nodes as usize];
+        let nodes_back = Buffer::staging(&self.gpu, nodes.bytes)?;
+        let answers_back = Buffer::staging(&self.gpu, answers.bytes)?;
+        let push = query_push(queries.len() as u32, &bvh.tree());
+        let gpu = &self.gpu;
+        gpu.run(|commands| {
+            for (array, old) in &outgrown {
+                let new = &self.arrays[*array as usize];
+                old.copy_to(commands, 0, new, 0, old.bytes.min(new.bytes));
+            }
+            gpu.barrier(commands);
+            let mut from = 0;
+            for copy in &frame.copies {
+                let (at, bytes) = (copy.bytes.start, copy.bytes.end - copy.bytes.start);
+                staging.copy_to(commands, from, &self.arrays[copy.buffer as usize], at, bytes);
+                from += bytes;
+            }
+            gpu.barrier(commands);
+            for dispatch in &frame.refit.dispatches {
+                self.refit(dispatch.pass)
+                    .dispatch(commands, &dispatch.push(), dispatch.count);
+                // The next level reads what this one wrote.
+                gpu.barrier(commands);
+            }
+            self.sample.dispatch(commands, &push, queries.len() as u32);
+            gpu.barrier(commands);
+            nodes.copy_to(commands, 0, &nodes_back, 0, nodes.bytes);
+            answers.copy_to(commands, 0, &answers_back, 0, answers.bytes);
+            gpu.barrier(commands);
+        })?;
+        Ok(Results {
+            nodes: nodes_back.read()?,
+            samples: answers_back.read()?,
+        })
+    }
+
+    /// Makes larger what became too small. What it held is still to be copied, so the old buffers are returned.
+    fn grow(&mut self, frame: &Frame) -> Result<Vec<(Array, Buffer)>> {
+        let mut outgrown = Vec::new();
+        for &(array, bytes) in &frame.resizes {
+            let held = &mut self.arrays[array as usize];
+            if bytes > held.bytes {
+                // Half as much again: most frames then need no new buffer.
+                let new = Buffer::storage(&self.gpu, bytes + bytes / 8 * 4)?;
+                outgrown.push((array, std::mem::replace(held, new)));
+            }
+        }
+        Ok(outgrown)
+    }
+
+    fn refit(&self, wanted: Pass) -> &Pipeline {
+        let found = self.refits.iter().find(|(pass, _)| *pass == wanted);
+        &found.expect("there is one for each pass").1
+    }
+}
+
+/// A pipeline of a kernel: all that Vulkan wants to know stands beside its module.
+fn kernel(gpu: &Rc<Gpu>, kernel: &lightbvh_gpu::Kernel) -> Result<Pipeline> {
+    let names = kernel.bindings.iter().map(|binding| binding.name);
+    let (push, width) = (kernel.push_constants, kernel.workgroup[0]);
+    Pipeline::new(gpu, &kernel.words(), kernel.name, names, push, width)
+}
+
+/// Runs all frames on one device. Returns how many words were compared.
+fn run(gpu: &Rc<Gpu>) -> Result<u64> {
+    let mut world = World::new()?;
+    let mut lights = DeviceLights::new(gpu)?;
+    let mut words = 0;
+    for frame in 0..FRAMES {
+        world.step(frame)?;
+        world.bvh.plan();
+        let asked = points(frame, QUERIES);
+        let queries: Vec<Query> = asked
+            .iter()
+            .map(|&(point, random)| Query::sample(point, random))
+            .collect();
+        let device = lights.frame(&world.bvh, &queries)?;
+
+        // The CPU does the same only to be compared with; an engine leaves it out.
+        world.bvh.refit();
+        let samples: Vec<SampledLight> = asked
+            .iter()
+            .map(|(point, random)| world.bvh.sample(point, Random64::from(*random)))
+            .collect();
+        words += compare("node", world.bvh.nodes(), &device.nodes)?;
+        words += compare("sample", &samples, &device.samples)?;
+    }
+    Ok(words)
+}
+
+fn main() -> ExitCode {
+    let done = Gpu::all().and_then(|gpus| {
+        for gpu in gpus {
+            let words = run(&gpu).map_err(|error| format!("{}: {error}", gpu.name))?;
+            println!(
+                "{}: {FRAMES} frames, {words} words compared, none different",
+                gpu.name
+            );
+        }
+        Ok(())
+    });
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("embed_ash: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// `cargo test` runs this too. Without a device it passes, unless LIGHTBVH_REQUIRE_VULKAN is set.
+#[test]
+fn every_word_agrees() {
+    match Gpu::all() {
+        Err(error) if std::env::var_os("LIGHTBVH_REQUIRE_VULKAN").is_none() => println!("skipped: {error}"),
+        _ => assert_eq!(main(), ExitCode::SUCCESS),
+    }
+}

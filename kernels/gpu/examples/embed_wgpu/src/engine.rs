@@ -1,0 +1,223 @@
+//! The engine's device, buffers and pipelines on wgpu. It knows nothing of lights.
+
+use std::borrow::Cow;
+
+use lightbvh_gpu::{Access, Kernel, groups, without_vulkan_memory_model};
+use wgpu::{Buffer, BufferUsages, Features};
+
+use crate::Result;
+
+/// How a module reaches the driver.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Road {
+    /// As it is.
+    Passthrough,
+    /// By naga.
+    Translated,
+}
+
+/// An open device.
+pub struct Engine {
+    pub name: String,
+    pub road: Road,
+    pub device: wgpu::Device,
+    pub queue: wgpu::Queue,
+}
+
+/// A kernel with its buffers.
+pub struct Bound<'a> {
+    pub pipeline: &'a Pipeline,
+    group: wgpu::BindGroup,
+}
+
+/// A kernel's pipeline.
+pub struct Pipeline {
+    kernel: &'static Kernel,
+    pipeline: wgpu::ComputePipeline,
+    layout: wgpu::BindGroupLayout,
+}
+
+/// Each Vulkan adapter, by each road that it offers.
+pub fn engines() -> Vec<Engine> {
+    let mut description = wgpu::InstanceDescriptor::new_without_display_handle();
+    description.backends = wgpu::Backends::VULKAN;
+    let instance = wgpu::Instance::new(description);
+    let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::VULKAN));
+    let mut engines = Vec::new();
+    for adapter in adapters {
+        for (road, own) in [
+            (Road::Passthrough, Features::PASSTHROUGH_SHADERS),
+            (Road::Translated, Features::empty()),
+        ] {
+            let wanted = own | Features::IMMEDIATES;
+            if adapter.features().contains(wanted) {
+                engines.extend(open(&adapter, road, wanted));
+            } else {
+                println!("{}, {road:?}: not offered", adapter.get_info().name);
+            }
+        }
+    }
+    engines
+}
+
+fn open(adapter: &wgpu::Adapter, road: Road, wanted: Features) -> Option<Engine> {
+    let name = adapter.get_info().name;
+    let description = wgpu::DeviceDescriptor {
+        required_features: wanted,
+        required_limits: wgpu::Limits {
+            max_immediate_size: 128,
+            ..wgpu::Limits::default()
+        },
+        ..Default::default()
+    };
+    match pollster::block_on(adapter.request_device(&description)) {
+        Ok((device, queue)) => Some(Engine {
+            name,
+            road,
+            device,
+            queue,
+        }),
+        Err(error) => {
+            println!("{name}, {road:?}: {error}");
+            None
+        }
+    }
+}
+
+impl Engine {
+    /// A storage buffer; at least 256 bytes, since wgpu binds none of less than one element.
+    pub fn storage(&self, bytes: u64) -> Buffer {
+        self.buffer(
+            bytes.max(256),
+            BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST,
+        )
+    }
+
+    /// A storage buffer that holds `data`.
+    pub fn stored(&self, data: &[u8]) -> Buffer {
+        let buffer = self.storage(data.len() as u64);
+        self.queue.write_buffer(&buffer, 0, data);
+        buffer
+    }
+
+    fn buffer(&self, size: u64, usage: BufferUsages) -> Buffer {
+        self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size,
+            usage,
+            mapped_at_creation: false,
+        })
+    }
+
+    /// The pipeline of a kernel.
+    pub fn pipeline(&self, kernel: &'static Kernel) -> Result<Pipeline> {
+        let words = without_vulkan_memory_model(&kernel.words())?;
+        let module = match self.road {
+            Road::Passthrough => {
+                let [x, y, z] = kernel.workgroup;
+                let entry_point = wgpu::PassthroughShaderEntryPoint {
+                    name: Cow::Borrowed(kernel.name),
+                    workgroup_size: (x, y, z),
+                };
+                let module = wgpu::ShaderModuleDescriptorPassthrough {
+                    entry_points: Cow::Owned(vec![entry_point]),
+                    spirv: Some(Cow::Borrowed(&words)),
+                    ..Default::default()
+                };
+                // SAFETY: the module is valid Vulkan 1.2 without any feature, its bindings and push constants are those of
+                // the layout below, and it reads no element beyond a buffer's length.
+                unsafe { self.device.create_shader_module_passthrough(module) }
+            }
+            Road::Translated => self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(kernel.name),
+                source: wgpu::ShaderSource::SpirV(Cow::Borrowed(&words)),
+            }),
+        };
+        let entries: Vec<_> = kernel
+            .bindings
+            .iter()
+            .map(|binding| wgpu::BindGroupLayoutEntry {
+                binding: binding.binding,
+                visibility: wgpu::ShaderStages::COMPUTE,
+                ty: wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Storage {
+                        read_only: binding.access == Access::Read,
+                    },
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                count: None,
+            })
+            .collect();
+        let layout = self
+            .device
+            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(kernel.name),
+                entries: &entries,
+            });
+        let pipeline_layout = self
+            .device
+            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(kernel.name),
+                bind_group_layouts: &[Some(&layout)],
+                immediate_size: kernel.push_constants,
+            });
+        let pipeline = self
+            .device
+            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(kernel.name),
+                layout: Some(&pipeline_layout),
+                module: &module,
+                entry_point: Some(kernel.name),
+                compilation_options: Default::default(),
+                cache: None,
+            });
+        Ok(Pipeline {
+            kernel,
+            pipeline,
+            layout,
+        })
+    }
+
+    /// Binds the buffers that `named` gives.
+    pub fn bind<'a, 'b>(&self, pipeline: &'a Pipeline, named: impl Fn(&str) -> &'b Buffer) -> Bound<'a> {
+        let entries: Vec<_> = pipeline
+            .kernel
+            .bindings
+            .iter()
+            .map(|binding| wgpu::BindGroupEntry {
+                binding: binding.binding,
+                resource: named(binding.name).as_entire_binding(),
+            })
+            .collect();
+        let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(pipeline.kernel.name),
+            layout: &pipeline.layout,
+            entries: &entries,
+        });
+        Bound { pipeline, group }
+    }
+
+    /// A copy of a buffer's bytes, once all that was submitted is done.
+    pub fn read(&self, buffer: &Buffer) -> Result<Vec<u8>> {
+        let back = self.buffer(buffer.size(), BufferUsages::MAP_READ | BufferUsages::COPY_DST);
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        encoder.copy_buffer_to_buffer(buffer, 0, &back, 0, buffer.size());
+        self.queue.submit([encoder.finish()]);
+        back.map_async(wgpu::MapMode::Read, .., |_| {});
+        self.device.poll(wgpu::PollType::wait_indefinitely())?;
+        Ok(back.get_mapped_range(..)?.to_vec())
+    }
+}
+
+impl Bound<'_> {
+    /// Records a dispatch with one invocation for each item. wgpu puts barriers between dispatches by itself.
+    pub fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>, push: &[u32], items: u32) {
+        let kernel = self.pipeline.kernel;
+        let [x, y, z] = groups(items, kernel.workgroup[0]).expect("32 bits number all items");
+        pass.set_pipeline(&self.pipeline.pipeline);
+        pass.set_bind_group(0, &self.group, &[]);
+        pass.set_immediates(0, bytemuck::cast_slice(push));
+        pass.dispatch_workgroups(x, y, z);
+    }
+}

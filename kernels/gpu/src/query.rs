@@ -1,0 +1,84 @@
+//! What the kernels `sample` and `pmf` are asked.
+
+use bytemuck::{Pod, Zeroable};
+use lightbvh::{LightTree, Random64, ShadingPoint};
+
+use crate::buffer::{TREE_WORDS, tree_words};
+
+/// An element of the buffer `queries`. `sample` answers with a [`SampledLight`](lightbvh::SampledLight), `pmf` with an `f32`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Query {
+    /// The point to be lit, of the domain of [`ShadingPoint::checked`].
+    pub point: ShadingPoint,
+    /// For `sample` the random number, its high word first; for `pmf` the light and its instance.
+    pub words: [u32; 2],
+}
+
+impl Query {
+    /// Asks `sample` what `LightTree::sample(point, random)` gives.
+    #[must_use]
+    pub fn sample(point: ShadingPoint, random: impl Into<Random64>) -> Self {
+        let random = random.into();
+        Self {
+            point,
+            words: [random.high, random.low],
+        }
+    }
+
+    /// Asks `pmf` what `LightTree::pmf(point, light, instance)` gives.
+    #[must_use]
+    pub fn pmf(point: ShadingPoint, light: u32, instance: u32) -> Self {
+        Self {
+            point,
+            words: [light, instance],
+        }
+    }
+}
+
+/// The push constants of `sample` and `pmf` for `count` queries. They may change with every edit.
+#[must_use]
+pub fn query_push<N, I, const W: usize>(count: u32, tree: &LightTree<'_, N, I, W>) -> [u32; 1 + TREE_WORDS] {
+    let mut push = [count; 1 + TREE_WORDS];
+    push[1..].copy_from_slice(&tree_words(tree));
+    push
+}
+
+#[cfg(all(test, feature = "kernels"))]
+mod tests {
+    use super::*;
+    use crate::{EQ4, MOMENTS};
+    use lightbvh::{LightBvh, SampledLight};
+
+    const POINT: ShadingPoint = ShadingPoint {
+        p: [1.0, 2.0, 3.0],
+        n: [0.0, 1.0, 0.0],
+    };
+
+    #[test]
+    fn queries_and_answers_fit_the_kernels() {
+        for set in [&MOMENTS, &EQ4] {
+            for (kernel, answer) in [
+                (set.sample, size_of::<SampledLight>()),
+                (set.pmf, size_of::<f32>()),
+            ] {
+                let stride = |name| kernel.binding(name).unwrap().stride as usize;
+                assert_eq!(stride("queries"), size_of::<Query>(), "{}", kernel.name);
+                assert_eq!(stride("results"), answer, "{}", kernel.name);
+            }
+        }
+        let push = query_push(7, &LightBvh::default().tree());
+        assert_eq!(size_of_val(&push), MOMENTS.sample.push_constants as usize);
+    }
+
+    #[test]
+    fn words_stand_where_the_kernels_read_them() {
+        let query = Query::sample(POINT, 0x0123_4567_89ab_cdef_u64);
+        assert_eq!(query.words, [0x0123_4567, 0x89ab_cdef]);
+        assert_eq!(Query::pmf(POINT, 8, 9).words, [8, 9]);
+        let bvh = LightBvh::default();
+        let tree = bvh.tree();
+        let expected = [7, tree.root, tree.trail_words, tree.live, tree.lights, tree.depth];
+        assert_eq!(query_push(7, &tree), expected);
+    }
+}
