@@ -26,7 +26,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         self.lights.end()
     }
 
-    /// Light `light` of the instance of index `instance` in the world, as a [`SampledLight`] names them; `None` where there is
+    /// Light `light` of the instance of index `instance` in the world, as a [`SampledLight`](crate::SampledLight) names them; `None` where there is
     /// no such. In a single-level BVH, where samples name no instance, that is not looked at.
     #[must_use]
     pub fn triangle(&self, light: u32, instance: u32) -> Option<EmissiveTriangle> {
@@ -40,7 +40,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         Some(own.triangle(&self.triangles[triangle as usize], index))
     }
 
-    /// The id of the instance of index `instance`, as a [`SampledLight`] names it; `None` where there is no such.
+    /// The id of the instance of index `instance`, as a [`SampledLight`](crate::SampledLight) names it; `None` where there is no such.
     #[must_use]
     pub fn instance_id(&self, instance: u32) -> Option<InstanceId> {
         let placed = self.placed.get(instance as usize).filter(|placed| placed.live)?;

@@ -77,7 +77,7 @@ pub struct Bvh<N, I, const W: usize> {
     params: BuildParams,
     nodes: Vec<N>,
     node_ranges: Ranges,
-    /// By node: the node above it in the same tree, or [`INVALID`].
+    /// By node: the node above it in the same tree, or [`INVALID`](crate::INVALID).
     parents: Vec<u32>,
     /// In the space of their meshes, grouped by bottom level.
     triangles: Vec<EmissiveTriangle>,
@@ -279,7 +279,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         }
     }
 
-    /// By node: the node above it in the same tree, or [`INVALID`].
+    /// By node: the node above it in the same tree, or [`INVALID`](crate::INVALID).
     #[must_use]
     pub fn parents(&self) -> &[u32] {
         &self.parents

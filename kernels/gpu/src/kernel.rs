@@ -4,7 +4,6 @@ pub use crate::dispatch::{ROW_GROUPS, groups};
 
 use alloc::vec::Vec;
 
-use crate::dispatch::groups;
 use crate::float_modes::{FloatControls, with_float_modes};
 use crate::spirv::words;
 
