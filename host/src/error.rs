@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use lightbvh::{EditError, LightsError, RebuildError};
 
 use crate::backend::BackendError;
-use crate::compare::CompareError;
 use crate::metrics::MetricError;
 use crate::render::{FilmError, RayBvhError};
 use crate::scene::SceneError;
 use crate::vulkan::VulkanError;
+use crate::words::CompareError;
 
 /// An error of a command.
 #[derive(Debug, thiserror::Error)]

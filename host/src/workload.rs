@@ -12,7 +12,7 @@ use crate::scene::Scene;
 
 /// Image and frame of a rendering.
 #[derive(Clone, Copy, Debug)]
-pub struct Shot {
+pub struct RenderSettings {
     /// Frame of the animation, 25 per second.
     pub frame: u32,
     /// Columns.
@@ -25,7 +25,7 @@ pub struct Shot {
     pub seed: u32,
 }
 
-impl Shot {
+impl RenderSettings {
     /// Parameters of the render pass.
     #[must_use]
     pub fn params(&self, background: [f32; 3]) -> RenderParams {

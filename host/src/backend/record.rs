@@ -4,7 +4,7 @@ use std::marker::PhantomData;
 
 use lightbvh::LightNode;
 
-use crate::compare::{Field, Record};
+use crate::words::{Field, Record};
 
 /// Words of a node of layout `N`; by place alone where the names of the layout's words are not known here.
 #[must_use]

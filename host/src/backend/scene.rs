@@ -8,8 +8,9 @@ use lightbvh_kernels::shading::pixel::Scene as SceneView;
 use crate::render::{RayBvh, power_thresholds};
 
 /// How the renderer chooses lights.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, clap::ValueEnum, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, strum::IntoStaticStr, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum Sampler {
     /// Every light alike.
     Uniform,
@@ -34,12 +35,7 @@ impl Sampler {
     /// As on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Uniform => "uniform",
-            Self::Power => "power",
-            Self::SingleLevel => "single-level",
-            Self::TwoLevel => "two-level",
-        }
+        self.into()
     }
 }
 

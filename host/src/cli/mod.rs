@@ -13,6 +13,7 @@ mod range;
 mod render;
 mod stability;
 mod table;
+mod times;
 mod validate;
 mod variance;
 mod verify;

@@ -17,7 +17,7 @@ use self::sequences::Sequence;
 use super::variance::irradiance::irradiance;
 use super::{Context, Outcome, table};
 use crate::error::HostError;
-use crate::figure::Canvas;
+use crate::plot::Canvas;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -58,20 +58,14 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             &json!({ "numbers": args.numbers, "points": POINTS, "trials": TRIALS, "rows": rows }),
         )?;
     } else {
-        let cells: Vec<Vec<String>> = rows
-            .iter()
-            .map(|row| {
-                vec![
-                    row.sequence.to_owned(),
-                    row.importance.to_owned(),
-                    format!("{:.2e}", row.error),
-                    format!("{:.1}", row.gain),
-                ]
-            })
-            .collect();
         table::print(
-            &["numbers", "importance", "squared error", "times better"],
-            &cells,
+            &rows,
+            &[
+                ("numbers", |r| r.sequence.to_owned()),
+                ("importance", |r| r.importance.to_owned()),
+                ("squared error", |r| format!("{:.2e}", r.error)),
+                ("times better", |r| format!("{:.1}", r.gain)),
+            ],
         )?;
     }
     Ok(Outcome::Good)

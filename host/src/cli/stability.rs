@@ -99,25 +99,15 @@ fn print(context: &Context, report: &Report) -> Result<(), HostError> {
         table::print_json(report)?;
         return Ok(());
     }
-    let rows: Vec<Vec<String>> = report
-        .rows
-        .iter()
-        .map(|row| {
-            let verdict = if row.pass { "yes" } else { "NO" };
-            [
-                &row.name,
-                &row.device,
-                &number(row.worst),
-                &number(row.bound),
-                verdict,
-            ]
-            .map(str::to_owned)
-            .into()
-        })
-        .collect();
     table::print(
-        &["extreme, structure: check", "device", "worst", "bound", "within"],
-        &rows,
+        &report.rows,
+        &[
+            ("extreme, structure: check", |r| r.name.clone()),
+            ("device", |r| r.device.clone()),
+            ("worst", |r| number(r.worst)),
+            ("bound", |r| number(r.bound)),
+            ("within", |r| if r.pass { "yes" } else { "NO" }.to_owned()),
+        ],
     )?;
     let mut text = String::from("\n");
     for (check, reason) in &report.checks {

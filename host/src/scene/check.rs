@@ -6,7 +6,7 @@ use super::camera::view_of_bounds;
 use super::error::SceneError;
 use super::frame::{emits, flush};
 use super::model::{Channel, Counts, Interpolation, Material, Primitive, Scene, SceneData};
-use super::reach;
+use super::motion_bounds;
 use super::transform::Transform;
 
 /// Most triangles of a frame, over all instances: 2^26, some 3 GiB of records, well inside 32-bit indices.
@@ -52,8 +52,8 @@ impl Scene {
         }
         check.color(|| String::from("background"), data.background)?;
         let counts = check.count(&data)?;
-        reach::check(&data)?;
-        let (min, max) = reach::bounds(&data);
+        motion_bounds::check(&data)?;
+        let (min, max) = motion_bounds::bounds(&data);
         let default_camera = view_of_bounds(min, max);
         Ok(Self::from_checked(data, counts, default_camera))
     }

@@ -10,7 +10,7 @@ use std::marker::PhantomData;
 use std::sync::Arc;
 
 /// What every word of an output buffer holds until a kernel writes it: a NaN as a float, no index as an integer.
-pub use crate::compare::UNWRITTEN;
+pub use crate::words::UNWRITTEN;
 
 /// An array of `T` in device memory. Lives as long as it is held, and keeps its device open.
 pub struct Buffer<T> {

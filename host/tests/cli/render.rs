@@ -80,7 +80,7 @@ fn every_sampler_heuristic_and_importance_renders() {
     for sampler in [
         "uniform",
         "power",
-        "single-level",
+        "single-level-refit",
         "single-level-rebuilt",
         "two-level",
         "restir",
@@ -129,10 +129,10 @@ fn every_sampler_heuristic_and_importance_renders() {
 fn restir_says_what_it_is_and_gives_the_same_file_on_both_processors() {
     let folder = Folder::new("restir");
     let device = has_device();
-    for (sampler, mode) in [
-        ("restir", Some("biased")),
-        ("restir", Some("unbiased")),
-        ("bvh-restir", None),
+    for (sampler, name, mode) in [
+        ("restir", "restir", Some("biased")),
+        ("restir", "restir", Some("unbiased")),
+        ("bvh-restir", "two-level-moments-restir", None),
     ] {
         let mut files = Vec::new();
         for backend in ["cpu", "vulkan"] {
@@ -162,7 +162,7 @@ fn restir_says_what_it_is_and_gives_the_same_file_on_both_processors() {
             args.extend(mode.into_iter().flat_map(|mode| ["--restir-mode", mode]));
             let report = json(&args);
             let restir = &report["restir"];
-            assert_eq!(report["sampler"], sampler);
+            assert_eq!(report["sampler"], name);
             assert_eq!(restir["mode"], mode.unwrap_or("unbiased"));
             assert_eq!(restir["unbiased"], mode != Some("biased"));
             let rays = report["shadow_rays_per_pixel"].as_f64().expect("rays");

@@ -4,7 +4,7 @@ mod report;
 mod world;
 
 use std::hint::black_box;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use lightbvh::bvh::RebuildParams;
 use lightbvh::{BuildParams, Edit, Instance, LightBvh};
@@ -15,6 +15,7 @@ use self::report::{Report, Row, Spread};
 use self::world::{Change, World};
 use crate::backend::{DeviceBackend, Follow};
 use crate::cli::devices::Opened;
+use crate::cli::times::timed;
 use crate::error::HostError;
 
 /// Frames that count, and those before them that do not.
@@ -242,10 +243,4 @@ fn copy(world: &mut World) -> (Spread, usize) {
     });
     let bytes = size_of_val(&*nodes) + size_of_val(&*instances);
     (Spread::of(times.collect()), bytes)
-}
-
-fn timed(work: impl FnOnce()) -> Duration {
-    let start = Instant::now();
-    work();
-    start.elapsed()
 }

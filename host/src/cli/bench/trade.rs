@@ -214,28 +214,16 @@ pub(super) fn print(rows: &[Row]) -> io::Result<()> {
         return Ok(());
     }
     println!();
-    let header = [
-        "layout",
-        "width",
-        "importance",
-        "structure",
-        "bytes/light",
-        "sample ns",
-        "relative variance",
-    ];
-    let cells: Vec<Vec<String>> = rows
-        .iter()
-        .map(|r| {
-            vec![
-                r.layout.to_owned(),
-                r.width.to_string(),
-                r.importance.to_owned(),
-                r.structure.to_owned(),
-                format!("{:.1}", r.bytes_per_light),
-                format!("{:.0}", r.sample_ns),
-                format!("{:.3}", r.relative_variance),
-            ]
-        })
-        .collect();
-    table::print(&header, &cells)
+    table::print(
+        rows,
+        &[
+            ("layout", |r| r.layout.to_owned()),
+            ("width", |r| r.width.to_string()),
+            ("importance", |r| r.importance.to_owned()),
+            ("structure", |r| r.structure.to_owned()),
+            ("bytes/light", |r| format!("{:.1}", r.bytes_per_light)),
+            ("sample ns", |r| format!("{:.0}", r.sample_ns)),
+            ("relative variance", |r| format!("{:.3}", r.relative_variance)),
+        ],
+    )
 }

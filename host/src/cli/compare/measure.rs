@@ -12,11 +12,12 @@ use super::plan::{BLOCK, Plan};
 use super::reference::Reference;
 use super::store::{Store, fingerprint};
 use super::wanted::Wanted;
+use crate::cli::times::ms;
 use crate::error::HostError;
-use crate::method::{Chain, Method, Runner, Target, UpdateTimes, runner};
+use crate::method::{Method, Runner, SequenceId, Target, UpdateTimes, runner};
 use crate::metrics::Quality;
 use crate::render::Film;
-use crate::workload::Shot;
+use crate::workload::RenderSettings;
 
 /// Seed of images that are rendered for their time.
 const TIMING_SEED: u32 = (1 << 31) - 1;
@@ -184,7 +185,8 @@ impl<'d> Job<'_, 'd> {
             ));
             let arrays = frames.arrays(frame);
             if timed.is_some() {
-                let image = runner.image(&step, arrays, &self.shot(frame, TIMING_SEED), Chain::MAX)?;
+                let image =
+                    runner.image(&step, arrays, &self.settings(frame, TIMING_SEED), SequenceId::MAX)?;
                 self.progress.inc(super::work(self.plan, self.plan.samples));
                 // The first frame of a block follows other methods' work, see `BLOCK`.
                 if frame > block * BLOCK {
@@ -193,7 +195,7 @@ impl<'d> Job<'_, 'd> {
             }
             for wanted in images {
                 let chain = u64::from(wanted.at) << 32 | u64::from(wanted.seed);
-                let image = runner.image(&step, arrays, &self.shot(frame, wanted.seed), chain)?;
+                let image = runner.image(&step, arrays, &self.settings(frame, wanted.seed), chain)?;
                 self.progress.inc(super::work(self.plan, self.plan.samples));
                 if frame == wanted.at {
                     runner.end(chain);
@@ -206,7 +208,7 @@ impl<'d> Job<'_, 'd> {
         }
         if let Some(wanted) = timed {
             if let Some(runner) = &mut lane.runner {
-                runner.end(Chain::MAX);
+                runner.end(SequenceId::MAX);
             }
             self.store.save(&wanted.name, &wanted.key, &times)?;
             results.times.entry(lane.method).or_default().extend(times);
@@ -262,8 +264,8 @@ impl<'d> Job<'_, 'd> {
         wanted.at == self.plan.last() && wanted.seed == 0
     }
 
-    fn shot(&self, frame: u32, seed: u32) -> Shot {
-        Shot {
+    fn settings(&self, frame: u32, seed: u32) -> RenderSettings {
+        RenderSettings {
             frame,
             width: self.plan.width,
             height: self.plan.height,
@@ -275,13 +277,12 @@ impl<'d> Job<'_, 'd> {
 
 impl FrameTimes {
     fn new(frame: u32, update: &UpdateTimes, image: Duration) -> Self {
-        let milliseconds = |time: Duration| time.as_secs_f64() * 1e3;
         Self {
             frame,
-            refit_ms: milliseconds(update.refit),
-            rebuild_ms: milliseconds(update.rebuild),
-            wait_ms: milliseconds(update.wait),
-            image_ms: milliseconds(image),
+            refit_ms: ms(update.refit),
+            rebuild_ms: ms(update.rebuild),
+            wait_ms: ms(update.wait),
+            image_ms: ms(image),
         }
     }
 

@@ -9,11 +9,11 @@ use serde_json::{Value, json};
 use super::frames::Frames;
 use super::plan::Plan;
 use super::store::{Store, fingerprint};
-use crate::backend::{Backend, Bvh, CpuBackend, Sampler};
+use crate::backend::{Backend, Bvh, CpuBackend, Integrator, Sampler};
 use crate::error::HostError;
 use crate::metrics::{Judge, mean_squared_error};
 use crate::render::Film;
-use crate::workload::{Shot, build};
+use crate::workload::{RenderSettings, build};
 
 /// Samples of one pass.
 const PASS: u32 = 64;
@@ -108,15 +108,17 @@ fn half(
     let mut sum = vec![[0.0_f64; 3]; plan.width as usize * plan.height as usize];
     for (pass, first) in (0..).zip((0..all).step_by(PASS as usize)) {
         let samples = PASS.min(all - first);
-        let shot = Shot {
+        let settings = RenderSettings {
             frame,
             width: plan.width,
             height: plan.height,
             samples,
             seed: FIRST_SEED + (half << 24) + pass,
         };
-        let params = shot.params(frames.scene().data().background);
-        let image = cpu.render(arrays, &params, Sampler::TwoLevel)?.value;
+        let params = settings.params(frames.scene().data().background);
+        let image = cpu
+            .render(arrays, &params, Sampler::TwoLevel, Integrator::Direct)?
+            .value;
         for (sum, pixel) in sum.iter_mut().flatten().zip(image.iter().flatten()) {
             *sum += f64::from(*pixel) * f64::from(samples);
         }

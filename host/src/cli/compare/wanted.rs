@@ -55,10 +55,7 @@ impl Job<'_, '_> {
     fn key(&self, frames: &mut Frames<'_>, method: Method, frame: u32) -> Value {
         let driver = match self.target {
             Target::Cpu => String::new(),
-            Target::Device(device) => {
-                let driver = &device.probe().driver;
-                format!("{} {}", driver.name, driver.info)
-            }
+            Target::Device(device) => device.probe().driver.to_string(),
         };
         json!({
             "program": self.program, "scene": frames.scene().name(), "print": frames.print(frame), "frame": frame,
