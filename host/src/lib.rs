@@ -10,6 +10,7 @@ pub mod plot;
 pub mod render;
 pub mod scene;
 pub mod stability;
+mod vector;
 pub mod vulkan;
 pub mod words;
 pub mod workload;

@@ -31,7 +31,6 @@ pub enum Integrator {
 
 impl Integrator {
     /// Most light samples, or paths, of a pixel in one invocation.
-    #[must_use]
     pub fn samples_per_invocation(self) -> u32 {
         match self {
             Self::Direct => MAX_SAMPLES_PER_INVOCATION,

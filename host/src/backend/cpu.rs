@@ -20,23 +20,17 @@ pub struct CpuBackend<C: Choice<W> = Standard, const W: usize = WIDTH> {
 
 impl<C: Choice<W>, const W: usize> CpuBackend<C, W> {
     /// Takes a BVH.
-    #[must_use]
     pub fn new(bvh: Bvh<C, W>) -> Self {
         Self { bvh }
     }
 
     /// The BVH as last refitted.
-    #[must_use]
     pub fn bvh(&self) -> &Bvh<C, W> {
         &self.bvh
     }
 }
 
 impl<C: Choice<W>, const W: usize> Backend for CpuBackend<C, W> {
-    fn name(&self) -> &str {
-        "cpu"
-    }
-
     fn node_record(&self) -> Record {
         node_record::<C::Node, W>()
     }

@@ -136,10 +136,6 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
 }
 
 impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
-    fn name(&self) -> &str {
-        self.device.name()
-    }
-
     fn node_record(&self) -> Record {
         node_record::<C::Node, W>()
     }

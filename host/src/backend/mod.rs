@@ -57,9 +57,6 @@ impl<T> Timed<T> {
 
 /// Runs the passes over one light BVH.
 pub trait Backend {
-    /// Name for tables.
-    fn name(&self) -> &str;
-
     /// Words of a node.
     fn node_record(&self) -> Record;
 

@@ -27,13 +27,11 @@ impl Sampler {
     pub const ALL: [Self; 4] = [Self::Uniform, Self::Power, Self::SingleLevel, Self::TwoLevel];
 
     /// Whether it walks a light BVH.
-    #[must_use]
     pub fn needs_bvh(self) -> bool {
         matches!(self, Self::SingleLevel | Self::TwoLevel)
     }
 
     /// As on the command line.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.into()
     }
@@ -56,7 +54,6 @@ pub struct SceneArrays {
 
 impl SceneArrays {
     /// Gathers a frame; the power table is made here.
-    #[must_use]
     pub fn new(rays: RayBvh, materials: Vec<Material>, lights: Lights, camera: Camera) -> Self {
         let thresholds = power_thresholds(lights.triangles()).unwrap_or_default();
         Self {
@@ -69,7 +66,6 @@ impl SceneArrays {
     }
 
     /// The arrays as the kernels' functions take them.
-    #[must_use]
     pub fn view(&self) -> SceneView<'_> {
         SceneView {
             surfaces: self.rays.surfaces(),

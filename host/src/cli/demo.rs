@@ -170,11 +170,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     drop(on_devices);
     devices::close(opened)?;
     print(context, &rows, &records, &written)?;
-    Ok(if rows.iter().all(|row| row.different == 0) {
-        Outcome::Good
-    } else {
-        Outcome::Bad
-    })
+    Ok(Outcome::good_if(rows.iter().all(|row| row.different == 0)))
 }
 
 /// Refits, samples and renders one frame on the CPU, then on each device, and compares.

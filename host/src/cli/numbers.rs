@@ -12,6 +12,7 @@ use lightbvh::{
 use lightbvh_kernels::bvh::{Choice, Paper, Standard};
 use serde::Serialize;
 use serde_json::json;
+use strum::VariantArray;
 
 use self::sequences::Sequence;
 use super::variance::irradiance::irradiance;
@@ -109,7 +110,7 @@ fn estimate<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 fn measure<C: Choice<W>, const W: usize>(lights: &Lights, numbers: u32) -> Vec<Row> {
     let bvh = Bvh::<C::Node, C::Importance, W>::single_level(lights, &BuildParams::default());
     let mut errors = Vec::new();
-    for sequence in Sequence::ALL {
+    for &sequence in Sequence::VARIANTS {
         let mut sum = 0.0;
         for i in 0..POINTS {
             let point = floor(1.0 + 18.0 * unit_f32(hash(i)), 1.0 + 18.0 * unit_f32(hash(!i)));
@@ -130,7 +131,7 @@ fn measure<C: Choice<W>, const W: usize>(lights: &Lights, numbers: u32) -> Vec<R
     errors
         .into_iter()
         .map(|(sequence, error)| Row {
-            sequence: sequence.name(),
+            sequence: sequence.into(),
             importance: C::NAME,
             error,
             gain: independent / error,

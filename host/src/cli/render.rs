@@ -1,7 +1,7 @@
 //! `lightbvh render`: one frame of a scene or a sequence, on the CPU or a device.
 
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
@@ -252,7 +252,7 @@ impl Sequence<'_> {
             let film = Film::new(args.width, args.height, image.value)?;
             let exposure = *exposure.get_or_insert_with(|| film.auto_exposure());
             let output = match &args.animate {
-                Some(_) => numbered(&args.output, frame),
+                Some(_) => frames::numbered(&args.output, frame),
                 None => args.output.clone(),
             };
             film.write(&output, exposure)?;
@@ -284,28 +284,5 @@ impl Sequence<'_> {
     fn arrays(&self, frame: u32) -> Result<Arc<SceneArrays>, HostError> {
         let arrays = arrays_at(self.scene, frame, self.args.width, self.args.height)?;
         Ok(Arc::new(arrays))
-    }
-}
-
-/// `path/name.png` as `path/name-0007.png`.
-fn numbered(path: &Path, frame: u32) -> PathBuf {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let mut name = format!("{stem}-{frame:04}");
-    if let Some(extension) = path.extension() {
-        name.push('.');
-        name.push_str(&extension.to_string_lossy());
-    }
-    path.with_file_name(name)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn files_are_numbered_before_their_extension() {
-        let path = Path::new("some/street.night.png");
-        assert_eq!(numbered(path, 7), Path::new("some/street.night-0007.png"));
-        assert_eq!(numbered(path, 12345), Path::new("some/street.night-12345.png"));
     }
 }

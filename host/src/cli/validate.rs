@@ -47,7 +47,6 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         Importance::Eq4 => rows::<Paper, 4>(&scene, args)?,
     };
     let all_valid = rows.iter().all(|row| row.valid);
-    let outcome = if all_valid { Outcome::Good } else { Outcome::Bad };
     if context.json {
         table::print_json(
             &json!({ "scene": scene.name(), "importance": args.importance, "valid": all_valid, "rows": rows }),
@@ -67,7 +66,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             ],
         )?;
     }
-    Ok(outcome)
+    Ok(Outcome::good_if(all_valid))
 }
 
 /// Every structure at every frame.

@@ -40,7 +40,7 @@ pub(super) struct Args {
     all: bool,
 }
 
-/// The variance of one way to sample, over the points of a scene.
+/// The variance of samples by one structure, layout and importance, over the points of a scene.
 #[derive(Clone, Debug, Serialize)]
 struct Row {
     scene: String,

@@ -9,14 +9,12 @@ mod structures;
 pub(super) mod tally;
 
 use std::ops::Range;
-use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use lightbvh_kernels::bvh::{Paper, Standard, WIDTH};
 use serde::Serialize;
 
-use super::devices;
-use super::{Context, Outcome, table};
+use super::{Context, Outcome, devices, progress, table};
 use crate::backend::Sampler;
 use crate::error::HostError;
 use crate::method::{Importance, Target};
@@ -39,7 +37,7 @@ pub(super) struct Args {
     /// Lights to sample and pmfs to evaluate per method and frame of --frames.
     #[arg(long, default_value_t = 256)]
     frame_queries: u32,
-    /// Refit that many more frames of every scene by either structure: the cheapest way to compare many words.
+    /// Refit that many more frames of every scene by either structure: this compares many words in little time.
     #[arg(long, default_value_t = 0)]
     refits: u32,
     /// What lights of a BVH are chosen by.
@@ -90,7 +88,7 @@ struct Report {
     frames: Range<u32>,
     frame_queries: u32,
     refits: u32,
-    /// Words that the CPU computes in two ways (sampled pmfs, evaluated again), and how many of them differ.
+    /// Words that the CPU computes twice (sampled pmfs, evaluated again), and how many of them differ.
     cpu_compared: u64,
     cpu_different: u64,
     devices: Vec<DeviceReport>,
@@ -185,22 +183,12 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     drop(targets);
     devices::close(opened)?;
     print(context, &report, tallies.cpu.first_difference.as_deref())?;
-    Ok(if report.different == 0 {
-        Outcome::Good
-    } else {
-        Outcome::Bad
-    })
+    Ok(Outcome::good_if(report.different == 0))
 }
 
 fn progress(length: u64, of: &str, hidden: bool) -> ProgressBar {
-    if hidden {
-        return ProgressBar::hidden();
-    }
     let template = format!("{{bar:40}} {{pos}}/{{len}} {of}, {{eta}} left  {{wide_msg}}");
-    let style = ProgressStyle::with_template(&template);
-    let bar = ProgressBar::new(length).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar.enable_steady_tick(Duration::from_millis(500));
-    bar
+    progress::bar(length, &template, hidden)
 }
 
 fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Result<(), HostError> {
@@ -238,7 +226,7 @@ fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Re
         }
     }
     println!(
-        "cpu: {} words come by in two ways, {} different",
+        "cpu: {} words computed twice, {} different",
         report.cpu_compared, report.cpu_different
     );
     if let Some(first) = cpu_difference {

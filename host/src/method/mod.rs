@@ -1,4 +1,4 @@
-//! The methods that are compared: each a way to choose lights, and what it does from frame to frame to keep choosing well.
+//! The methods that are compared: how each chooses lights, and what it does from frame to frame to keep choosing well.
 //!
 //! [`Method`] names each; its [`Recipe`] says what it does, and makes the [`Runner`] that does it.
 
@@ -41,12 +41,8 @@ pub struct Step<'a> {
 
 impl Step<'_> {
     /// The error for lights of this frame that a light BVH does not take.
-    fn refused(&self, source: EditError) -> HostError {
-        HostError::Edit {
-            scene: self.scene.name().to_owned(),
-            frame: self.frame,
-            source,
-        }
+    fn refused(&self, error: EditError) -> HostError {
+        HostError::in_frame(self.scene.name(), self.frame, error)
     }
 }
 
@@ -152,7 +148,6 @@ pub enum Target<'d> {
 
 impl<'d> Target<'d> {
     /// As in tables.
-    #[must_use]
     pub fn name(&self) -> &str {
         match self {
             Self::Cpu => "cpu",

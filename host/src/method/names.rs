@@ -102,13 +102,11 @@ impl Method {
     pub const ALL: &[Self] = Self::VARIANTS;
 
     /// As on the command line.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.into()
     }
 
     /// What the method does where samples count shadow rays.
-    #[must_use]
     pub fn recipe(self) -> Recipe {
         use Importance::{Eq4, Moments};
         use Sampler::{Power, SingleLevel, TwoLevel, Uniform};
@@ -151,13 +149,11 @@ impl Method {
 
 impl Recipe {
     /// Whether an image depends on a light BVH and nothing else.
-    #[must_use]
     pub fn is_light_bvh(&self) -> bool {
         self.lights.needs_bvh() && self.reuse.is_none()
     }
 
     /// What ReSTIR does, if the method is that.
-    #[must_use]
     pub fn restir(&self) -> Option<RestirOptions> {
         let reuse = self.reuse?;
         Some(RestirOptions::new(self.lights, reuse))
@@ -169,7 +165,6 @@ impl Importance {
     pub const ALL: [Self; 2] = [Self::Moments, Self::Eq4];
 
     /// [`Choice::NAME`].
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Moments => Standard::NAME,
@@ -178,7 +173,6 @@ impl Importance {
     }
 
     /// How trees by this importance are built unless something else is asked for.
-    #[must_use]
     pub fn builder(self) -> Builder {
         match self {
             Self::Moments => Builder::Ward,
@@ -189,7 +183,6 @@ impl Importance {
 
 impl Builder {
     /// Parameters of the build.
-    #[must_use]
     pub fn params(self) -> BuildParams {
         match self {
             Self::Sah => BuildParams::paper(Heuristic::Sah),

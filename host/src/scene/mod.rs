@@ -20,6 +20,7 @@ mod builder;
 mod camera;
 mod check;
 mod error;
+mod flush;
 mod frame;
 mod glb_out;
 mod gltf_in;

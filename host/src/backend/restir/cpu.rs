@@ -37,7 +37,6 @@ struct Last {
 
 impl<C: Choice<W>, const W: usize> CpuRestir<C, W> {
     /// Before the first frame.
-    #[must_use]
     pub fn new(options: RestirOptions) -> Self {
         Self {
             options,

@@ -39,7 +39,6 @@ struct Last {
 
 impl<'d, C: Choice<W>, const W: usize> DeviceRestir<'d, C, W> {
     /// Before the first frame.
-    #[must_use]
     pub fn new(device: &'d Device, options: RestirOptions) -> Self {
         Self {
             device,

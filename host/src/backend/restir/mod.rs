@@ -33,13 +33,11 @@ pub enum Combination {
 
 impl Combination {
     /// As on the command line and in reports.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.into()
     }
 
     /// Whether the expectation of an image is its direct light.
-    #[must_use]
     pub fn is_unbiased(self) -> bool {
         self == Self::Unbiased
     }
@@ -71,7 +69,6 @@ impl RestirOptions {
     /// pixels — three of them and one pass where each costs a shadow ray, five and two passes where none does. From a
     /// light BVH a quarter as many: with 32 the street's error is 8 % lower (`lightbvh compare`, frames 0 and 60,
     /// 192 × 108), but llvmpipe then ends loops early in the scene `carousel`: `lightbvh verify` found 7,363 words different.
-    #[must_use]
     pub fn new(source: Sampler, combination: Combination) -> Self {
         let (neighbors, spatial_passes) = match combination {
             Combination::Unbiased => (3, 1),
@@ -90,7 +87,6 @@ impl RestirOptions {
 
     /// Shadow rays that a pixel costs in a frame at most: for visibility reuse, for the final sample, and, where the
     /// combination is unbiased, for the frame before and for each neighbour. [`Restir::shadow_rays`] counts those traced.
-    #[must_use]
     pub fn most_shadow_rays(&self) -> u32 {
         2 + match self.combination {
             Combination::Unbiased => u32::from(self.history > 0) + self.neighbors * self.spatial_passes,
@@ -109,7 +105,6 @@ pub struct LightRemap {
 impl LightRemap {
     /// From the index now of each light of the frame before (`u32::MAX` for one that is gone), of `now` lights. An index
     /// that is out of range or was given before counts as gone: no two lights can become one.
-    #[must_use]
     pub fn new(to_current: &[u32], now: usize) -> Self {
         let mut to_previous = vec![NONE; now];
         let to_current = to_current
@@ -132,13 +127,11 @@ impl LightRemap {
     }
 
     /// By index in the frame before.
-    #[must_use]
     pub fn to_current(&self) -> &[u32] {
         &self.to_current
     }
 
     /// By index now.
-    #[must_use]
     pub fn to_previous(&self) -> &[u32] {
         &self.to_previous
     }

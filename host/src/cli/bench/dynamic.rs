@@ -54,7 +54,8 @@ pub(super) fn report(instances: u32, mesh_triangles: u32, opened: &[Opened]) -> 
         .into_iter()
         .chain([(Change::Shine, shares[0])])
     {
-        eprintln!("{} {changed} of {instances}", change.name());
+        let name: &str = change.into();
+        eprintln!("{name} {changed} of {instances}");
         rows.push(one.install(|| cpu(&mut world, change, changed, 1, &scale)));
     }
     // The same number in a smaller scene.
@@ -191,7 +192,7 @@ fn row(
     scale: &Scale,
 ) -> Row {
     Row {
-        change: change.name(),
+        change: change.into(),
         instances: world.instance_count(),
         triangles: world.scene.light_count() as u64,
         changed,

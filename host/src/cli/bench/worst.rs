@@ -70,7 +70,7 @@ pub(super) fn run(context: &Context) -> Result<Outcome, HostError> {
             if bounded { "at most" } else { "ABOVE" }
         );
     }
-    Ok(if bounded { Outcome::Good } else { Outcome::Bad })
+    Ok(Outcome::good_if(bounded))
 }
 
 fn measure<C: Choice<W>, const W: usize>(scene: &Scene) -> Vec<Case> {

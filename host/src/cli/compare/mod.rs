@@ -14,11 +14,11 @@ mod wanted;
 
 use std::path::Path;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::{Context, Outcome, devices, table};
+use super::{Context, Outcome, devices, progress, table};
 use crate::error::HostError;
 use crate::method::Target;
 use crate::render::write_whole;
@@ -86,7 +86,11 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         plan: &plan,
         store,
         program: program(),
-        progress: progress(),
+        progress: progress::bar(
+            0,
+            "{bar:30} {percent:>3} % {elapsed} passed, {eta} left  {wide_msg}",
+            false,
+        ),
         report: Report {
             settings: settings(&plan),
             notes: &report::NOTES,
@@ -127,11 +131,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     } else {
         table::print_text(&text)?;
     }
-    Ok(if report.different == 0 {
-        Outcome::Good
-    } else {
-        Outcome::Bad
-    })
+    Ok(Outcome::good_if(report.different == 0))
 }
 
 struct Run<'p> {
@@ -232,13 +232,6 @@ fn blocks(plan: &Plan, target: &Target<'_>) -> Vec<u32> {
         Target::Cpu => plan.timed_frames,
         Target::Device(_) => plan.timed_on_devices,
     })
-}
-
-fn progress() -> ProgressBar {
-    let style =
-        ProgressStyle::with_template("{bar:30} {percent:>3} % {elapsed} passed, {eta} left  {wide_msg}");
-    // Without a terminal on standard error nothing is drawn.
-    ProgressBar::new(0).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
 /// Tells this program from others, whose results may differ: its own file's bytes.

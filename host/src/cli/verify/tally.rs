@@ -51,7 +51,7 @@ pub(in crate::cli) struct Tally {
     pub first_difference: Option<String>,
 }
 
-/// What was compared with each device, and of the CPU's words those that it computes in two ways.
+/// What was compared with each device, and of the CPU's words those that it computes twice.
 #[derive(Default)]
 pub(super) struct Tallies {
     pub devices: Vec<Tally>,

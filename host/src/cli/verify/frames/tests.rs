@@ -68,10 +68,6 @@ impl Runner for Corrupt {
 }
 
 impl Backend for CorruptBackend {
-    fn name(&self) -> &str {
-        "corrupt"
-    }
-
     fn node_record(&self) -> Record {
         self.inner.node_record()
     }
