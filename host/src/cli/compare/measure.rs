@@ -4,17 +4,15 @@ use std::collections::BTreeMap;
 use std::time::Duration;
 
 use bytemuck::cast_slice;
-use indicatif::ProgressBar;
 use serde::{Deserialize, Serialize};
 
 use super::frames::Frames;
-use super::plan::{BLOCK, Plan};
-use super::reference::Reference;
-use super::store::{Store, fingerprint};
-use super::wanted::Wanted;
+use super::job::{Job, Wanted};
+use super::plan::BLOCK;
+use super::store::fingerprint;
 use crate::cli::times::ms;
 use crate::error::HostError;
-use crate::method::{Method, Runner, SequenceId, Target, UpdateTimes, runner};
+use crate::method::{Method, Runner, SequenceId, UpdateTimes, runner};
 use crate::metrics::Quality;
 use crate::render::Film;
 use crate::workload::RenderSettings;
@@ -64,20 +62,6 @@ impl Results {
         };
         self.images.iter().filter(differs).count() as u64
     }
-}
-
-/// One scene on one backend.
-pub(super) struct Job<'a, 'd> {
-    pub plan: &'a Plan,
-    pub store: &'a Store,
-    pub references: &'a [Reference],
-    pub target: Target<'d>,
-    /// Images per frame, and blocks that are timed.
-    pub seeds: u32,
-    pub blocks: Vec<u32>,
-    /// What this program is, for keys.
-    pub program: &'a str,
-    pub progress: &'a ProgressBar,
 }
 
 /// A method at work, and what is still wanted of it.
@@ -130,7 +114,7 @@ impl<'d> Job<'_, 'd> {
                         results.times.entry(method).or_default().extend(times);
                         results.reused += 1;
                         self.progress
-                            .inc(u64::from(BLOCK) * super::work(self.plan, self.plan.samples));
+                            .inc(u64::from(BLOCK) * self.plan.work(self.plan.samples));
                     }
                     None => lane.blocks.push(wanted),
                 }
@@ -187,7 +171,7 @@ impl<'d> Job<'_, 'd> {
             if timed.is_some() {
                 let image =
                     runner.image(&step, arrays, &self.settings(frame, TIMING_SEED), SequenceId::MAX)?;
-                self.progress.inc(super::work(self.plan, self.plan.samples));
+                self.progress.inc(self.plan.work(self.plan.samples));
                 // The first frame of a block follows other methods' work, see `BLOCK`.
                 if frame > block * BLOCK {
                     times.push(FrameTimes::new(frame, &update, image.time));
@@ -196,13 +180,12 @@ impl<'d> Job<'_, 'd> {
             for wanted in images {
                 let chain = u64::from(wanted.at) << 32 | u64::from(wanted.seed);
                 let image = runner.image(&step, arrays, &self.settings(frame, wanted.seed), chain)?;
-                self.progress.inc(super::work(self.plan, self.plan.samples));
+                self.progress.inc(self.plan.work(self.plan.samples));
                 if frame == wanted.at {
                     runner.end(chain);
                     self.keep(wanted, lane.method, image.value, results)?;
                 } else {
-                    self.progress
-                        .inc_length(super::work(self.plan, self.plan.samples));
+                    self.progress.inc_length(self.plan.work(self.plan.samples));
                 }
             }
         }
@@ -255,7 +238,7 @@ impl<'d> Job<'_, 'd> {
         }
         results.images.insert((method, wanted.at, wanted.seed), measured);
         results.reused += 1;
-        self.progress.inc(super::work(self.plan, self.plan.samples));
+        self.progress.inc(self.plan.work(self.plan.samples));
         true
     }
 
