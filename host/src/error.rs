@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
-use lightbvh::{EditError, LightsError, RebuildError};
+use lightbvh::{EditError, RebuildError};
 
 use crate::backend::BackendError;
-use crate::compare::CompareError;
 use crate::metrics::MetricError;
-use crate::render::{FilmError, RayBvhError};
+use crate::render::FilmError;
 use crate::scene::SceneError;
 use crate::vulkan::VulkanError;
+use crate::words::CompareError;
 
 /// An error of a command.
 #[derive(Debug, thiserror::Error)]
@@ -17,25 +17,15 @@ pub enum HostError {
     /// The scene.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// Its lights.
+    /// Its lights, geometry or moving lights in some frame.
     #[error("scene `{scene}`, frame {frame}: {source}")]
-    Lights {
+    Frame {
         /// Name of the scene.
         scene: String,
         /// Number of the frame.
         frame: u32,
-        /// What is wrong with them.
-        source: LightsError,
-    },
-    /// Its geometry.
-    #[error("scene `{scene}`, frame {frame}: {source}")]
-    RayBvh {
-        /// Name of the scene.
-        scene: String,
-        /// Number of the frame.
-        frame: u32,
-        /// What is wrong with it.
-        source: RayBvhError,
+        /// What is wrong there.
+        source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// The power sampler has no table for this scene.
     #[error(
@@ -65,16 +55,6 @@ pub enum HostError {
     /// Two images that cannot be measured.
     #[error(transparent)]
     Metric(#[from] MetricError),
-    /// Moving lights that cannot be followed.
-    #[error("scene `{scene}`, frame {frame}: {source}")]
-    Edit {
-        /// Name of the scene.
-        scene: String,
-        /// Number of the frame.
-        frame: u32,
-        /// What is wrong.
-        source: EditError,
-    },
     /// A rebuild beside the frame.
     #[error(transparent)]
     Rebuild(#[from] RebuildError),
@@ -120,6 +100,21 @@ pub enum HostError {
     /// Standard output is gone.
     #[error("cannot write to standard output: {0}")]
     Output(#[from] std::io::Error),
+}
+
+impl HostError {
+    /// What is wrong in a frame of a scene.
+    pub(crate) fn in_frame(
+        scene: &str,
+        frame: u32,
+        source: impl std::error::Error + Send + Sync + 'static,
+    ) -> Self {
+        Self::Frame {
+            scene: scene.to_owned(),
+            frame,
+            source: Box::new(source),
+        }
+    }
 }
 
 impl From<BackendError> for HostError {

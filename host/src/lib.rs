@@ -3,13 +3,14 @@
 
 pub mod backend;
 pub mod cli;
-pub mod compare;
 pub mod error;
-pub mod figure;
 pub mod method;
 pub mod metrics;
+pub mod plot;
 pub mod render;
 pub mod scene;
 pub mod stability;
+mod vector;
 pub mod vulkan;
+pub mod words;
 pub mod workload;

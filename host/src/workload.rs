@@ -12,7 +12,7 @@ use crate::scene::Scene;
 
 /// Image and frame of a rendering.
 #[derive(Clone, Copy, Debug)]
-pub struct Shot {
+pub struct RenderSettings {
     /// Frame of the animation, 25 per second.
     pub frame: u32,
     /// Columns.
@@ -25,9 +25,8 @@ pub struct Shot {
     pub seed: u32,
 }
 
-impl Shot {
+impl RenderSettings {
     /// Parameters of the render pass.
-    #[must_use]
     pub fn params(&self, background: [f32; 3]) -> RenderParams {
         RenderParams {
             width: self.width,
@@ -46,11 +45,7 @@ impl Shot {
 /// [`HostError`] when there is none, or one is outside the domain.
 pub fn lights_at(scene: &Scene, frame: u32) -> Result<Lights, HostError> {
     scene.require_lights()?;
-    Lights::new(scene.frame(frame).emissive).map_err(|source| HostError::Lights {
-        scene: scene.name().to_owned(),
-        frame,
-        source,
-    })
+    Lights::new(scene.frame(frame).emissive).map_err(|error| HostError::in_frame(scene.name(), frame, error))
 }
 
 /// The arrays of `scene` at `frame` for an image of `width` × `height`.
@@ -60,11 +55,8 @@ pub fn lights_at(scene: &Scene, frame: u32) -> Result<Lights, HostError> {
 pub fn arrays_at(scene: &Scene, frame: u32, width: u32, height: u32) -> Result<SceneArrays, HostError> {
     let lights = lights_at(scene, frame)?;
     let data = scene.frame(frame);
-    let rays = RayBvh::build(&data.triangles).map_err(|source| HostError::RayBvh {
-        scene: scene.name().to_owned(),
-        frame,
-        source,
-    })?;
+    let rays =
+        RayBvh::build(&data.triangles).map_err(|error| HostError::in_frame(scene.name(), frame, error))?;
     Ok(SceneArrays::new(
         rays,
         data.materials,
@@ -74,7 +66,6 @@ pub fn arrays_at(scene: &Scene, frame: u32, width: u32, height: u32) -> Result<S
 }
 
 /// The light BVH that `sampler` walks; the other samplers walk none and get the two-level one.
-#[must_use]
 pub fn build<N: LightNode<W>, I, const W: usize>(
     lights: &Lights,
     sampler: Sampler,
@@ -87,7 +78,6 @@ pub fn build<N: LightNode<W>, I, const W: usize>(
 }
 
 /// The instance of light `light` in a BVH that was built over `lights`: what a pmf is asked for beside the light.
-#[must_use]
 pub fn instance_of<N: LightNode<W>, I, const W: usize>(
     bvh: &Bvh<N, I, W>,
     lights: &Lights,
@@ -101,7 +91,6 @@ pub fn instance_of<N: LightNode<W>, I, const W: usize>(
 
 /// `count` queries numbered from `first`: most on surfaces of the scene, some in volumes, some anywhere in and around
 /// it, a few where arithmetic is hard: on a light, at the origin, far away.
-#[must_use]
 pub fn queries(scene: &SceneArrays, seed: u32, first: u32, count: u32) -> Vec<Query> {
     let bounds = scene_box(scene);
     (first..first.wrapping_add(count))

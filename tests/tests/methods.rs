@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use lightbvh::{BuildParams, Heuristic};
-use lightbvh_host::backend::{Backend, Bvh, CpuBackend, Sampler};
+use lightbvh_host::backend::{Backend, Bvh, CpuBackend, Integrator, Sampler};
 use lightbvh_host::method::{Method, Step, Target, runner};
 use lightbvh_host::scene::Scene;
-use lightbvh_host::workload::{Shot, arrays_at, build, lights_at};
+use lightbvh_host::workload::{RenderSettings, arrays_at, build, lights_at};
 use lightbvh_kernels::bvh::Paper;
 
 const LAST: u32 = 12;
-const SHOT: Shot = Shot {
+const SETTINGS: RenderSettings = RenderSettings {
     frame: LAST,
     width: 48,
     height: 27,
@@ -42,19 +42,22 @@ fn image(scene: &Scene, method: Method, visits: impl Fn(u32, bool) -> bool) -> V
             assert_eq!(times.wait, times.rebuild, "nothing is built beside the frame");
         }
     }
-    let arrays = Arc::new(arrays_at(scene, LAST, SHOT.width, SHOT.height).expect("a frame"));
+    let arrays = Arc::new(arrays_at(scene, LAST, SETTINGS.width, SETTINGS.height).expect("a frame"));
     let step = Step {
         scene,
         frame: LAST,
         lights: &arrays.lights,
     };
-    runner.image(&step, &arrays, &SHOT, 0).expect("an image").value
+    runner
+        .image(&step, &arrays, &SETTINGS, 0)
+        .expect("an image")
+        .value
 }
 
 #[test]
 fn skipped_frames_change_no_word() {
     let scene = Scene::open("street").expect("a scene");
-    for method in Method::ALL {
+    for &method in Method::ALL {
         let all = image(&scene, method, |_, _| true);
         let few = image(&scene, method, |frame, may_skip| !may_skip || frame == LAST);
         assert!(all == few, "{}", method.name());
@@ -64,13 +67,13 @@ fn skipped_frames_change_no_word() {
 #[test]
 fn a_rebuilt_tree_is_a_new_tree_and_a_refitted_one_is_not() {
     let scene = Scene::open("street").expect("a scene");
-    let arrays = arrays_at(&scene, LAST, SHOT.width, SHOT.height).expect("a frame");
+    let arrays = arrays_at(&scene, LAST, SETTINGS.width, SETTINGS.height).expect("a frame");
     let params = BuildParams::paper(Heuristic::Saoh);
     let bvh: Bvh<Paper, 4> = build(&arrays.lights, Sampler::SingleLevel, &params);
     let mut cpu = CpuBackend::<Paper, 4>::new(bvh);
-    let params = SHOT.params(scene.data().background);
+    let params = SETTINGS.params(scene.data().background);
     let new = cpu
-        .render(&arrays, &params, Sampler::SingleLevel)
+        .render(&arrays, &params, Sampler::SingleLevel, Integrator::Direct)
         .expect("an image")
         .value;
     assert!(image(&scene, Method::SingleLevelRebuilt, |_, _| true) == new);

@@ -2,25 +2,25 @@
 
 use bytemuck::cast_slice;
 use lightbvh::BuildParams;
-use lightbvh_host::backend::{Backend, Bvh, CpuBackend, DeviceBackend, PIXEL_RECORD, Sampler};
-use lightbvh_host::compare::compare_words;
+use lightbvh_host::backend::{Backend, Bvh, CpuBackend, DeviceBackend, Integrator, PIXEL_RECORD, Sampler};
 use lightbvh_host::scene::Scene;
 use lightbvh_host::vulkan::Options;
-use lightbvh_host::workload::{Shot, arrays_at, build};
+use lightbvh_host::words::compare_words;
+use lightbvh_host::workload::{RenderSettings, arrays_at, build};
 use lightbvh_kernels::bvh::{Choice, Paper, Standard, WIDTH};
 use lightbvh_tests::devices::on_each_device;
 
 fn same_words<C: Choice<W>, const W: usize>() {
     let scene = Scene::open("carousel").expect("a built-in scene");
-    let shot = Shot {
+    let settings = RenderSettings {
         frame: 30,
         width: 40,
         height: 25,
         samples: 2,
         seed: 7,
     };
-    let arrays = arrays_at(&scene, shot.frame, shot.width, shot.height).expect("a frame");
-    let params = shot.params([0.2, 0.3, 0.4]);
+    let arrays = arrays_at(&scene, settings.frame, settings.width, settings.height).expect("a frame");
+    let params = settings.params([0.2, 0.3, 0.4]);
     on_each_device(Options::default(), |device| {
         for sampler in Sampler::ALL {
             let bvh: Bvh<C, W> = build(&arrays.lights, sampler, &BuildParams::default());
@@ -28,11 +28,11 @@ fn same_words<C: Choice<W>, const W: usize>() {
             let mut other = DeviceBackend::<C, W>::new(device, &bvh).expect("a backend");
             for bounces in [0, 1, 7] {
                 let expected = cpu
-                    .render_path(&arrays, &params, bounces, sampler)
+                    .render(&arrays, &params, sampler, Integrator::Path { bounces })
                     .expect("an image")
                     .value;
                 let found = other
-                    .render_path(&arrays, &params, bounces, sampler)
+                    .render(&arrays, &params, sampler, Integrator::Path { bounces })
                     .expect("an image")
                     .value;
                 let comparison = compare_words(&PIXEL_RECORD, cast_slice(&expected), cast_slice(&found))

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use bytemuck::cast_slice;
 use lightbvh::{BuildParams, LightBvh, Lights};
 use lightbvh_host::backend::{
-    Bvh, CandidateSource, Combination, CpuRestir, DeviceRestir, LightRemap, PIXEL_RECORD, RESERVOIR_RECORD,
-    Restir, RestirFrame, RestirOptions, SURFACE_RECORD, SceneArrays,
+    Bvh, Combination, CpuRestir, DeviceRestir, LightRemap, PIXEL_RECORD, RESERVOIR_RECORD, Restir,
+    RestirFrame, RestirOptions, SURFACE_RECORD, Sampler, SceneArrays,
 };
-use lightbvh_host::compare::compare_words;
 use lightbvh_host::render::RayBvh;
 use lightbvh_host::scene::Scene;
 use lightbvh_host::vulkan::{Device, Options};
+use lightbvh_host::words::compare_words;
 use lightbvh_host::workload::arrays_at;
 use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::restir::combine::Unbiased;
@@ -73,7 +73,7 @@ fn animation(name: &str, stride: u32) -> Vec<Shot> {
         .collect()
 }
 
-fn assert_equal(what: &str, record: &lightbvh_host::compare::Record, cpu: &[u32], device: &[u32]) {
+fn assert_equal(what: &str, record: &lightbvh_host::words::Record, cpu: &[u32], device: &[u32]) {
     let found = compare_words(record, cpu, device).expect("words of the same records");
     assert_eq!(found.different, 0, "{what}: {:?}", found.first);
     assert!(found.compared > 0);
@@ -117,10 +117,10 @@ fn compare(device: &Device, what: &str, options: RestirOptions, shots: &[Shot], 
     }
 }
 
-const SOURCES: [CandidateSource; 2] = [CandidateSource::Power, CandidateSource::LightBvh];
+const SOURCES: [Sampler; 2] = [Sampler::Power, Sampler::TwoLevel];
 const COMBINATIONS: [Combination; 2] = [Combination::Unbiased, Combination::Biased];
 
-fn small(source: CandidateSource, combination: Combination) -> RestirOptions {
+fn small(source: Sampler, combination: Combination) -> RestirOptions {
     RestirOptions {
         candidates: 5,
         radius: 6,
@@ -184,7 +184,7 @@ fn lights_that_come_go_and_change_their_index_are_followed() {
     }
     on_each_device(Options::default(), |device| {
         for combination in COMBINATIONS {
-            let options = small(CandidateSource::Power, combination);
+            let options = small(Sampler::Power, combination);
             compare(device, "remapped", options, &shots, (WIDTH, HEIGHT));
         }
     });
@@ -192,7 +192,7 @@ fn lights_that_come_go_and_change_their_index_are_followed() {
     // On the CPU: a light that only changed its index keeps its history, and one that is gone loses it.
     let options = RestirOptions {
         spatial_passes: 0,
-        ..small(CandidateSource::Power, Combination::Unbiased)
+        ..small(Sampler::Power, Combination::Unbiased)
     };
     let render = |shots: &[Shot]| {
         let mut cpu = CpuRestir::new(options);
@@ -221,7 +221,7 @@ fn dispatches_in_parts_are_whole_and_corners_of_the_options_agree() {
     let shots: Vec<Shot> = [0, 3]
         .map(|n| Shot::new(arrays_at(&scene, n, WIDTH, HEIGHT).expect("a frame"), None))
         .into();
-    let usual = small(CandidateSource::Power, Combination::Unbiased);
+    let usual = small(Sampler::Power, Combination::Unbiased);
     on_each_device(Options::default(), |device| {
         // 2560 pixels of 1000 candidates are more than one dispatch takes. (lavapipe ends the loops of an invocation after
         // 65,535 iterations in all, silently: 32 per candidate go into the search by power.)
@@ -269,7 +269,7 @@ fn dispatches_in_parts_are_whole_and_corners_of_the_options_agree() {
 fn a_history_that_cannot_be_used_is_dropped() {
     let scene = Scene::open("street").expect("a built-in scene");
     let shot = Shot::new(arrays_at(&scene, 0, WIDTH, HEIGHT).expect("a frame"), None);
-    let options = small(CandidateSource::LightBvh, Combination::Unbiased);
+    let options = small(Sampler::TwoLevel, Combination::Unbiased);
     let first = |shot: &Shot, width| {
         let mut fresh = CpuRestir::new(options);
         fresh.frame(&shot.frame(width, HEIGHT, 9)).expect("a frame").value

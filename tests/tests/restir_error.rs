@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use lightbvh::{BuildParams, LightBvh};
 use lightbvh_host::backend::{
-    Backend, Bvh, CandidateSource, Combination, CpuBackend, CpuRestir, Restir, RestirFrame, RestirOptions,
+    Backend, Bvh, Combination, CpuBackend, CpuRestir, Integrator, Restir, RestirFrame, RestirOptions,
     Sampler, SceneArrays,
 };
 use lightbvh_host::render::Film;
 use lightbvh_host::scene::Scene;
-use lightbvh_host::workload::{Shot, arrays_at};
+use lightbvh_host::workload::{RenderSettings, arrays_at};
 use lightbvh_kernels::bvh::{Standard, WIDTH as WIDE};
 
 const WIDTH: u32 = 128;
@@ -26,7 +26,7 @@ struct Case {
 
 fn independent(case: &Case, sampler: Sampler, samples: u32, seed: u32) -> Vec<[f32; 3]> {
     let (arrays, bvh) = case.frames.last().expect("frames");
-    let shot = Shot {
+    let settings = RenderSettings {
         frame: 0,
         width: WIDTH,
         height: HEIGHT,
@@ -34,8 +34,10 @@ fn independent(case: &Case, sampler: Sampler, samples: u32, seed: u32) -> Vec<[f
         seed,
     };
     let mut cpu = CpuBackend::<Standard, WIDE>::new(bvh.clone());
-    let params = shot.params(case.background);
-    cpu.render(arrays, &params, sampler).expect("an image").value
+    let params = settings.params(case.background);
+    cpu.render(arrays, &params, sampler, Integrator::Direct)
+        .expect("an image")
+        .value
 }
 
 fn restir(case: &Case, options: RestirOptions, seed: u32) -> (Vec<[f32; 3]>, f64) {
@@ -156,9 +158,9 @@ fn candidates_from_the_light_bvh_have_less_error_at_equal_rays() {
                     restir(&case, options, seed)
                 })
             };
-            let by_power = of(CandidateSource::Power, 32);
-            let by_tree = of(CandidateSource::LightBvh, 8);
-            of(CandidateSource::LightBvh, 32);
+            let by_power = of(Sampler::Power, 32);
+            let by_tree = of(Sampler::TwoLevel, 8);
+            of(Sampler::TwoLevel, 32);
             // A few pixels of huge value make the error of the biased combination, and its linear error, hard to repeat.
             if combination == Combination::Unbiased {
                 assert!(by_tree.linear < 0.75 * by_power.linear, "{name}: linear");

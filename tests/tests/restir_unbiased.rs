@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::Vec3;
 use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, exact};
 use lightbvh_host::backend::{
-    Bvh, CandidateSource, Combination, CpuRestir, LightRemap, Restir, RestirFrame, RestirOptions, SceneArrays,
+    Bvh, Combination, CpuRestir, LightRemap, Restir, RestirFrame, RestirOptions, Sampler, SceneArrays,
 };
 use lightbvh_host::render::{RayBvh, View, camera};
 use lightbvh_kernels::shading::material::Material;
@@ -160,7 +160,7 @@ fn frame(shot: &Shot, seed: u32) -> RestirFrame<'_> {
 /// Direct light of every pixel of the last frame by brute force.
 fn references(shots: &[Shot], time: f32) -> Vec<Reference> {
     let last = &shots[FRAMES - 1];
-    let options = RestirOptions::new(CandidateSource::Power, Combination::Unbiased);
+    let options = RestirOptions::new(Sampler::Power, Combination::Unbiased);
     let mut restir = CpuRestir::new(options);
     restir.frame(&frame(last, 0)).expect("a frame");
     let surfaces = restir.state().expect("a state").0;
@@ -246,9 +246,9 @@ fn converges(what: &str, options: RestirOptions, shots: &[Shot], references: &[R
     assert!(lit * 2 > WIDTH * HEIGHT, "nearly all in the dark: {lit}");
 }
 
-const SOURCES: [CandidateSource; 2] = [CandidateSource::Power, CandidateSource::LightBvh];
+const SOURCES: [Sampler; 2] = [Sampler::Power, Sampler::TwoLevel];
 
-fn options(source: CandidateSource, combination: Combination) -> RestirOptions {
+fn options(source: Sampler, combination: Combination) -> RestirOptions {
     RestirOptions {
         candidates: 3,
         radius: 3,

@@ -1,20 +1,17 @@
 //! The passes on the CPU, over all cores of the current rayon pool.
 
-use std::time::Instant;
-
 use bytemuck::cast_slice;
 use lightbvh::{Lights, SampledLight};
-use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
+use lightbvh_kernels::bvh::{Choice, Standard, TreeOf, WIDTH};
 use lightbvh_kernels::query::{Query, pmf_query, sample_query};
 use lightbvh_kernels::render::RenderParams;
-use lightbvh_kernels::shading::path::MAX_BOUNCES;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use rayon::prelude::*;
 
-use super::parts::{MAX_SAMPLES_PER_INVOCATION, in_parts, paths_per_invocation};
-use super::{Backend, BackendError, Bvh, Follow, Sampler, SceneArrays, Timed, node_record};
-use crate::compare::Record;
+use super::batches::in_batches;
+use super::{Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, node_record};
 use crate::render::{render, render_path};
+use crate::words::Record;
 
 /// The CPU as a backend: the reference that devices are compared with.
 pub struct CpuBackend<C: Choice<W> = Standard, const W: usize = WIDTH> {
@@ -23,34 +20,26 @@ pub struct CpuBackend<C: Choice<W> = Standard, const W: usize = WIDTH> {
 
 impl<C: Choice<W>, const W: usize> CpuBackend<C, W> {
     /// Takes a BVH.
-    #[must_use]
     pub fn new(bvh: Bvh<C, W>) -> Self {
         Self { bvh }
     }
 
     /// The BVH as last refitted.
-    #[must_use]
     pub fn bvh(&self) -> &Bvh<C, W> {
         &self.bvh
     }
 }
 
 impl<C: Choice<W>, const W: usize> Backend for CpuBackend<C, W> {
-    fn name(&self) -> &str {
-        "cpu"
-    }
-
     fn node_record(&self) -> Record {
         node_record::<C::Node, W>()
     }
 
     fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, BackendError> {
-        let start = Instant::now();
-        self.bvh.follow(lights).map_err(BackendError::Lights)?;
-        Ok(Timed {
-            time: start.elapsed(),
-            value: self.words(),
-        })
+        let Timed { value, time } = Timed::of(|| self.bvh.follow(lights));
+        value?;
+        let value = self.words();
+        Ok(Timed { value, time })
     }
 
     fn nodes(&mut self) -> Result<Vec<u32>, BackendError> {
@@ -58,31 +47,11 @@ impl<C: Choice<W>, const W: usize> Backend for CpuBackend<C, W> {
     }
 
     fn sample(&mut self, queries: &[Query]) -> Result<Timed<Vec<SampledLight>>, BackendError> {
-        let start = Instant::now();
-        let tree = self.bvh.tree();
-        let value = queries
-            .par_iter()
-            .with_min_len(256)
-            .map(|query| sample_query::<C, W>(&tree, query))
-            .collect();
-        Ok(Timed {
-            value,
-            time: start.elapsed(),
-        })
+        Ok(self.query(queries, |tree, query| sample_query::<C, W>(tree, query)))
     }
 
     fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, BackendError> {
-        let start = Instant::now();
-        let tree = self.bvh.tree();
-        let value = queries
-            .par_iter()
-            .with_min_len(256)
-            .map(|query| pmf_query::<C, W>(&tree, query))
-            .collect();
-        Ok(Timed {
-            value,
-            time: start.elapsed(),
-        })
+        Ok(self.query(queries, |tree, query| pmf_query::<C, W>(tree, query)))
     }
 
     fn render(
@@ -90,54 +59,45 @@ impl<C: Choice<W>, const W: usize> Backend for CpuBackend<C, W> {
         scene: &SceneArrays,
         params: &RenderParams,
         sampler: Sampler,
+        integrator: Integrator,
     ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
-        in_parts(params, MAX_SAMPLES_PER_INVOCATION, |params| {
-            Ok(self.shade(scene, sampler, Direct(params)))
+        in_batches(params, integrator.samples_per_invocation(), |params| {
+            Ok(Timed::of(|| match sampler {
+                Sampler::Uniform => {
+                    let count = scene.lights.triangles().len() as u32;
+                    image(scene, params, integrator, &Uniform { count })
+                }
+                Sampler::Power => {
+                    let thresholds = &scene.thresholds;
+                    image(scene, params, integrator, &Power { thresholds })
+                }
+                Sampler::SingleLevel | Sampler::TwoLevel => {
+                    image(scene, params, integrator, &self.bvh.tree())
+                }
+            }))
         })
     }
-
-    fn render_path(
-        &mut self,
-        scene: &SceneArrays,
-        params: &RenderParams,
-        bounces: u32,
-        sampler: Sampler,
-    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
-        in_parts(params, paths_per_invocation(bounces.min(MAX_BOUNCES)), |params| {
-            Ok(self.shade(scene, sampler, Paths(params, bounces)))
-        })
-    }
 }
 
-/// An integrator, for whichever picker: what a closure cannot be.
-trait Integrate {
-    fn image<P: PickLight + Sync>(&self, scene: &SceneArrays, picker: &P) -> Vec<[f32; 3]>;
-}
-
-struct Direct<'a>(&'a RenderParams);
-
-impl Integrate for Direct<'_> {
-    fn image<P: PickLight + Sync>(&self, scene: &SceneArrays, picker: &P) -> Vec<[f32; 3]> {
-        render(&scene.view(), &scene.camera, self.0, picker)
-    }
-}
-
-struct Paths<'a>(&'a RenderParams, u32);
-
-impl Integrate for Paths<'_> {
-    fn image<P: PickLight + Sync>(&self, scene: &SceneArrays, picker: &P) -> Vec<[f32; 3]> {
-        render_path(&scene.view(), &scene.camera, self.0, self.1, picker)
+/// The image by `integrator` with lights from `picker`.
+fn image<P: PickLight + Sync>(
+    scene: &SceneArrays,
+    params: &RenderParams,
+    integrator: Integrator,
+    picker: &P,
+) -> Vec<[f32; 3]> {
+    match integrator {
+        Integrator::Direct => render(&scene.view(), &scene.camera, params, picker),
+        Integrator::Path { bounces } => render_path(&scene.view(), &scene.camera, params, bounces, picker),
     }
 }
 
 impl<C: Choice<W>, const W: usize> Follow<C, W> for CpuBackend<C, W> {
     fn follow(&mut self, bvh: &Bvh<C, W>) -> Result<Timed<()>, BackendError> {
         let mut own = bvh.clone();
-        let start = Instant::now();
-        own.refit();
-        let time = start.elapsed();
+        let refitted = Timed::of(|| own.refit());
         self.bvh = own;
-        Ok(Timed { time, value: () })
+        Ok(refitted)
     }
 }
 
@@ -147,28 +107,16 @@ impl<C: Choice<W>, const W: usize> CpuBackend<C, W> {
         cast_slice(self.bvh.tree().nodes).to_vec()
     }
 
-    /// The image by `integrator` with the picker of `sampler`.
-    fn shade(
+    /// What `answer` says to each query.
+    fn query<T: Send>(
         &self,
-        scene: &SceneArrays,
-        sampler: Sampler,
-        integrator: impl Integrate,
-    ) -> Timed<Vec<[f32; 3]>> {
-        let start = Instant::now();
-        let value = match sampler {
-            Sampler::Uniform => {
-                let count = scene.lights.triangles().len() as u32;
-                integrator.image(scene, &Uniform { count })
-            }
-            Sampler::Power => {
-                let thresholds = &scene.thresholds;
-                integrator.image(scene, &Power { thresholds })
-            }
-            Sampler::SingleLevel | Sampler::TwoLevel => integrator.image(scene, &self.bvh.tree()),
-        };
-        Timed {
-            value,
-            time: start.elapsed(),
-        }
+        queries: &[Query],
+        answer: impl Fn(&TreeOf<'_, C, W>, &Query) -> T + Sync,
+    ) -> Timed<Vec<T>> {
+        let tree = self.bvh.tree();
+        Timed::of(|| {
+            let queries = queries.par_iter().with_min_len(256);
+            queries.map(|query| answer(&tree, query)).collect()
+        })
     }
 }

@@ -21,15 +21,15 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
     /// Makes the device's arrays those of `bvh`, but for the summaries that are refitted.
     fn copy_changes(&mut self, bvh: &Bvh<C, W>, frame: &Frame) -> Result<(), BackendError> {
         let (device, tree) = (self.device, bvh.tree());
-        renew(device, &mut self.nodes, tree.nodes, frame, Array::Nodes)?;
+        renew(device, &mut self.tree.nodes, tree.nodes, frame, Array::Nodes)?;
         renew(
             device,
-            &mut self.instances,
+            &mut self.tree.instances,
             tree.instances,
             frame,
             Array::Instances,
         )?;
-        renew(device, &mut self.trails, tree.trails, frame, Array::Trails)?;
+        renew(device, &mut self.tree.trails, tree.trails, frame, Array::Trails)?;
         renew(device, &mut self.roots, bvh.roots(), frame, Array::Roots)?;
         renew(
             device,
@@ -38,7 +38,7 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
             frame,
             Array::Triangles,
         )?;
-        self.tree = TreePush::of(&tree);
+        self.tree.push = TreePush::of(&tree);
         Ok(())
     }
 }

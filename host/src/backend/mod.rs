@@ -1,35 +1,36 @@
 //! What runs the passes: the CPU over all its cores, or a Vulkan device. Both run the same functions on the same arrays,
-//! so [`compare`](crate::compare) may ask for equal words. A [`Choice`] says over which node layout, by which importance;
+//! so [`words`](crate::words) may ask for equal words. A [`Choice`] says over which node layout, by which importance;
 //! [`Standard`] where it is left out.
 
+mod batches;
 mod cpu;
 mod device;
+mod device_arrays;
 mod error;
 mod follow;
-mod parts;
 mod record;
 mod restir;
 mod scene;
 
+pub use batches::Integrator;
 pub use cpu::CpuBackend;
 pub use device::DeviceBackend;
 pub use error::BackendError;
-pub use parts::MAX_SAMPLES_PER_INVOCATION;
 pub use record::{PIXEL_RECORD, PMF_RECORD, SAMPLED_RECORD, node_record};
 pub use restir::{
-    CandidateSource, Combination, CpuRestir, DeviceRestir, LightRemap, RESERVOIR_RECORD, Restir, RestirFrame,
+    Combination, CpuRestir, DeviceRestir, History, LightRemap, RESERVOIR_RECORD, Restir, RestirFrame,
     RestirOptions, SURFACE_RECORD,
 };
 pub use scene::{Sampler, SceneArrays};
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use lightbvh::{Lights, SampledLight};
 use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
 use lightbvh_kernels::query::Query;
 use lightbvh_kernels::render::RenderParams;
 
-use crate::compare::Record;
+use crate::words::Record;
 
 /// The light BVH of a choice.
 pub type Bvh<C = Standard, const W: usize = WIDTH> =
@@ -44,11 +45,18 @@ pub struct Timed<T> {
     pub time: Duration,
 }
 
+impl<T> Timed<T> {
+    /// Does the work, by this machine's clock.
+    pub(crate) fn of(work: impl FnOnce() -> T) -> Self {
+        let start = Instant::now();
+        let value = work();
+        let time = start.elapsed();
+        Self { value, time }
+    }
+}
+
 /// Runs the passes over one light BVH.
 pub trait Backend {
-    /// Name for tables.
-    fn name(&self) -> &str;
-
     /// Words of a node.
     fn node_record(&self) -> Record;
 
@@ -76,8 +84,10 @@ pub trait Backend {
     /// [`BackendError`] from a device.
     fn pmf(&mut self, queries: &[Query]) -> Result<Timed<Vec<f32>>, BackendError>;
 
-    /// Renders direct lighting with lights chosen by `sampler`; the light BVH's samplers use this backend's BVH. More than
-    /// [`MAX_SAMPLES_PER_INVOCATION`] samples are the mean of several images, the same ones on every backend.
+    /// Renders the light that `integrator` follows, with lights chosen by `sampler`; the light BVH's samplers use this backend's
+    /// BVH. [`RenderParams::samples`] counts light samples, or paths; more than
+    /// [`samples_per_invocation`](Integrator::samples_per_invocation) are the mean of several images, the same ones on every
+    /// backend.
     ///
     /// # Errors
     /// [`BackendError`] from a device.
@@ -86,20 +96,7 @@ pub trait Backend {
         scene: &SceneArrays,
         params: &RenderParams,
         sampler: Sampler,
-    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError>;
-
-    /// Renders light along paths of up to `bounces` reflections, at most
-    /// [`MAX_BOUNCES`](lightbvh_kernels::shading::path::MAX_BOUNCES), with lights chosen as by [`render`](Self::render);
-    /// [`RenderParams::samples`] counts paths, which are shared out over several images where they are many or long.
-    ///
-    /// # Errors
-    /// [`BackendError`] from a device.
-    fn render_path(
-        &mut self,
-        scene: &SceneArrays,
-        params: &RenderParams,
-        bounces: u32,
-        sampler: Sampler,
+        integrator: Integrator,
     ) -> Result<Timed<Vec<[f32; 3]>>, BackendError>;
 }
 

@@ -4,10 +4,9 @@ use std::marker::PhantomData;
 
 use lightbvh::LightNode;
 
-use crate::compare::{Field, Record};
+use crate::words::{Field, Record};
 
 /// Words of a node of layout `N`; by place alone where the names of the layout's words are not known here.
-#[must_use]
 pub fn node_record<N: LightNode<W>, const W: usize>() -> Record {
     let words = size_of::<N>() / size_of::<u32>();
     let known = [Words::<W>::COMPACT, Words::<W>::MOMENTS];

@@ -8,8 +8,9 @@ use lightbvh_kernels::shading::pixel::Scene as SceneView;
 use crate::render::{RayBvh, power_thresholds};
 
 /// How the renderer chooses lights.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, clap::ValueEnum, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, strum::IntoStaticStr, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum Sampler {
     /// Every light alike.
     Uniform,
@@ -26,20 +27,13 @@ impl Sampler {
     pub const ALL: [Self; 4] = [Self::Uniform, Self::Power, Self::SingleLevel, Self::TwoLevel];
 
     /// Whether it walks a light BVH.
-    #[must_use]
     pub fn needs_bvh(self) -> bool {
         matches!(self, Self::SingleLevel | Self::TwoLevel)
     }
 
     /// As on the command line.
-    #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Uniform => "uniform",
-            Self::Power => "power",
-            Self::SingleLevel => "single-level",
-            Self::TwoLevel => "two-level",
-        }
+        self.into()
     }
 }
 
@@ -60,7 +54,6 @@ pub struct SceneArrays {
 
 impl SceneArrays {
     /// Gathers a frame; the power table is made here.
-    #[must_use]
     pub fn new(rays: RayBvh, materials: Vec<Material>, lights: Lights, camera: Camera) -> Self {
         let thresholds = power_thresholds(lights.triangles()).unwrap_or_default();
         Self {
@@ -73,7 +66,6 @@ impl SceneArrays {
     }
 
     /// The arrays as the kernels' functions take them.
-    #[must_use]
     pub fn view(&self) -> SceneView<'_> {
         SceneView {
             surfaces: self.rays.surfaces(),

@@ -15,11 +15,12 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::range::{self, Given, given};
+use super::times::median;
 use super::{Context, Outcome, devices, table};
 use crate::backend::{Bvh, CpuBackend, DeviceBackend, Sampler};
 use crate::error::HostError;
 use crate::workload::build;
-use passes::{batches, library_passes, measure, median, passes};
+use passes::{batches, library_passes, measure, passes};
 use scene::{random_lights, random_queries};
 
 #[derive(Debug, clap::Args)]
@@ -242,42 +243,22 @@ fn print(context: &Context, cases: &[Case], trade: &[trade::Row]) -> Result<(), 
         table::print_json(&json!({ "cases": cases, "trade": trade }))?;
         return Ok(());
     }
-    let header = [
-        "what",
-        "kind",
-        "structure",
-        "lights",
-        "backend",
-        "threads",
-        "ns/item",
-        "least",
-        "most",
-        "bytes/light",
-        "copies",
-    ];
-    let rows: Vec<Vec<String>> = cases
-        .iter()
-        .map(|c| {
-            vec![
-                c.what.to_owned(),
-                What::kind(c).to_owned(),
-                c.structure.to_owned(),
-                c.lights.to_string(),
-                c.backend.clone(),
-                if c.threads == 0 {
-                    "-".to_owned()
-                } else {
-                    c.threads.to_string()
-                },
-                format!("{:.1}", c.ns_per_item),
-                format!("{:.1}", c.ns_least),
-                format!("{:.1}", c.ns_most),
-                format!("{:.1}", c.bytes_per_light),
-                format!("{:.1}", c.copies),
-            ]
-        })
-        .collect();
-    table::print(&header, &rows)?;
+    table::print(
+        cases,
+        &[
+            ("what", |c| c.what.to_owned()),
+            ("kind", |c| What::kind(c).to_owned()),
+            ("structure", |c| c.structure.to_owned()),
+            ("lights", |c| c.lights.to_string()),
+            ("backend", |c| c.backend.clone()),
+            ("threads", |c| table::threads(c.threads)),
+            ("ns/item", |c| format!("{:.1}", c.ns_per_item)),
+            ("least", |c| format!("{:.1}", c.ns_least)),
+            ("most", |c| format!("{:.1}", c.ns_most)),
+            ("bytes/light", |c| format!("{:.1}", c.bytes_per_light)),
+            ("copies", |c| format!("{:.1}", c.copies)),
+        ],
+    )?;
     trade::print(trade)?;
     Ok(())
 }

@@ -9,15 +9,15 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::range::{self, MAX_SIDE, given};
-use super::{Context, Outcome, devices, table};
+use super::verify::tally::{Kind, Tally};
+use super::{Context, Outcome, devices, table, times};
 use crate::backend::{
-    Backend, Bvh, CpuBackend, DeviceBackend, PIXEL_RECORD, SAMPLED_RECORD, Sampler, SceneArrays,
+    Backend, Bvh, CpuBackend, DeviceBackend, Integrator, SAMPLED_RECORD, Sampler, SceneArrays,
 };
-use crate::compare::{Record, compare_words};
 use crate::error::HostError;
 use crate::render::Film;
 use crate::scene::Scene;
-use crate::workload::{Shot, arrays_at, build, lights_at, queries};
+use crate::workload::{RenderSettings, arrays_at, build, lights_at, queries};
 
 const SCENE: &str = "street";
 /// Frames shown: those of the paper's Table 1.
@@ -67,9 +67,7 @@ struct Run {
     refit: Vec<Duration>,
     sample: Vec<Duration>,
     render: Vec<Duration>,
-    compared: u64,
-    different: u64,
-    first: Option<String>,
+    tally: Tally,
     image: Vec<[f32; 3]>,
 }
 
@@ -101,14 +99,21 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     for frame in FRAMES {
         eprintln!("frame {frame}");
         let arrays = arrays_at(&scene, frame, width, height)?;
-        let shot = Shot {
+        let settings = RenderSettings {
             frame,
             width,
             height,
             samples: SAMPLES,
             seed: frame,
         };
-        frame_on_all(&scene, &arrays, &shot, &mut cpu, &mut on_devices, &mut records)?;
+        frame_on_all(
+            &scene,
+            &arrays,
+            &settings,
+            &mut cpu,
+            &mut on_devices,
+            &mut records,
+        )?;
 
         let film = Film::new(width, height, records[0].image.clone())?;
         // One exposure for all frames, so that they can be compared.
@@ -124,18 +129,19 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     eprintln!("reference");
     let last = FRAMES[FRAMES.len() - 1];
     let arrays = arrays_at(&scene, last, width, height)?;
-    let shot = Shot {
+    let settings = RenderSettings {
         frame: last,
         width,
         height,
         samples: REFERENCE_SAMPLES,
         seed: u32::MAX,
     };
-    let params = shot.params(scene.frame(last).background);
+    let params = settings.params(scene.frame(last).background);
     let reference = Film::new(
         width,
         height,
-        cpu.render(&arrays, &params, Sampler::TwoLevel)?.value,
+        cpu.render(&arrays, &params, Sampler::TwoLevel, Integrator::Direct)?
+            .value,
     )?;
     let name = format!("{SCENE}-{last:03}-reference.png");
     written.push(write(&args.out, &name, &reference, exposure.unwrap_or(1.0))?);
@@ -151,12 +157,12 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                 triangles: scene.triangle_count(),
                 nodes: bvh.nodes().len(),
                 depth: bvh.depth(),
-                build_ms: milliseconds(build_time),
-                refit_ms: median(&record.refit),
-                sample_ms: median(&record.sample),
-                render_ms: median(&record.render),
-                compared: record.compared,
-                different: record.different,
+                build_ms: times::ms(build_time),
+                refit_ms: times::median_ms(&record.refit),
+                sample_ms: times::median_ms(&record.sample),
+                render_ms: times::median_ms(&record.render),
+                compared: record.tally.compared,
+                different: record.tally.different,
                 mse: Film::new(width, height, record.image.clone())?.mean_squared_error(&reference)?,
             })
         })
@@ -164,31 +170,27 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     drop(on_devices);
     devices::close(opened)?;
     print(context, &rows, &records, &written)?;
-    Ok(if rows.iter().all(|row| row.different == 0) {
-        Outcome::Good
-    } else {
-        Outcome::Bad
-    })
+    Ok(Outcome::good_if(rows.iter().all(|row| row.different == 0)))
 }
 
 /// Refits, samples and renders one frame on the CPU, then on each device, and compares.
 fn frame_on_all(
     scene: &Scene,
     arrays: &SceneArrays,
-    shot: &Shot,
+    settings: &RenderSettings,
     cpu: &mut CpuBackend,
     devices: &mut [DeviceBackend<'_>],
     records: &mut [Run],
 ) -> Result<(), HostError> {
-    let asked = queries(arrays, shot.frame, 0, QUERIES);
-    let params = shot.params(scene.frame(shot.frame).background);
+    let asked = queries(arrays, settings.frame, 0, QUERIES);
+    let params = settings.params(scene.frame(settings.frame).background);
     let mut expected = None;
     let backends =
         std::iter::once(cpu as &mut dyn Backend).chain(devices.iter_mut().map(|d| d as &mut dyn Backend));
     for (backend, record) in backends.zip(records) {
         let nodes = backend.refit(&arrays.lights)?;
         let sampled = backend.sample(&asked)?;
-        let image = backend.render(arrays, &params, Sampler::TwoLevel)?;
+        let image = backend.render(arrays, &params, Sampler::TwoLevel, Integrator::Direct)?;
         record.refit.push(nodes.time);
         record.sample.push(sampled.time);
         record.render.push(image.time);
@@ -196,35 +198,16 @@ fn frame_on_all(
         match &expected {
             None => expected = Some((nodes.value, sampled.value, image.value)),
             Some((cpu_nodes, cpu_sampled, cpu_image)) => {
-                record.take("refit", &backend.node_record(), cpu_nodes, &nodes.value)?;
-                record.take(
-                    "sample",
-                    &SAMPLED_RECORD,
-                    cast_slice(cpu_sampled),
-                    cast_slice(&sampled.value),
-                )?;
-                record.take(
-                    "render",
-                    &PIXEL_RECORD,
-                    cast_slice(cpu_image),
-                    cast_slice(&image.value),
-                )?;
+                let tally = &mut record.tally;
+                let nodes_record = backend.node_record();
+                tally.take(Kind::Nodes, "refit", &nodes_record, cpu_nodes, &nodes.value)?;
+                let (expected, found) = (cast_slice(cpu_sampled), cast_slice(&sampled.value));
+                tally.take(Kind::Samples, "sample", &SAMPLED_RECORD, expected, found)?;
+                tally.take_pixels("render", cpu_image, &image.value)?;
             }
         }
     }
     Ok(())
-}
-
-impl Run {
-    fn take(&mut self, kernel: &str, record: &Record, cpu: &[u32], device: &[u32]) -> Result<(), HostError> {
-        let comparison = compare_words(record, cpu, device)?;
-        self.compared += comparison.compared;
-        self.different += comparison.different;
-        if let (None, Some(first)) = (&self.first, comparison.first) {
-            self.first = Some(format!("{kernel}: {first}"));
-        }
-        Ok(())
-    }
 }
 
 fn write(folder: &Path, name: &str, film: &Film, exposure: f32) -> Result<PathBuf, HostError> {
@@ -233,59 +216,31 @@ fn write(folder: &Path, name: &str, film: &Film, exposure: f32) -> Result<PathBu
     Ok(path)
 }
 
-fn milliseconds(time: Duration) -> f64 {
-    time.as_secs_f64() * 1e3
-}
-
-fn median(times: &[Duration]) -> f64 {
-    let mut sorted = times.to_vec();
-    sorted.sort_unstable();
-    sorted.get(sorted.len() / 2).copied().map_or(0.0, milliseconds)
-}
-
 fn print(context: &Context, rows: &[Row], records: &[Run], written: &[PathBuf]) -> Result<(), HostError> {
     if context.json {
         table::print_json(&json!({ "rows": rows, "images": written }))?;
         return Ok(());
     }
-    let header = [
-        "backend",
-        "scene",
-        "lights",
-        "triangles",
-        "nodes",
-        "depth",
-        "build ms",
-        "refit ms",
-        "sample ms",
-        "render ms",
-        "words compared",
-        "different",
-        "MSE",
-    ];
-    let cells: Vec<Vec<String>> = rows
-        .iter()
-        .map(|r| {
-            vec![
-                r.backend.clone(),
-                r.scene.to_owned(),
-                r.lights.to_string(),
-                r.triangles.to_string(),
-                r.nodes.to_string(),
-                r.depth.to_string(),
-                format!("{:.1}", r.build_ms),
-                format!("{:.2}", r.refit_ms),
-                format!("{:.1}", r.sample_ms),
-                format!("{:.0}", r.render_ms),
-                r.compared.to_string(),
-                r.different.to_string(),
-                format!("{:.3e}", r.mse),
-            ]
-        })
-        .collect();
-    table::print(&header, &cells)?;
+    table::print(
+        rows,
+        &[
+            ("backend", |r| r.backend.clone()),
+            ("scene", |r| r.scene.to_owned()),
+            ("lights", |r| r.lights.to_string()),
+            ("triangles", |r| r.triangles.to_string()),
+            ("nodes", |r| r.nodes.to_string()),
+            ("depth", |r| r.depth.to_string()),
+            ("build ms", |r| format!("{:.1}", r.build_ms)),
+            ("refit ms", |r| format!("{:.2}", r.refit_ms)),
+            ("sample ms", |r| format!("{:.1}", r.sample_ms)),
+            ("render ms", |r| format!("{:.0}", r.render_ms)),
+            ("words compared", |r| r.compared.to_string()),
+            ("different", |r| r.different.to_string()),
+            ("MSE", |r| format!("{:.3e}", r.mse)),
+        ],
+    )?;
     for (row, record) in rows.iter().zip(records) {
-        if let Some(first) = &record.first {
+        if let Some(first) = &record.tally.first_difference {
             println!("{}: first difference: {first}", row.backend);
         }
     }

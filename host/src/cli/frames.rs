@@ -1,6 +1,7 @@
-//! Ranges of frames on the command line.
+//! Ranges of frames on the command line, and files that are numbered by frame.
 
 use std::ops::Range;
+use std::path::{Path, PathBuf};
 
 /// Most frames of one animation.
 const MAX_FRAMES: u32 = 100_000;
@@ -18,6 +19,17 @@ pub(super) fn parse(text: &str) -> Result<Range<u32>, String> {
         Some(range) => Ok(range),
         None => Err("expected two frame numbers as A..B, for example 0..150".to_owned()),
     }
+}
+
+/// `path/name.png` as `path/name-0007.png`.
+pub(super) fn numbered(path: &Path, frame: u32) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let mut name = format!("{stem}-{frame:04}");
+    if let Some(extension) = path.extension() {
+        name.push('.');
+        name.push_str(&extension.to_string_lossy());
+    }
+    path.with_file_name(name)
 }
 
 #[cfg(test)]
@@ -42,5 +54,12 @@ mod tests {
         ] {
             assert!(parse(wrong).is_err(), "{wrong}");
         }
+    }
+
+    #[test]
+    fn files_are_numbered_before_their_extension() {
+        let path = Path::new("some/street.night.png");
+        assert_eq!(numbered(path, 7), Path::new("some/street.night-0007.png"));
+        assert_eq!(numbered(path, 12345), Path::new("some/street.night-12345.png"));
     }
 }

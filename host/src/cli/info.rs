@@ -14,34 +14,25 @@ pub(super) fn run(context: &Context) -> Result<Outcome, HostError> {
             .collect();
         table::print_json(&json!({ "cpu_threads": rayon::current_num_threads(), "devices": devices }))?;
     } else {
-        let rows: Vec<_> = opened
-            .iter()
-            .map(|o| {
-                let probe = o.device.probe();
-                let controls = &probe.float_controls;
-                let yes = |b: bool| if b { "yes" } else { "no" }.to_owned();
-                vec![
-                    probe.name.clone(),
-                    format!("{} {}", probe.driver.name, probe.driver.info),
-                    probe.api_version.clone(),
-                    yes(controls.signed_zero_inf_nan_preserve_32),
-                    yes(controls.rounding_mode_rte_32),
-                    yes(controls.denorm_preserve_32),
-                    yes(o.exactness.exact),
-                ]
-            })
-            .collect();
-        let header = [
-            "device",
-            "driver",
-            "Vulkan",
-            "keeps ±0/inf/nan",
-            "rounds to even",
-            "keeps denormals",
-            "exact",
-        ];
-        if !rows.is_empty() {
-            table::print(&header, &rows)?;
+        if !opened.is_empty() {
+            table::print(
+                &opened,
+                &[
+                    ("device", |o| o.device.name().to_owned()),
+                    ("driver", |o| o.device.probe().driver.to_string()),
+                    ("Vulkan", |o| o.device.probe().api_version.clone()),
+                    ("keeps ±0/inf/nan", |o| {
+                        table::yes(o.device.probe().float_controls.signed_zero_inf_nan_preserve_32)
+                    }),
+                    ("rounds to even", |o| {
+                        table::yes(o.device.probe().float_controls.rounding_mode_rte_32)
+                    }),
+                    ("keeps denormals", |o| {
+                        table::yes(o.device.probe().float_controls.denorm_preserve_32)
+                    }),
+                    ("exact", |o| table::yes(o.exactness.exact)),
+                ],
+            )?;
         }
         for o in &opened {
             println!("{}: {}", o.device.name(), o.exactness);

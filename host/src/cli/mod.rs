@@ -9,10 +9,12 @@ mod export;
 mod frames;
 mod info;
 mod numbers;
+mod progress;
 mod range;
 mod render;
 mod stability;
 mod table;
+mod times;
 mod validate;
 mod variance;
 mod verify;
@@ -82,8 +84,13 @@ enum Outcome {
     Bad,
 }
 
+impl Outcome {
+    fn good_if(good: bool) -> Self {
+        if good { Self::Good } else { Self::Bad }
+    }
+}
+
 /// Runs the program.
-#[must_use]
 pub fn main() -> ExitCode {
     let args = match Args::try_parse() {
         Ok(args) => args,

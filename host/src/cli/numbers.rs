@@ -12,12 +12,13 @@ use lightbvh::{
 use lightbvh_kernels::bvh::{Choice, Paper, Standard};
 use serde::Serialize;
 use serde_json::json;
+use strum::VariantArray;
 
 use self::sequences::Sequence;
 use super::variance::irradiance::irradiance;
 use super::{Context, Outcome, table};
 use crate::error::HostError;
-use crate::figure::Canvas;
+use crate::plot::Canvas;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -58,20 +59,14 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             &json!({ "numbers": args.numbers, "points": POINTS, "trials": TRIALS, "rows": rows }),
         )?;
     } else {
-        let cells: Vec<Vec<String>> = rows
-            .iter()
-            .map(|row| {
-                vec![
-                    row.sequence.to_owned(),
-                    row.importance.to_owned(),
-                    format!("{:.2e}", row.error),
-                    format!("{:.1}", row.gain),
-                ]
-            })
-            .collect();
         table::print(
-            &["numbers", "importance", "squared error", "times better"],
-            &cells,
+            &rows,
+            &[
+                ("numbers", |r| r.sequence.to_owned()),
+                ("importance", |r| r.importance.to_owned()),
+                ("squared error", |r| format!("{:.2e}", r.error)),
+                ("times better", |r| format!("{:.1}", r.gain)),
+            ],
         )?;
     }
     Ok(Outcome::Good)
@@ -115,7 +110,7 @@ fn estimate<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 fn measure<C: Choice<W>, const W: usize>(lights: &Lights, numbers: u32) -> Vec<Row> {
     let bvh = Bvh::<C::Node, C::Importance, W>::single_level(lights, &BuildParams::default());
     let mut errors = Vec::new();
-    for sequence in Sequence::ALL {
+    for &sequence in Sequence::VARIANTS {
         let mut sum = 0.0;
         for i in 0..POINTS {
             let point = floor(1.0 + 18.0 * unit_f32(hash(i)), 1.0 + 18.0 * unit_f32(hash(!i)));
@@ -136,7 +131,7 @@ fn measure<C: Choice<W>, const W: usize>(lights: &Lights, numbers: u32) -> Vec<R
     errors
         .into_iter()
         .map(|(sequence, error)| Row {
-            sequence: sequence.name(),
+            sequence: sequence.into(),
             importance: C::NAME,
             error,
             gain: independent / error,

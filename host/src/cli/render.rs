@@ -1,30 +1,26 @@
 //! `lightbvh render`: one frame of a scene or a sequence, on the CPU or a device.
 
-mod images;
-mod options;
-
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use lightbvh::{BuildParams, Heuristic};
-use lightbvh_kernels::bvh::{Choice, Paper, Standard, WIDTH};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 use serde_json::{Value, json};
 
 use super::range::{self, Given, MAX_SIDE, given};
 use super::{Context, Outcome, devices, frames, table};
-use crate::backend::{Combination, SceneArrays};
+use crate::backend::{Combination, Integrator, SceneArrays};
 use crate::error::HostError;
-use crate::method::{Step, Target};
+use crate::method::{Builder, Importance, Method, Recipe, SampleBudget, SequenceId, Step, Target};
+use crate::render::Film;
 use crate::scene::Scene;
 use crate::vulkan::{Device, VulkanError};
-use crate::workload::{Shot, arrays_at};
-use images::{Images, Integrator, Method};
-use options::{IntegratorName, SamplerName, numbered};
+use crate::workload::{RenderSettings, arrays_at};
 
 /// Frames that ReSTIR runs through before the first one shown, where there are as many before it.
 const WARM_UP: u32 = 8;
+/// All images are of one sequence.
+const SEQUENCE: SequenceId = 0;
 /// Most final samples of ReSTIR per pixel: each keeps a history of its own, about 80 bytes per pixel.
 const MAX_HISTORIES: u32 = 64;
 
@@ -51,8 +47,8 @@ pub(super) struct Args {
     #[arg(long)]
     spp: Option<u32>,
     /// How lights are chosen. ReSTIR runs through up to 8 earlier frames before the first one shown.
-    #[arg(long, value_enum, default_value_t = SamplerName::TwoLevel)]
-    sampler: SamplerName,
+    #[arg(long, value_enum, default_value_t = Method::TwoLevelMoments)]
+    sampler: Method,
     /// How ReSTIR combines samples of other pixels and frames: without bias, or biased (darker where pixels do not see the
     /// same lights) with fewer shadow rays [default: unbiased].
     #[arg(long, value_enum)]
@@ -63,12 +59,12 @@ pub(super) struct Args {
     /// Most reflections of a path, 1 to 64, with --integrator path; 1 is direct lighting.
     #[arg(long, default_value_t = 8)]
     bounces: u32,
-    /// What lights of a BVH are chosen by: moments, or the paper's Eq. 4.
-    #[arg(long, value_enum, default_value_t = ImportanceName::Moments)]
-    importance: ImportanceName,
-    /// How the light BVH is built [default: ward; with --importance eq4, saoh as in the paper].
+    /// What lights of a BVH are chosen by: moments, or the paper's Eq. 4 [default: that of the sampler].
     #[arg(long, value_enum)]
-    heuristic: Option<HeuristicName>,
+    importance: Option<Importance>,
+    /// How the light BVH is built [default: that of the sampler; with --importance, ward or, for eq4, saoh as in the paper].
+    #[arg(long, value_enum)]
+    heuristic: Option<Builder>,
     /// What renders.
     #[arg(long, value_enum, default_value_t = BackendName::Cpu)]
     backend: BackendName,
@@ -83,55 +79,14 @@ pub(super) struct Args {
     output: PathBuf,
 }
 
-/// A [`Choice`] on the command line.
+/// What light is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(super) enum ImportanceName {
-    /// The default: moments of the lights, 8 children to a node.
-    Moments,
-    /// The paper's Eq. 4 on bounds, 4 children to a node.
-    Eq4,
-}
-
-impl ImportanceName {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Moments, Self::Eq4];
-
-    /// [`Choice::NAME`].
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Moments => Standard::NAME,
-            Self::Eq4 => Paper::NAME,
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, clap::ValueEnum)]
-pub(super) enum HeuristicName {
-    /// The surface area heuristic.
-    Sah,
-    /// The surface area orientation heuristic.
-    Saoh,
-    /// Ward's criterion.
-    Ward,
-    /// Clusters by Morton code, Ward's criterion above them: the fastest.
-    Morton,
-}
-
-impl HeuristicName {
-    /// The parameters of builds by `heuristic`, or by the usual one of `importance`.
-    pub fn params(heuristic: Option<Self>, importance: ImportanceName) -> BuildParams {
-        let usual = match importance {
-            ImportanceName::Moments => Self::Ward,
-            ImportanceName::Eq4 => Self::Saoh,
-        };
-        match heuristic.unwrap_or(usual) {
-            Self::Sah => BuildParams::paper(Heuristic::Sah),
-            Self::Saoh => BuildParams::paper(Heuristic::Saoh),
-            Self::Ward => BuildParams::BALANCED,
-            Self::Morton => BuildParams::FAST,
-        }
-    }
+enum IntegratorName {
+    /// Light reflected once.
+    Direct,
+    /// Light along whole paths.
+    Path,
 }
 
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
@@ -140,17 +95,43 @@ enum BackendName {
     Vulkan,
 }
 
-pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
-    let integrator = match args.integrator {
-        IntegratorName::Direct => Integrator::Direct,
-        IntegratorName::Path => Integrator::Path {
-            bounces: args.bounces,
-        },
+/// What the options say of the method; the other ones are those of its name.
+fn recipe(args: &Args) -> Result<Recipe, HostError> {
+    let mut recipe = Recipe {
+        budget: SampleBudget::CameraRays,
+        ..args.sampler.recipe()
     };
-    let method = args.sampler.method(args.restir_mode, integrator)?;
-    let (most, of, default) = match method {
-        Method::Independent { .. } => (65_536, "", 16),
-        Method::Restir(_) => (MAX_HISTORIES, " with ReSTIR", 1),
+    if let Some(importance) = args.importance {
+        (recipe.importance, recipe.builder) = (importance, importance.builder());
+    }
+    recipe.builder = args.heuristic.unwrap_or(recipe.builder);
+    if let Some(combination) = args.restir_mode {
+        if recipe.reuse.is_none() {
+            return Err(HostError::Usage {
+                option: "--restir-mode",
+                needs: "--sampler restir, two-level-restir or two-level-moments-restir",
+            });
+        }
+        recipe.reuse = Some(combination);
+    }
+    if args.integrator == IntegratorName::Path {
+        if recipe.reuse.is_some() {
+            return Err(HostError::Usage {
+                option: "--integrator path",
+                needs: "a --sampler without ReSTIR",
+            });
+        }
+        let bounces = args.bounces;
+        recipe.integrator = Integrator::Path { bounces };
+    }
+    Ok(recipe)
+}
+
+pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
+    let recipe = recipe(args)?;
+    let (most, of, default) = match recipe.reuse {
+        None => (65_536, "", 16),
+        Some(_) => (MAX_HISTORIES, " with ReSTIR", 1),
     };
     let samples = args.spp.unwrap_or(default);
     range::check(&[
@@ -168,7 +149,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     }
     let sequence = Sequence {
         args,
-        method,
+        recipe,
         samples,
         scene: &scene,
     };
@@ -193,18 +174,23 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             "scene": scene.name(), "width": args.width, "height": args.height, "spp": samples,
             "sampler": args.sampler, "backend": name,
         });
-        if args.sampler.needs_bvh() {
-            report["importance"] = json!(args.importance);
+        if recipe.lights.needs_bvh() {
+            report["importance"] = json!(recipe.importance);
         }
         // Direct lighting is reflected once.
-        report["bounces"] = match integrator {
+        report["bounces"] = match recipe.integrator {
             Integrator::Direct => 1,
             Integrator::Path { bounces } => bounces,
         }
         .into();
         report["integrator"] = json!(args.integrator);
-        if let Some(restir) = method.report() {
-            report["restir"] = restir;
+        if let Some(options) = recipe.restir() {
+            report["restir"] = json!({
+                "mode": options.combination.name(),
+                "unbiased": options.combination.is_unbiased(),
+                "candidates": options.candidates,
+                "most_shadow_rays_per_sample": options.most_shadow_rays(),
+            });
         }
         if args.animate.is_some() {
             report["frames"] = shown.into();
@@ -221,7 +207,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
 /// What is to be rendered.
 struct Sequence<'a> {
     args: &'a Args,
-    method: Method,
+    recipe: Recipe,
     samples: u32,
     scene: &'a Scene,
 }
@@ -234,19 +220,11 @@ impl Sequence<'_> {
             .animate
             .clone()
             .unwrap_or(args.frame..args.frame.saturating_add(1));
-        let warm_up = match self.method {
-            Method::Independent { .. } => 0,
-            Method::Restir(_) => WARM_UP,
-        };
+        let warm_up = if self.recipe.reuse.is_some() { WARM_UP } else { 0 };
         let start = shown.start.saturating_sub(warm_up);
         let first = self.arrays(start)?;
-        let step = self.step(start, &first);
         let target = device.map_or(Target::Cpu, Target::Device);
-        let params = HeuristicName::params(args.heuristic, args.importance);
-        let mut images = match args.importance {
-            ImportanceName::Moments => Images::new::<Standard, WIDTH>(self.method, params, target, &step)?,
-            ImportanceName::Eq4 => Images::new::<Paper, 4>(self.method, params, target, &step)?,
-        };
+        let mut runner = self.recipe.runner(&self.step(start, &first), target)?;
         let mut exposure = args.exposure;
         let mut reports = Vec::new();
         let mut arrays = Some(first);
@@ -255,34 +233,40 @@ impl Sequence<'_> {
                 Some(first) => first,
                 None => self.arrays(frame)?,
             };
-            let shot = Shot {
+            let settings = RenderSettings {
                 frame,
                 width: args.width,
                 height: args.height,
                 samples: self.samples,
                 seed: args.seed,
             };
-            let image = images.next(&self.step(frame, &arrays), &arrays, &shot)?;
+            let step = self.step(frame, &arrays);
+            if frame > start {
+                runner.advance(&step)?;
+            }
+            let image = runner.image(&step, &arrays, &settings, SEQUENCE)?;
             if frame < shown.start {
                 continue;
             }
             // All frames of a sequence are exposed as its first one.
-            let exposure = *exposure.get_or_insert_with(|| image.film.auto_exposure());
+            let film = Film::new(args.width, args.height, image.value)?;
+            let exposure = *exposure.get_or_insert_with(|| film.auto_exposure());
             let output = match &args.animate {
-                Some(_) => numbered(&args.output, frame),
+                Some(_) => frames::numbered(&args.output, frame),
                 None => args.output.clone(),
             };
-            image.film.write(&output, exposure)?;
+            film.write(&output, exposure)?;
+            let ms = image.time.as_secs_f64() * 1e3;
             if !context.json {
-                let on = device.map_or("cpu", Device::name);
-                let ms = image.seconds * 1e3;
+                let on = target.name();
                 println!("{}: {ms:.1} ms on {on}, exposure {exposure:.3}", output.display());
             }
             let mut report = json!({
-                "frame": frame, "render_ms": image.seconds * 1e3, "exposure": exposure, "output": output,
+                "frame": frame, "render_ms": ms, "exposure": exposure, "output": output,
             });
-            if let Some(rays) = image.shadow_rays {
-                report["shadow_rays_per_pixel"] = rays.into();
+            if let Some(rays) = runner.shadow_rays(SEQUENCE) {
+                let pixels = f64::from(args.width) * f64::from(args.height);
+                report["shadow_rays_per_pixel"] = (rays as f64 / pixels).into();
             }
             reports.push(report);
         }
@@ -299,13 +283,6 @@ impl Sequence<'_> {
 
     fn arrays(&self, frame: u32) -> Result<Arc<SceneArrays>, HostError> {
         let arrays = arrays_at(self.scene, frame, self.args.width, self.args.height)?;
-        if self.method.needs_power_table() && arrays.thresholds.is_empty() {
-            return Err(HostError::Sampler {
-                scene: self.scene.name().to_owned(),
-                sampler: self.args.sampler.name(),
-                lights: arrays.lights.triangles().len(),
-            });
-        }
         Ok(Arc::new(arrays))
     }
 }

@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
-use super::{Context, Outcome, devices, table};
+use super::{Context, Outcome, devices, progress, table};
 use crate::error::HostError;
 use crate::stability::row::{Check, Row};
 use crate::stability::{Effort, Found, cases, invariance, run as run_case};
@@ -40,7 +39,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let opened = devices::open(context)?;
     let each: Vec<&Device> = opened.iter().map(|o| &o.device).collect();
     let small = cases::small();
-    let progress = progress(small.len() as u64 + 3, context.json);
+    let progress = progress::bar(small.len() as u64 + 3, "{bar:40} {pos}/{len} {msg}", context.json);
     let mut found = Found::default();
     for case in &small {
         progress.set_message(case.name.clone());
@@ -79,19 +78,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             .collect(),
     };
     print(context, &report)?;
-    Ok(if report.failed == 0 {
-        Outcome::Good
-    } else {
-        Outcome::Bad
-    })
-}
-
-fn progress(cases: u64, hidden: bool) -> ProgressBar {
-    if hidden {
-        return ProgressBar::hidden();
-    }
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg}");
-    ProgressBar::new(cases).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+    Ok(Outcome::good_if(report.failed == 0))
 }
 
 fn print(context: &Context, report: &Report) -> Result<(), HostError> {
@@ -99,25 +86,15 @@ fn print(context: &Context, report: &Report) -> Result<(), HostError> {
         table::print_json(report)?;
         return Ok(());
     }
-    let rows: Vec<Vec<String>> = report
-        .rows
-        .iter()
-        .map(|row| {
-            let verdict = if row.pass { "yes" } else { "NO" };
-            [
-                &row.name,
-                &row.device,
-                &number(row.worst),
-                &number(row.bound),
-                verdict,
-            ]
-            .map(str::to_owned)
-            .into()
-        })
-        .collect();
     table::print(
-        &["extreme, structure: check", "device", "worst", "bound", "within"],
-        &rows,
+        &report.rows,
+        &[
+            ("extreme, structure: check", |r| r.name.clone()),
+            ("device", |r| r.device.clone()),
+            ("worst", |r| number(r.worst)),
+            ("bound", |r| number(r.bound)),
+            ("within", |r| if r.pass { "yes" } else { "NO" }.to_owned()),
+        ],
     )?;
     let mut text = String::from("\n");
     for (check, reason) in &report.checks {

@@ -2,31 +2,50 @@
 
 use std::io::{self, Write};
 
+/// A column: its header, and what it says of a row.
+pub(super) type Column<R> = (&'static str, fn(&R) -> String);
+
 /// Prints rows under a header, columns aligned: the first to the left, numbers to the right.
-pub(super) fn print(header: &[&str], rows: &[Vec<String>]) -> io::Result<()> {
-    let mut out = io::stdout().lock();
+pub(super) fn print<R>(rows: &[R], columns: &[Column<R>]) -> io::Result<()> {
+    let header = columns.iter().map(|(name, _)| (*name).to_owned()).collect();
+    let cells = rows
+        .iter()
+        .map(|row| columns.iter().map(|(_, cell)| cell(row)).collect());
+    let lines: Vec<Vec<String>> = std::iter::once(header).chain(cells).collect();
     let width = |column: usize| {
-        let cells = rows
+        lines
             .iter()
-            .filter_map(|row| row.get(column))
-            .map(|cell| cell.chars().count());
-        cells.chain([header[column].chars().count()]).max().unwrap_or(0)
+            .map(|line| line[column].chars().count())
+            .max()
+            .unwrap_or(0)
     };
-    let widths: Vec<usize> = (0..header.len()).map(width).collect();
-    let header: Vec<String> = header.iter().map(|&name| name.to_owned()).collect();
-    for row in std::iter::once(&header).chain(rows) {
+    let widths: Vec<usize> = (0..columns.len()).map(width).collect();
+    let mut out = io::stdout().lock();
+    for cells in &lines {
         let mut line = String::new();
-        for (column, (cell, &width)) in row.iter().zip(&widths).enumerate() {
-            let fill = " ".repeat(width.saturating_sub(cell.chars().count()));
-            if column == 0 {
-                line += &format!("{cell}{fill}");
-            } else {
-                line += &format!("  {fill}{cell}");
-            }
+        for (column, (cell, &width)) in cells.iter().zip(&widths).enumerate() {
+            line += &match column {
+                0 => format!("{cell:<width$}"),
+                _ => format!("  {cell:>width$}"),
+            };
         }
         writeln!(out, "{}", line.trim_end())?;
     }
     Ok(())
+}
+
+/// A truth in a cell.
+pub(super) fn yes(value: bool) -> String {
+    if value { "yes" } else { "no" }.to_owned()
+}
+
+/// Threads in a cell; a device has none.
+pub(super) fn threads(count: usize) -> String {
+    if count == 0 {
+        "-".to_owned()
+    } else {
+        count.to_string()
+    }
 }
 
 /// Prints one JSON object.

@@ -17,8 +17,9 @@ use serde_json::json;
 
 use self::irradiance::irradiance;
 use super::{Context, Outcome, table};
+use crate::backend::Sampler;
 use crate::error::HostError;
-use crate::workload::instance_of;
+use crate::workload::{build, instance_of};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -39,7 +40,7 @@ pub(super) struct Args {
     all: bool,
 }
 
-/// The variance of one way to sample, over the points of a scene.
+/// The variance of samples by one structure, layout and importance, over the points of a scene.
 #[derive(Clone, Debug, Serialize)]
 struct Row {
     scene: String,
@@ -95,110 +96,70 @@ fn measure(subject: &Subject, all: bool) -> Vec<Row> {
         heuristic: Heuristic::Saoh,
         ..balanced
     };
-    let light: Vec<Vec<f64>> = subject
-        .points
-        .iter()
-        .map(|point| {
-            subject
-                .lights
-                .triangles()
-                .iter()
-                .map(|t| irradiance(t, point))
-                .collect()
-        })
+    let lights = subject.lights.triangles();
+    let points = subject.points.iter();
+    let light: Vec<Vec<f64>> = points
+        .map(|point| lights.iter().map(|t| irradiance(t, point)).collect())
         .collect();
-    let mut rows = Vec::new();
-    let mut add = |new: [Row; 2]| rows.extend(new);
-    add(both::<CompactNode<4>, Eq4, 4>("eq4", subject, &light, &saoh));
-    add(both::<MomentNode<8>, DefaultImportance, 8>(
-        "moments+1/64",
+    let of = Measured {
         subject,
-        &light,
-        &balanced,
-    ));
+        light: &light,
+    };
+    let mut rows = Vec::new();
+    rows.extend(of.both::<CompactNode<4>, Eq4, 4>("eq4", &saoh));
+    rows.extend(of.both::<MomentNode<8>, DefaultImportance, 8>("moments+1/64", &balanced));
     if all {
-        add(both::<MomentNode<8>, Moments, 8>(
-            "moments", subject, &light, &balanced,
-        ));
-        add(both::<MomentNode<16>, DefaultImportance, 16>(
-            "moments+1/64",
-            subject,
-            &light,
-            &balanced,
-        ));
-        add(both::<MomentNode<16>, Moments, 16>(
-            "moments", subject, &light, &balanced,
-        ));
-        add(both::<MomentNode<4>, Moments, 4>(
-            "moments", subject, &light, &balanced,
-        ));
-        add(both::<FullMomentNode<8>, Moments, 8>(
-            "moments", subject, &light, &balanced,
-        ));
-        add(both::<LeanMomentNode<8>, Moments, 8>(
-            "moments", subject, &light, &balanced,
-        ));
-        add(both::<MomentNode<8>, DefaultImportance, 8>(
-            "moments+1/64, fast",
-            subject,
-            &light,
-            &BuildParams::FAST,
-        ));
-        add(both::<MomentNode<8>, DefaultImportance, 8>(
-            "moments+1/64, best",
-            subject,
-            &light,
-            &BuildParams::BEST,
-        ));
-        add(both::<CompactNode<8>, Eq4, 8>("eq4", subject, &light, &saoh));
-        add(both::<CompactNode<4>, Eq4, 4>(
-            "eq4, ward",
-            subject,
-            &light,
-            &balanced,
-        ));
-        add(both::<CompactNode<4>, FluxOverDistance, 4>(
-            "flux/d²", subject, &light, &saoh,
-        ));
+        let (fast, best) = (BuildParams::FAST, BuildParams::BEST);
+        rows.extend(of.both::<MomentNode<8>, Moments, 8>("moments", &balanced));
+        rows.extend(of.both::<MomentNode<16>, DefaultImportance, 16>("moments+1/64", &balanced));
+        rows.extend(of.both::<MomentNode<16>, Moments, 16>("moments", &balanced));
+        rows.extend(of.both::<MomentNode<4>, Moments, 4>("moments", &balanced));
+        rows.extend(of.both::<FullMomentNode<8>, Moments, 8>("moments", &balanced));
+        rows.extend(of.both::<LeanMomentNode<8>, Moments, 8>("moments", &balanced));
+        rows.extend(of.both::<MomentNode<8>, DefaultImportance, 8>("moments+1/64, fast", &fast));
+        rows.extend(of.both::<MomentNode<8>, DefaultImportance, 8>("moments+1/64, best", &best));
+        rows.extend(of.both::<CompactNode<8>, Eq4, 8>("eq4", &saoh));
+        rows.extend(of.both::<CompactNode<4>, Eq4, 4>("eq4, ward", &balanced));
+        rows.extend(of.both::<CompactNode<4>, FluxOverDistance, 4>("flux/d²", &saoh));
     }
     rows
 }
 
-/// One level and two.
-fn both<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
-    importance: &'static str,
-    subject: &Subject,
-    light: &[Vec<f64>],
-    params: &BuildParams,
-) -> [Row; 2] {
-    [
-        (
-            "single-level",
-            Bvh::<N, I, W>::single_level(&subject.lights, params),
-        ),
-        ("two-level", Bvh::<N, I, W>::two_level(&subject.lights, params)),
-    ]
-    .map(|(structure, bvh)| {
-        let (variances, nothing) = variances(&bvh, subject, light);
-        let count = variances.len().max(1) as f64;
-        let part = |share: f64| {
-            variances
-                .get((share * (count - 1.0)) as usize)
-                .copied()
-                .unwrap_or(0.0)
-        };
-        Row {
-            scene: subject.name.clone(),
-            structure,
-            layout: N::NAME,
-            importance,
-            width: W,
-            mean: variances.iter().sum::<f64>() / count,
-            median: part(0.5),
-            p95: part(0.95),
-            nothing,
-        }
-    })
+/// A scene, and by point what each light sends there.
+struct Measured<'a> {
+    subject: &'a Subject,
+    light: &'a [Vec<f64>],
+}
+
+impl Measured<'_> {
+    /// One level and two.
+    fn both<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+        &self,
+        importance: &'static str,
+        params: &BuildParams,
+    ) -> [Row; 2] {
+        let lights = &self.subject.lights;
+        [Sampler::SingleLevel, Sampler::TwoLevel].map(|structure| {
+            let bvh = build::<N, I, W>(lights, structure, params);
+            let (variances, nothing) = variances(&bvh, self.subject, self.light);
+            let count = variances.len().max(1) as f64;
+            let part = |share: f64| {
+                let at = (share * (count - 1.0)) as usize;
+                variances.get(at).copied().unwrap_or(0.0)
+            };
+            Row {
+                scene: self.subject.name.clone(),
+                structure: structure.name(),
+                layout: N::NAME,
+                importance,
+                width: W,
+                mean: variances.iter().sum::<f64>() / count,
+                median: part(0.5),
+                p95: part(0.95),
+                nothing,
+            }
+        })
+    }
 }
 
 /// The relative variance at each point that any light reaches, sorted, and the mean share of samples that contribute nothing.
@@ -231,32 +192,18 @@ fn variances<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 }
 
 fn print(rows: &[Row]) -> Result<(), HostError> {
-    let header = [
-        "scene",
-        "structure",
-        "layout",
-        "importance",
-        "width",
-        "mean",
-        "median",
-        "p95",
-        "nothing",
-    ];
-    let cells: Vec<Vec<String>> = rows
-        .iter()
-        .map(|row| {
-            vec![
-                row.scene.clone(),
-                row.structure.to_owned(),
-                row.layout.to_owned(),
-                row.importance.to_owned(),
-                row.width.to_string(),
-                format!("{:.3}", row.mean),
-                format!("{:.3}", row.median),
-                format!("{:.3}", row.p95),
-                format!("{:.1} %", 100.0 * row.nothing),
-            ]
-        })
-        .collect();
-    Ok(table::print(&header, &cells)?)
+    Ok(table::print(
+        rows,
+        &[
+            ("scene", |r| r.scene.clone()),
+            ("structure", |r| r.structure.to_owned()),
+            ("layout", |r| r.layout.to_owned()),
+            ("importance", |r| r.importance.to_owned()),
+            ("width", |r| r.width.to_string()),
+            ("mean", |r| format!("{:.3}", r.mean)),
+            ("median", |r| format!("{:.3}", r.median)),
+            ("p95", |r| format!("{:.3}", r.p95)),
+            ("nothing", |r| format!("{:.1} %", 100.0 * r.nothing)),
+        ],
+    )?)
 }

@@ -2,28 +2,25 @@
 //! device against the CPU, word for word.
 
 mod frames;
-mod queries;
 mod refits;
 mod restir;
+mod side;
 mod structures;
-mod tally;
+pub(super) mod tally;
 
 use std::ops::Range;
-use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use lightbvh_kernels::bvh::{Paper, Standard, WIDTH};
 use serde::Serialize;
 
-use super::devices;
-use super::render::{HeuristicName, ImportanceName};
-use super::{Context, Outcome, table};
+use super::{Context, Outcome, devices, progress, table};
 use crate::backend::Sampler;
 use crate::error::HostError;
-use crate::method::Target;
+use crate::method::{Importance, Target};
 use crate::scene::{BUILT_IN, Scene};
-use structures::{Structures, Subject};
-use tally::Tally;
+use structures::Subject;
+use tally::{Tallies, Tally};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -40,7 +37,7 @@ pub(super) struct Args {
     /// Lights to sample and pmfs to evaluate per method and frame of --frames.
     #[arg(long, default_value_t = 256)]
     frame_queries: u32,
-    /// Refit that many more frames of every scene by either structure: the cheapest way to compare many words.
+    /// Refit that many more frames of every scene by either structure: this compares many words in little time.
     #[arg(long, default_value_t = 0)]
     refits: u32,
     /// What lights of a BVH are chosen by.
@@ -62,11 +59,11 @@ enum Importances {
 }
 
 impl Importances {
-    fn chosen(self) -> &'static [ImportanceName] {
+    fn chosen(self) -> &'static [Importance] {
         match self {
-            Self::Moments => &[ImportanceName::Moments],
-            Self::Eq4 => &[ImportanceName::Eq4],
-            Self::Both => &ImportanceName::ALL,
+            Self::Moments => &[Importance::Moments],
+            Self::Eq4 => &[Importance::Eq4],
+            Self::Both => &Importance::ALL,
         }
     }
 }
@@ -87,11 +84,11 @@ struct Report {
     queries: u64,
     seed: u32,
     scenes: Vec<String>,
-    importances: &'static [ImportanceName],
+    importances: &'static [Importance],
     frames: Range<u32>,
     frame_queries: u32,
     refits: u32,
-    /// Words that the CPU computes in two ways (sampled pmfs, evaluated again), and how many of them differ.
+    /// Words that the CPU computes twice (sampled pmfs, evaluated again), and how many of them differ.
     cpu_compared: u64,
     cpu_different: u64,
     devices: Vec<DeviceReport>,
@@ -108,14 +105,14 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         .map(|name| Scene::open(name))
         .collect::<Result<Vec<_>, _>>()?;
     let opened = devices::open(context)?;
-    let mut run = Structures {
-        tallies: vec![Tally::default(); opened.len()],
+    let mut tallies = Tallies {
+        devices: vec![Tally::default(); opened.len()],
         cpu: Tally::default(),
-        progress: progress(args.queries, "queries", context.json),
     };
+    let bar = progress(args.queries, "queries", context.json);
     let importances = args.importance.chosen();
     let shares = scenes.len() as u64 * 2 * importances.len() as u64;
-    let count = args.queries.div_ceil(shares);
+    let asked = (args.queries.div_ceil(shares), args.seed);
     for scene in &scenes {
         for &importance in importances {
             for sampler in [Sampler::SingleLevel, Sampler::TwoLevel] {
@@ -123,24 +120,18 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                     scene,
                     sampler,
                     importance: importance.name(),
-                    params: HeuristicName::params(None, importance),
+                    params: importance.builder().params(),
                     treeless: importance == importances[0] && sampler == Sampler::SingleLevel,
                 };
-                match importance {
-                    ImportanceName::Moments => {
-                        run.compare::<Standard, WIDTH>(&subject, &opened, count, args.seed)?;
-                    }
-                    ImportanceName::Eq4 => {
-                        run.compare::<Paper, 4>(&subject, &opened, count, args.seed)?;
-                    }
-                }
+                let compare = match importance {
+                    Importance::Moments => structures::compare::<Standard, WIDTH>,
+                    Importance::Eq4 => structures::compare::<Paper, 4>,
+                };
+                compare(&subject, &opened, asked, &mut tallies, &bar)?;
             }
         }
     }
-    run.progress.finish_and_clear();
-    let Structures {
-        mut tallies, mut cpu, ..
-    } = run;
+    bar.finish_and_clear();
 
     let plan = frames::Plan {
         frames: args.frames.clone(),
@@ -151,7 +142,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let targets: Vec<_> = opened.iter().map(|o| Target::Device(&o.device)).collect();
     let bar = progress((args.frames.len() * scenes.len()) as u64, "frames", context.json);
     for scene in &scenes {
-        frames::compare(scene, &plan, &targets, &mut tallies, &mut cpu, &bar)?;
+        frames::compare(scene, &plan, &targets, &mut tallies, &bar)?;
     }
     bar.finish_and_clear();
     if args.refits > 0 {
@@ -167,8 +158,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     }
 
     let report = Report {
-        compared: tallies.iter().map(|tally| tally.compared).sum(),
-        different: tallies.iter().map(|tally| tally.different).sum::<u64>() + cpu.different,
+        compared: tallies.devices.iter().map(|tally| tally.compared).sum(),
+        different: tallies.devices.iter().map(|tally| tally.different).sum::<u64>() + tallies.cpu.different,
         queries: args.queries,
         seed: args.seed,
         scenes: names,
@@ -176,18 +167,14 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         frames: args.frames.clone(),
         frame_queries: args.frame_queries,
         refits: args.refits,
-        cpu_compared: cpu.compared,
-        cpu_different: cpu.different,
+        cpu_compared: tallies.cpu.compared,
+        cpu_different: tallies.cpu.different,
         devices: opened
             .iter()
-            .zip(&tallies)
+            .zip(&tallies.devices)
             .map(|(o, tally)| DeviceReport {
                 name: o.device.name().to_owned(),
-                driver: format!(
-                    "{} {}",
-                    o.device.probe().driver.name,
-                    o.device.probe().driver.info
-                ),
+                driver: o.device.probe().driver.to_string(),
                 exact: o.exactness.exact && tally.different == 0,
                 tally: tally.clone(),
             })
@@ -195,23 +182,13 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     };
     drop(targets);
     devices::close(opened)?;
-    print(context, &report, cpu.first_difference.as_deref())?;
-    Ok(if report.different == 0 {
-        Outcome::Good
-    } else {
-        Outcome::Bad
-    })
+    print(context, &report, tallies.cpu.first_difference.as_deref())?;
+    Ok(Outcome::good_if(report.different == 0))
 }
 
 fn progress(length: u64, of: &str, hidden: bool) -> ProgressBar {
-    if hidden {
-        return ProgressBar::hidden();
-    }
     let template = format!("{{bar:40}} {{pos}}/{{len}} {of}, {{eta}} left  {{wide_msg}}");
-    let style = ProgressStyle::with_template(&template);
-    let bar = ProgressBar::new(length).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar.enable_steady_tick(Duration::from_millis(500));
-    bar
+    progress::bar(length, &template, hidden)
 }
 
 fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Result<(), HostError> {
@@ -219,31 +196,20 @@ fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Re
         table::print_json(report)?;
         return Ok(());
     }
-    let header = [
-        "device",
-        "nodes",
-        "samples",
-        "pmfs",
-        "pixels",
-        "words compared",
-        "words different",
-        "exact",
-    ];
-    let rows: Vec<Vec<String>> = report
-        .devices
-        .iter()
-        .map(|d| {
-            let t = &d.tally;
-            let mut row = vec![d.name.clone()];
-            row.extend(
-                [t.nodes, t.samples, t.pmfs, t.pixels, t.compared, t.different].map(|n| n.to_string()),
-            );
-            row.push(if d.exact { "yes" } else { "no" }.to_owned());
-            row
-        })
-        .collect();
-    if !rows.is_empty() {
-        table::print(&header, &rows)?;
+    if !report.devices.is_empty() {
+        table::print(
+            &report.devices,
+            &[
+                ("device", |d| d.name.clone()),
+                ("nodes", |d| d.tally.nodes.to_string()),
+                ("samples", |d| d.tally.samples.to_string()),
+                ("pmfs", |d| d.tally.pmfs.to_string()),
+                ("pixels", |d| d.tally.pixels.to_string()),
+                ("words compared", |d| d.tally.compared.to_string()),
+                ("words different", |d| d.tally.different.to_string()),
+                ("exact", |d| table::yes(d.exact)),
+            ],
+        )?;
     }
     for device in &report.devices {
         for (kind, words) in &device.tally.words {
@@ -260,7 +226,7 @@ fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Re
         }
     }
     println!(
-        "cpu: {} words come by in two ways, {} different",
+        "cpu: {} words computed twice, {} different",
         report.cpu_compared, report.cpu_different
     );
     if let Some(first) = cpu_difference {

@@ -1,137 +1,32 @@
-//! The methods that are compared: each a way to choose lights, and what it does from frame to frame to keep choosing well.
+//! The methods that are compared: how each chooses lights, and what it does from frame to frame to keep choosing well.
 //!
-//! A method is one file with one [`Runner`]; [`runner`] makes each as the comparison has it.
+//! [`Method`] names each; its [`Recipe`] says what it does, and makes the [`Runner`] that does it.
 
+mod independent;
 mod moving;
-mod no_tree;
+mod names;
 mod restir;
-mod single_level;
-mod two_level;
 
-pub use no_tree::NoTree;
-pub use restir::{Count, Reservoirs};
-pub use single_level::SingleLevel;
-pub use two_level::TwoLevel;
+pub use names::{Builder, Importance, Method, Recipe};
 
+use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Duration;
 
-use lightbvh::{BuildParams, Heuristic, Lights};
+use lightbvh::{EditError, Lights};
 use lightbvh_kernels::bvh::{Choice, Paper, Standard, WIDTH};
-use lightbvh_kernels::shading::restir::PixelReservoir;
-use lightbvh_kernels::shading::restir::surface::Surface;
-use serde::{Deserialize, Serialize};
 
+use self::independent::Independent;
+use self::restir::Reservoirs;
 use crate::backend::{
-    Backend, BackendError, Bvh, CandidateSource, Combination, CpuBackend, DeviceBackend, RestirOptions,
-    SceneArrays, Timed,
+    Backend, BackendError, Bvh, CpuBackend, CpuRestir, DeviceBackend, DeviceRestir, Follow, History, Restir,
+    RestirOptions, Sampler, SceneArrays, Timed,
 };
 use crate::error::HostError;
+use crate::render::power_thresholds;
 use crate::scene::Scene;
 use crate::vulkan::Device;
-use crate::workload::Shot;
-
-/// A method of the paper's comparison, or a baseline.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, clap::ValueEnum, Serialize, Deserialize,
-)]
-#[serde(rename_all = "kebab-case")]
-pub enum Method {
-    /// Every light alike.
-    Uniform,
-    /// In proportion to flux.
-    Power,
-    /// One tree over all triangles by the paper's importance, built at the first frame and refitted ever after.
-    SingleLevelRefit,
-    /// The same, built anew every frame.
-    SingleLevelRebuilt,
-    /// One tree over all triangles by the default importance, built anew every frame.
-    SingleLevelMomentsRebuilt,
-    /// The paper's two levels and importance, split by the surface area heuristic.
-    TwoLevelSah,
-    /// The paper's two levels and importance, split by the surface area orientation heuristic.
-    TwoLevelSaoh,
-    /// Two levels by the default importance, built by the default criterion.
-    TwoLevelMoments,
-    /// Spatiotemporal reservoirs (Bitterli et al. 2020).
-    Restir,
-    /// The same with candidates from the paper's two-level light BVH.
-    TwoLevelRestir,
-    /// The same with candidates from the default two-level light BVH.
-    TwoLevelMomentsRestir,
-}
-
-impl Method {
-    /// All methods, in the order of tables.
-    pub const ALL: [Self; 11] = [
-        Self::Uniform,
-        Self::Power,
-        Self::SingleLevelRefit,
-        Self::SingleLevelRebuilt,
-        Self::SingleLevelMomentsRebuilt,
-        Self::TwoLevelSah,
-        Self::TwoLevelSaoh,
-        Self::TwoLevelMoments,
-        Self::Restir,
-        Self::TwoLevelRestir,
-        Self::TwoLevelMomentsRestir,
-    ];
-
-    /// As on the command line.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Uniform => "uniform",
-            Self::Power => "power",
-            Self::SingleLevelRefit => "single-level-refit",
-            Self::SingleLevelRebuilt => "single-level-rebuilt",
-            Self::SingleLevelMomentsRebuilt => "single-level-moments-rebuilt",
-            Self::TwoLevelSah => "two-level-sah",
-            Self::TwoLevelSaoh => "two-level-saoh",
-            Self::TwoLevelMoments => "two-level-moments",
-            Self::Restir => "restir",
-            Self::TwoLevelRestir => "two-level-restir",
-            Self::TwoLevelMomentsRestir => "two-level-moments-restir",
-        }
-    }
-
-    /// Whether it walks a light BVH and nothing else.
-    #[must_use]
-    pub fn is_light_bvh(self) -> bool {
-        self.importance().is_some() && !matches!(self, Self::TwoLevelRestir | Self::TwoLevelMomentsRestir)
-    }
-
-    /// Whether it walks a light BVH of a single level.
-    #[must_use]
-    pub fn is_single_level(self) -> bool {
-        matches!(
-            self,
-            Self::SingleLevelRefit | Self::SingleLevelRebuilt | Self::SingleLevelMomentsRebuilt
-        )
-    }
-
-    /// Whether its light BVH is built anew by every frame that waits for it.
-    #[must_use]
-    pub fn is_rebuilt(self) -> bool {
-        matches!(self, Self::SingleLevelRebuilt | Self::SingleLevelMomentsRebuilt)
-    }
-
-    /// Name of the importance of the light BVH that it walks, if any: [`Choice::NAME`].
-    #[must_use]
-    pub fn importance(self) -> Option<&'static str> {
-        match self {
-            Self::Uniform | Self::Power | Self::Restir => None,
-            Self::SingleLevelRefit
-            | Self::SingleLevelRebuilt
-            | Self::TwoLevelSah
-            | Self::TwoLevelSaoh
-            | Self::TwoLevelRestir => Some(Paper::NAME),
-            Self::SingleLevelMomentsRebuilt | Self::TwoLevelMoments | Self::TwoLevelMomentsRestir => {
-                Some(Standard::NAME)
-            }
-        }
-    }
-}
+use crate::workload::RenderSettings;
 
 /// A frame of an animation, as a method learns of it.
 #[derive(Clone, Copy, Debug)]
@@ -142,6 +37,13 @@ pub struct Step<'a> {
     pub frame: u32,
     /// Its lights.
     pub lights: &'a Lights,
+}
+
+impl Step<'_> {
+    /// The error for lights of this frame that a light BVH does not take.
+    fn refused(&self, error: EditError) -> HostError {
+        HostError::in_frame(self.scene.name(), self.frame, error)
+    }
 }
 
 /// What bringing a method's structures to a frame took.
@@ -155,11 +57,30 @@ pub struct UpdateTimes {
     pub wait: Duration,
 }
 
-/// Names a sequence of images of consecutive frames.
-pub type Chain = u64;
+impl UpdateTimes {
+    /// A rebuild that the frame waits for.
+    fn waited(rebuild: Duration) -> Self {
+        Self {
+            rebuild,
+            wait: rebuild,
+            ..Self::default()
+        }
+    }
+}
 
-/// What a history of ReSTIR keeps from frame to frame: its G-buffer and reservoirs.
-pub type History = (Vec<Surface>, Vec<PixelReservoir>);
+/// Names a sequence of images of consecutive frames.
+pub type SequenceId = u64;
+
+/// What [`RenderSettings::samples`] counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SampleBudget {
+    /// Shadow rays per pixel, so that methods can be compared at equal cost: of ReSTIR, as many histories as cost no more, but
+    /// one at least. All look at the same points in the pixels.
+    ShadowRays,
+    /// Light samples per pixel, paths, or histories of ReSTIR, shared out over points of their own in the pixels, the same in
+    /// every frame: edges become smooth.
+    CameraRays,
+}
 
 /// A method over one scene on one backend.
 pub trait Runner {
@@ -170,9 +91,9 @@ pub trait Runner {
     /// [`HostError`] from a device, or for lights that the method cannot take.
     fn advance(&mut self, step: &Step<'_>) -> Result<UpdateTimes, HostError>;
 
-    /// Renders the frame last advanced to, which `arrays` are of, and `shot` too. Images of one `chain` follow each other
-    /// over consecutive frames, so that what one leaves behind (reservoirs) may serve the next; a chain that is not known
-    /// yet begins.
+    /// Renders the frame last advanced to, which `arrays` are of, and `settings` too. Images of one `sequence` follow each other
+    /// over consecutive frames, so that what one leaves behind (reservoirs) may serve the next; a sequence that is not
+    /// known yet begins.
     ///
     /// # Errors
     /// [`HostError`] from a device, or for a scene that the method cannot take.
@@ -180,28 +101,28 @@ pub trait Runner {
         &mut self,
         step: &Step<'_>,
         arrays: &Arc<SceneArrays>,
-        shot: &Shot,
-        chain: Chain,
+        settings: &RenderSettings,
+        sequence: SequenceId,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError>;
 
-    /// Drops what a chain left behind.
-    fn end(&mut self, _chain: Chain) {}
+    /// Drops what a sequence left behind.
+    fn end(&mut self, _sequence: SequenceId) {}
 
     /// What renders single images, where one does: of the frame last advanced to.
     fn backend(&mut self) -> Option<&mut dyn Backend> {
         None
     }
 
-    /// What the last image of a chain left behind, history by history; nothing but of ReSTIR.
+    /// What the last image of a sequence left behind, history by history; nothing but of ReSTIR.
     ///
     /// # Errors
     /// [`HostError`] from a device.
-    fn histories(&self, _chain: Chain) -> Result<Vec<History>, HostError> {
+    fn histories(&self, _sequence: SequenceId) -> Result<Vec<History>, HostError> {
         Ok(Vec::new())
     }
 
-    /// Shadow rays that the last image of a chain traced, where they are counted.
-    fn shadow_rays(&self, _chain: Chain) -> Option<u64> {
+    /// Shadow rays that the last image of a sequence traced, where they are counted.
+    fn shadow_rays(&self, _sequence: SequenceId) -> Option<u64> {
         None
     }
 
@@ -210,7 +131,7 @@ pub trait Runner {
         false
     }
 
-    /// How many images of its chain must come before the one that counts.
+    /// How many images of its sequence must come before the one that counts.
     fn history(&self) -> u32 {
         0
     }
@@ -227,7 +148,6 @@ pub enum Target<'d> {
 
 impl<'d> Target<'d> {
     /// As in tables.
-    #[must_use]
     pub fn name(&self) -> &str {
         match self {
             Self::Cpu => "cpu",
@@ -239,11 +159,22 @@ impl<'d> Target<'d> {
     pub(crate) fn backend<C: Choice<W>, const W: usize>(
         &self,
         bvh: Bvh<C, W>,
-    ) -> Result<Box<dyn Backend + 'd>, BackendError> {
+    ) -> Result<Box<dyn Follow<C, W> + 'd>, BackendError> {
         Ok(match *self {
             Self::Cpu => Box::new(CpuBackend::<C, W>::new(bvh)),
             Self::Device(device) => Box::new(DeviceBackend::<C, W>::new(device, &bvh)?),
         })
+    }
+
+    /// ReSTIR before its first frame.
+    pub(crate) fn restir<C: Choice<W>, const W: usize>(
+        &self,
+        options: RestirOptions,
+    ) -> Box<dyn Restir<C, W> + 'd> {
+        match *self {
+            Self::Cpu => Box::new(CpuRestir::<C, W>::new(options)),
+            Self::Device(device) => Box::new(DeviceRestir::<C, W>::new(device, options)),
+        }
     }
 }
 
@@ -256,58 +187,71 @@ pub fn runner<'d>(
     first: &Step<'_>,
     target: Target<'d>,
 ) -> Result<Box<dyn Runner + 'd>, HostError> {
-    let sah = BuildParams::paper(Heuristic::Sah);
-    let saoh = BuildParams::paper(Heuristic::Saoh);
-    let usual = BuildParams::default();
-    let options = |source| RestirOptions::new(source, Combination::Unbiased);
-    let (power, bvh) = (
-        options(CandidateSource::Power),
-        options(CandidateSource::LightBvh),
-    );
-    let count = Count::ShadowRays;
-    Ok(match method {
-        Method::Uniform => Box::new(NoTree::uniform(first, target)?),
-        Method::Power => Box::new(NoTree::power(first, target)?),
-        Method::SingleLevelRefit => Box::new(SingleLevel::<Paper, 4>::refitted(first, target, saoh)?),
-        Method::SingleLevelRebuilt => Box::new(SingleLevel::<Paper, 4>::rebuilt(first, target, saoh)?),
-        Method::SingleLevelMomentsRebuilt => {
-            Box::new(SingleLevel::<Standard, WIDTH>::rebuilt(first, target, usual)?)
-        }
-        Method::TwoLevelSah => Box::new(TwoLevel::<Paper, 4>::new(first, target, sah)?),
-        Method::TwoLevelSaoh => Box::new(TwoLevel::<Paper, 4>::new(first, target, saoh)?),
-        Method::TwoLevelMoments => Box::new(TwoLevel::<Standard, WIDTH>::new(first, target, usual)?),
-        Method::Restir => Box::new(Reservoirs::<Standard, WIDTH>::new(
-            first, target, power, usual, count,
-        )?),
-        Method::TwoLevelRestir => Box::new(Reservoirs::<Paper, 4>::new(first, target, bvh, saoh, count)?),
-        Method::TwoLevelMomentsRestir => Box::new(Reservoirs::<Standard, WIDTH>::new(
-            first, target, bvh, usual, count,
-        )?),
-    })
+    method.recipe().runner(first, target)
 }
 
-/// Renders through a backend.
-fn render(
-    backend: &mut dyn Backend,
-    step: &Step<'_>,
-    arrays: &SceneArrays,
-    shot: &Shot,
-    sampler: crate::backend::Sampler,
-) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
-    let params = shot.params(step.scene.data().background);
-    Ok(backend.render(arrays, &params, sampler)?)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_are_those_of_the_command_line_and_of_results() {
-        for method in Method::ALL {
-            let parsed = <Method as clap::ValueEnum>::from_str(method.name(), false);
-            assert_eq!(parsed, Ok(method));
-            assert_eq!(serde_json::to_value(method).expect("a name"), method.name());
+impl Recipe {
+    /// Builds what the method needs at its first frame.
+    ///
+    /// # Errors
+    /// [`HostError`] from a device, or for a scene that the method cannot take.
+    pub fn runner<'d>(
+        &self,
+        first: &Step<'_>,
+        target: Target<'d>,
+    ) -> Result<Box<dyn Runner + 'd>, HostError> {
+        match self.importance {
+            Importance::Moments => self.runner_by::<Standard, WIDTH>(first, target),
+            Importance::Eq4 => self.runner_by::<Paper, 4>(first, target),
         }
     }
+
+    fn runner_by<'d, C: Choice<W>, const W: usize>(
+        &self,
+        first: &Step<'_>,
+        target: Target<'d>,
+    ) -> Result<Box<dyn Runner + 'd>, HostError> {
+        Ok(match self.restir() {
+            Some(options) => Box::new(Reservoirs::<C, W>::new(*self, options, first, target)?),
+            None => Box::new(Independent::<C, W>::new(*self, first, target)?),
+        })
+    }
+
+    /// An error where lights are chosen by a power table and there is none.
+    fn require_power_table(&self, step: &Step<'_>, arrays: &SceneArrays) -> Result<(), HostError> {
+        if self.lights == Sampler::Power && arrays.thresholds.is_empty() {
+            return Err(HostError::Sampler {
+                scene: step.scene.name().to_owned(),
+                sampler: self.name,
+                lights: arrays.lights.triangles().len(),
+            });
+        }
+        Ok(())
+    }
+}
+
+/// The renderer reads the table that comes with the frame's arrays; here it is made once more, for its time.
+fn time_power_table(step: &Step<'_>) -> UpdateTimes {
+    let made = Timed::of(|| black_box(power_thresholds(step.lights.triangles())).is_ok());
+    UpdateTimes::waited(made.time)
+}
+
+/// The mean of `count` images, and their times together.
+fn mean_of(
+    count: u32,
+    settings: &RenderSettings,
+    mut image: impl FnMut(u32) -> Result<Timed<Vec<[f32; 3]>>, HostError>,
+) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
+    let mut sum = Timed {
+        value: vec![[0.0f32; 3]; settings.width as usize * settings.height as usize],
+        time: Duration::ZERO,
+    };
+    for number in 0..count {
+        let part = image(number)?;
+        sum.time += part.time;
+        for (sum, part) in sum.value.iter_mut().flatten().zip(part.value.iter().flatten()) {
+            *sum += part / count as f32;
+        }
+    }
+    Ok(sum)
 }

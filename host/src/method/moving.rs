@@ -7,7 +7,7 @@ use lightbvh::{BuildParams, Rebuilder, RebuilderParams};
 use lightbvh_kernels::bvh::Choice;
 
 use super::{Step, UpdateTimes};
-use crate::backend::{Bvh, Follow};
+use crate::backend::{Bvh, Follow, Timed};
 use crate::error::HostError;
 use crate::scene::Instances;
 
@@ -22,11 +22,7 @@ impl<C: Choice<W>, const W: usize> Moving<C, W> {
     /// The lights at the first frame, built.
     pub fn new(first: &Step<'_>, params: BuildParams) -> Result<Self, HostError> {
         let (scene, instances) =
-            Instances::new(first.scene, first.frame, params).map_err(|source| HostError::Edit {
-                scene: first.scene.name().to_owned(),
-                frame: first.frame,
-                source,
-            })?;
+            Instances::new(first.scene, first.frame, params).map_err(|source| first.refused(source))?;
         let mut rebuilder = Rebuilder::new(RebuilderParams::default());
         rebuilder.end_frame(&scene);
         Ok(Self {
@@ -52,26 +48,12 @@ impl<C: Choice<W>, const W: usize> Moving<C, W> {
         let edits = self.instances.edits(step.scene, step.frame);
         let began = Instant::now();
         let start = self.rebuilder.begin_frame(&mut self.scene)?;
-        self.scene.apply(edits).map_err(|source| HostError::Edit {
-            scene: step.scene.name().to_owned(),
-            frame: step.frame,
-            source,
-        })?;
+        self.scene.apply(edits).map_err(|source| step.refused(source))?;
         self.scene.plan();
         let mut refit = began.elapsed().saturating_sub(start.waited);
-        let own = |scene: &mut Bvh<C, W>| {
-            let began = Instant::now();
-            scene.refit();
-            began.elapsed()
-        };
-        refit += match backend {
-            Some(backend) => {
-                let time = backend.follow(&self.scene)?.time;
-                own(&mut self.scene);
-                time
-            }
-            None => own(&mut self.scene),
-        };
+        let followed = backend.map(|backend| backend.follow(&self.scene)).transpose()?;
+        let own = Timed::of(|| self.scene.refit());
+        refit += followed.map_or(own.time, |followed| followed.time);
         self.rebuilder.end_frame(&self.scene);
         Ok(UpdateTimes {
             refit,

@@ -1,82 +1,53 @@
-//! ReSTIR (Bitterli et al. 2020): candidates by power, as in its paper, or from the two-level light BVH.
+//! ReSTIR (Bitterli et al. 2020): candidates by power, as in its paper, or from a light BVH.
 
 use std::collections::BTreeMap;
-use std::hint::black_box;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
-use lightbvh::BuildParams;
 use lightbvh::exact::hash;
-use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
+use lightbvh_kernels::bvh::Choice;
 
 use super::moving::Moving;
-use super::{Chain, History, Runner, Step, Target, UpdateTimes};
-use crate::backend::{
-    CandidateSource, CpuRestir, DeviceRestir, Restir, RestirFrame, RestirOptions, SceneArrays, Timed,
-};
+use super::{Recipe, Runner, SampleBudget, SequenceId, Step, Target, UpdateTimes, mean_of, time_power_table};
+use crate::backend::{History, Restir, RestirFrame, RestirOptions, SceneArrays, Timed};
 use crate::error::HostError;
-use crate::render::power_thresholds;
-use crate::workload::Shot;
+use crate::workload::RenderSettings;
 
 /// Frames that a history runs through before the image that counts.
 const HISTORY: u32 = 8;
 
-/// What [`Shot::samples`] counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Count {
-    /// Shadow rays per pixel, so that methods can be compared at equal cost: as many histories as cost no more, but one at
-    /// least. All look at the same points in the pixels, as the images of other methods do.
-    ShadowRays,
-    /// Histories per pixel, each with points of its own in the pixels, the same in every frame: edges become smooth.
-    Histories,
-}
-
 /// ReSTIR with one history per pixel or several that know nothing of each other.
-pub struct Reservoirs<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
+pub(super) struct Reservoirs<'d, C: Choice<W>, const W: usize> {
+    recipe: Recipe,
     options: RestirOptions,
-    count: Count,
     target: Target<'d>,
     moving: Moving<C, W>,
-    chains: BTreeMap<Chain, Vec<Box<dyn Restir<C, W> + 'd>>>,
+    sequences: BTreeMap<SequenceId, Vec<Box<dyn Restir<C, W> + 'd>>>,
 }
 
 impl<'d, C: Choice<W>, const W: usize> Reservoirs<'d, C, W> {
-    /// Before the first image; a light BVH is built as `params` say.
-    ///
-    /// # Errors
-    /// [`HostError`] for lights outside the domain.
+    /// Before the first image.
     pub fn new(
+        recipe: Recipe,
+        options: RestirOptions,
         first: &Step<'_>,
         target: Target<'d>,
-        options: RestirOptions,
-        params: BuildParams,
-        count: Count,
     ) -> Result<Self, HostError> {
         Ok(Self {
+            recipe,
             options,
-            count,
             target,
-            moving: Moving::new(first, params)?,
-            chains: BTreeMap::new(),
+            moving: Moving::new(first, recipe.builder.params())?,
+            sequences: BTreeMap::new(),
         })
     }
 }
 
 impl<C: Choice<W>, const W: usize> Runner for Reservoirs<'_, C, W> {
     fn advance(&mut self, step: &Step<'_>) -> Result<UpdateTimes, HostError> {
-        match self.options.source {
-            CandidateSource::LightBvh => self.moving.advance(step, None),
-            CandidateSource::Power => {
-                // The table comes with the frame's arrays; here it is made once more, for its time.
-                let start = Instant::now();
-                let _ = black_box(power_thresholds(step.lights.triangles()));
-                let rebuild = start.elapsed();
-                Ok(UpdateTimes {
-                    rebuild,
-                    wait: rebuild,
-                    ..UpdateTimes::default()
-                })
-            }
+        if self.recipe.lights.needs_bvh() {
+            self.moving.advance(step, None)
+        } else {
+            Ok(time_power_table(step))
         }
     }
 
@@ -84,86 +55,56 @@ impl<C: Choice<W>, const W: usize> Runner for Reservoirs<'_, C, W> {
         &mut self,
         step: &Step<'_>,
         arrays: &Arc<SceneArrays>,
-        shot: &Shot,
-        chain: Chain,
+        settings: &RenderSettings,
+        sequence: SequenceId,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
-        let (options, count, target) = (self.options, self.count, self.target);
-        if options.source == CandidateSource::Power && arrays.thresholds.is_empty() {
-            return Err(HostError::Sampler {
-                scene: step.scene.name().to_owned(),
-                sampler: "restir",
-                lights: arrays.lights.triangles().len(),
-            });
-        }
-        let histories = self.chains.entry(chain).or_insert_with(|| {
-            (0..count.histories(&options, shot.samples))
-                .map(|_| -> Box<dyn Restir<C, W>> {
-                    match target {
-                        Target::Cpu => Box::new(CpuRestir::<C, W>::new(options)),
-                        Target::Device(device) => Box::new(DeviceRestir::<C, W>::new(device, options)),
-                    }
-                })
-                .collect()
+        let (options, budget, target) = (self.options, self.recipe.budget, self.target);
+        self.recipe.require_power_table(step, arrays)?;
+        let histories = self.sequences.entry(sequence).or_insert_with(|| {
+            let count = match budget {
+                SampleBudget::ShadowRays => (settings.samples / options.most_shadow_rays()).max(1),
+                SampleBudget::CameraRays => settings.samples,
+            };
+            (0..count).map(|_| target.restir::<C, W>(options)).collect()
         });
-        let share = histories.len() as f32;
-        let mut sum = Timed {
-            value: vec![[0.0f32; 3]; shot.width as usize * shot.height as usize],
-            time: Duration::ZERO,
-        };
-        for (number, history) in (0..).zip(histories) {
-            let part = history.frame(&RestirFrame {
+        mean_of(histories.len() as u32, settings, |number| {
+            Ok(histories[number as usize].frame(&RestirFrame {
                 scene: arrays,
                 bvh: self.moving.scene().tree(),
-                width: shot.width,
-                height: shot.height,
-                seed: hash(hash(shot.seed).wrapping_add(number)).wrapping_add(step.frame),
-                jitter: match count {
-                    Count::ShadowRays => 0,
-                    Count::Histories => number,
+                width: settings.width,
+                height: settings.height,
+                seed: hash(hash(settings.seed).wrapping_add(number)).wrapping_add(step.frame),
+                jitter: match budget {
+                    SampleBudget::ShadowRays => 0,
+                    SampleBudget::CameraRays => number,
                 },
                 background: step.scene.data().background,
                 remap: None,
-            })?;
-            sum.time += part.time;
-            for (sum, part) in sum.value.iter_mut().zip(&part.value) {
-                for k in 0..3 {
-                    sum[k] += part[k] / share;
-                }
-            }
-        }
-        Ok(sum)
+            })?)
+        })
     }
 
-    fn end(&mut self, chain: Chain) {
-        self.chains.remove(&chain);
+    fn end(&mut self, sequence: SequenceId) {
+        self.sequences.remove(&sequence);
     }
 
-    fn histories(&self, chain: Chain) -> Result<Vec<History>, HostError> {
-        let histories = self.chains.get(&chain).into_iter().flatten();
+    fn histories(&self, sequence: SequenceId) -> Result<Vec<History>, HostError> {
+        let histories = self.sequences.get(&sequence).into_iter().flatten();
         Ok(histories
             .map(|history| history.state())
             .collect::<Result<_, _>>()?)
     }
 
-    fn shadow_rays(&self, chain: Chain) -> Option<u64> {
-        let histories = self.chains.get(&chain)?;
+    fn shadow_rays(&self, sequence: SequenceId) -> Option<u64> {
+        let histories = self.sequences.get(&sequence)?;
         Some(histories.iter().map(|history| history.shadow_rays()).sum())
     }
 
     fn may_skip(&self) -> bool {
-        self.options.source == CandidateSource::Power
+        !self.recipe.lights.needs_bvh()
     }
 
     fn history(&self) -> u32 {
         HISTORY
-    }
-}
-
-impl Count {
-    fn histories(self, options: &RestirOptions, samples: u32) -> u32 {
-        match self {
-            Self::ShadowRays => (samples / options.most_shadow_rays()).max(1),
-            Self::Histories => samples,
-        }
     }
 }

@@ -16,7 +16,6 @@ pub struct Estimate {
 
 impl Estimate {
     /// The mean of `values` by Student's t distribution; nothing for no values.
-    #[must_use]
     pub fn of(values: &[f64]) -> Option<Self> {
         let count = values.len();
         if count == 0 {

@@ -25,7 +25,6 @@ pub fn flip_map(reference: &[u8], image: &[u8], size: (u32, u32)) -> Result<Vec<
 }
 
 /// The mean over the map.
-#[must_use]
 pub fn mean_flip(map: &[f32]) -> f64 {
     map.iter().map(|&x| f64::from(x)).sum::<f64>() / map.len().max(1) as f64
 }

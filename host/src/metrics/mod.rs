@@ -70,7 +70,6 @@ pub struct Quality {
 
 impl Quality {
     /// Peak signal-to-noise ratio of the displayed bytes, dB; infinite for equal images.
-    #[must_use]
     pub fn psnr(&self) -> f64 {
         psnr(self.mse)
     }
@@ -108,25 +107,21 @@ impl Judge {
     }
 
     /// The reference.
-    #[must_use]
     pub fn reference(&self) -> &Film {
         &self.reference
     }
 
     /// The reference as displayed, three bytes per pixel.
-    #[must_use]
     pub fn shown(&self) -> &[u8] {
         &self.shown
     }
 
     /// Factor on radiance before the display curve.
-    #[must_use]
     pub fn exposure(&self) -> f32 {
         self.exposure
     }
 
     /// Columns and rows.
-    #[must_use]
     pub fn size(&self) -> (u32, u32) {
         (self.reference.width(), self.reference.height())
     }
@@ -171,7 +166,6 @@ impl Judge {
 
 impl Judged<'_> {
     /// The image as displayed, three bytes per pixel.
-    #[must_use]
     pub fn shown(&self) -> &[u8] {
         &self.shown
     }

@@ -6,13 +6,11 @@
 const DARK: f64 = 0.01;
 
 /// Sum over the channels of the squared difference.
-#[must_use]
 pub fn squared_error<T: Into<f64> + Copy>(a: [T; 3], b: [T; 3]) -> f64 {
     (0..3).map(|k| (a[k].into() - b[k].into()).powi(2)).sum()
 }
 
 /// Mean of the squared differences over all channels of all pixels; 0 for no pixels.
-#[must_use]
 pub fn mean_squared_error<T: Into<f64> + Copy>(image: &[[T; 3]], reference: &[[T; 3]]) -> f64 {
     let pairs = image.iter().zip(reference);
     let sum: f64 = pairs.map(|(&a, &b)| squared_error(a, b)).sum();
@@ -20,7 +18,6 @@ pub fn mean_squared_error<T: Into<f64> + Copy>(image: &[[T; 3]], reference: &[[T
 }
 
 /// Mean over all channels of all pixels of `(x - r)² / (r² + 0.01)`, with image `x` and reference `r` scaled by `exposure`.
-#[must_use]
 pub fn relative_mean_squared_error(image: &[[f32; 3]], reference: &[[f32; 3]], exposure: f32) -> f64 {
     let scale = f64::from(exposure);
     let pairs = image.iter().flatten().zip(reference.iter().flatten());
@@ -34,7 +31,6 @@ pub fn relative_mean_squared_error(image: &[[f32; 3]], reference: &[[f32; 3]], e
 }
 
 /// Peak signal-to-noise ratio of 8-bit images, dB: `10 log10(255² / mse)`, infinite for no error.
-#[must_use]
 pub fn psnr(mse: f64) -> f64 {
     10.0 * (255.0 * 255.0 / mse).log10()
 }

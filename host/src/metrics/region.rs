@@ -19,21 +19,18 @@ pub struct Region {
 
 impl Region {
     /// Whether it has a pixel and all of them lie in an image of `size` columns and rows.
-    #[must_use]
     pub fn is_within(&self, size: (u32, u32)) -> bool {
         let inside = |first: u32, count: u32, all: u32| count > 0 && first < all && count <= all - first;
         inside(self.x, self.width, size.0) && inside(self.y, self.height, size.1)
     }
 
     /// Whether the two share a pixel.
-    #[must_use]
     pub fn overlaps(&self, other: &Self) -> bool {
         let apart = |a: u32, n: u32, b: u32, m: u32| a + n <= b || b + m <= a;
         !apart(self.x, self.width, other.x, other.width) && !apart(self.y, self.height, other.y, other.height)
     }
 
     /// Its pixels out of those of an image with `columns` columns, which it must lie within.
-    #[must_use]
     pub fn cut<T: Copy>(&self, pixels: &[T], columns: u32) -> Vec<T> {
         let rows = self.y..self.y + self.height;
         rows.flat_map(|row| {

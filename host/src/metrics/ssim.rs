@@ -11,7 +11,6 @@ const C1: f64 = (0.01 * 255.0) * (0.01 * 255.0);
 const C2: f64 = (0.03 * 255.0) * (0.03 * 255.0);
 
 /// Luma of displayed pixels, 0 to 255 (ITU-R BT.601, which the authors' program assumes).
-#[must_use]
 pub fn luma(shown: &[[u8; 3]]) -> Vec<f64> {
     shown
         .iter()
@@ -26,7 +25,6 @@ pub fn luma(shown: &[[u8; 3]]) -> Vec<f64> {
 ///
 /// # Panics
 /// Where an image has not `width * height` pixels, at least one.
-#[must_use]
 pub fn ssim(image: &[f64], reference: &[f64], width: usize, height: usize) -> f64 {
     assert!(image.len() == width * height && reference.len() == image.len() && !image.is_empty());
     let (across, down) = (gaussian(WINDOW.min(width)), gaussian(WINDOW.min(height)));

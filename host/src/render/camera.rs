@@ -18,7 +18,6 @@ pub struct View {
 }
 
 /// The camera of an image of `width` by `height` square pixels.
-#[must_use]
 pub fn camera(view: &View, width: u32, height: u32) -> Camera {
     let half_height = (f64::from(view.yfov) * 0.5).tan();
     let half_width = half_height * f64::from(width) / f64::from(height.max(1));

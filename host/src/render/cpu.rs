@@ -9,7 +9,6 @@ use rayon::prelude::*;
 
 /// Radiance of every pixel, by rows from the upper left. Pixels do not depend on each other, so neither does the image on
 /// the number of threads.
-#[must_use]
 pub fn render<P: PickLight + Sync>(
     scene: &Scene<'_>,
     camera: &Camera,
@@ -23,7 +22,6 @@ pub fn render<P: PickLight + Sync>(
 }
 
 /// [`render`], for paths of up to `bounces` reflections.
-#[must_use]
 pub fn render_path<P: PickLight + Sync>(
     scene: &Scene<'_>,
     camera: &Camera,

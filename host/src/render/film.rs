@@ -92,19 +92,16 @@ impl Film {
     }
 
     /// Columns.
-    #[must_use]
     pub fn width(&self) -> u32 {
         self.width
     }
 
     /// Rows.
-    #[must_use]
     pub fn height(&self) -> u32 {
         self.height
     }
 
     /// The pixels by rows from the upper left.
-    #[must_use]
     pub fn pixels(&self) -> &[[f32; 3]] {
         &self.pixels
     }
@@ -127,7 +124,6 @@ impl Film {
 
     /// The factor that brings the image's mean brightness to a middle grey of 0.18: the mean is that of the logarithm,
     /// which a few bright lights hardly move (Reinhard et al. 2002, equations 1 and 2). 1 for a black image.
-    #[must_use]
     pub fn auto_exposure(&self) -> f32 {
         let (mut sum, mut count) = (0.0, 0_u32);
         for &pixel in &self.pixels {
@@ -145,7 +141,6 @@ impl Film {
     }
 
     /// The image as a screen shows it: tone-mapped 8-bit sRGB after scaling by `exposure`, three bytes per pixel.
-    #[must_use]
     pub fn shown(&self, exposure: f32) -> Vec<u8> {
         let channels = self.pixels.iter().flatten();
         channels.map(|&c| display(c, exposure)).collect()
@@ -184,16 +179,22 @@ impl Film {
                 });
             }
         };
-        let mut file = Cursor::new(Vec::new());
-        image::write_buffer_with_format(&mut file, &bytes, self.width, self.height, color, format).map_err(
-            |source| FilmError::Encode {
-                path: path.to_owned(),
-                source,
-            },
-        )?;
-        write_whole(path, file.get_ref()).map_err(|source| FilmError::Write {
-            path: path.to_owned(),
-            source,
-        })
+        write_image(path, &bytes, (self.width, self.height), color, format)
+    }
+}
+
+/// Encodes an image and writes it; the file appears whole or not at all.
+pub(crate) fn write_image(
+    path: &Path,
+    bytes: &[u8],
+    (width, height): (u32, u32),
+    color: ExtendedColorType,
+    format: ImageFormat,
+) -> Result<(), FilmError> {
+    let path = path.to_owned();
+    let mut file = Cursor::new(Vec::new());
+    match image::write_buffer_with_format(&mut file, bytes, width, height, color, format) {
+        Err(source) => Err(FilmError::Encode { path, source }),
+        Ok(()) => write_whole(&path, file.get_ref()).map_err(|source| FilmError::Write { path, source }),
     }
 }

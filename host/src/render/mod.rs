@@ -11,6 +11,7 @@ mod tone;
 
 pub use camera::{View, camera};
 pub use cpu::{render, render_path};
+pub(crate) use film::write_image;
 pub use film::{Film, FilmError};
 pub use output::write_whole;
 pub use power::{PowerError, flux, power_thresholds};

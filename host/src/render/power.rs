@@ -3,6 +3,8 @@
 use lightbvh::EmissiveTriangle;
 use lightbvh_kernels::shading::pick::MAX_PICKABLE;
 
+use crate::vector::{dot, normal};
+
 /// Why there is no power table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PowerError {
@@ -17,16 +19,9 @@ pub enum PowerError {
 }
 
 /// Luminous part of the flux of a triangle: pi times area times luminance, doubled where both sides emit.
-#[must_use]
 pub fn flux(light: &EmissiveTriangle) -> f64 {
-    let [a, b, c] = light.p.map(|v| v.map(f64::from));
-    let [u, v] = [b, c].map(|v| [v[0] - a[0], v[1] - a[1], v[2] - a[2]]);
-    let normal = [
-        u[1] * v[2] - u[2] * v[1],
-        u[2] * v[0] - u[0] * v[2],
-        u[0] * v[1] - u[1] * v[0],
-    ];
-    let area = 0.5 * normal.iter().map(|n| n * n).sum::<f64>().sqrt();
+    let normal = normal(light.p);
+    let area = 0.5 * dot(normal, normal).sqrt();
     let sides = if light.is_two_sided() { 2.0 } else { 1.0 };
     std::f64::consts::PI * area * f64::from(light.luminance()) * sides
 }

@@ -72,7 +72,6 @@ impl RayBvh {
     }
 
     /// What rays hit.
-    #[must_use]
     pub fn surfaces(&self) -> Surfaces<'_> {
         Surfaces {
             nodes: &self.nodes,

@@ -8,7 +8,8 @@ use super::model::{
 };
 use super::shapes::{Shape, on_circle, rotation};
 use super::track::Track;
-use super::transform::{Transform, cross, sub, unit_or};
+use super::transform::{Transform, unit_or};
+use crate::vector::{cross, sub};
 
 /// A scene under construction. Channels are collected into one animation per period.
 pub(super) struct SceneBuilder {
@@ -105,20 +106,13 @@ impl SceneBuilder {
     /// Swings about `axis` like a pendulum, `amplitude` in radians, `phase` in turns.
     pub fn swing(&mut self, node: u32, axis: [f64; 3], amplitude: f64, period: u32, phase: f64) {
         let value = |t: f64| rotation(axis, amplitude * on_circle(t + phase)[1]);
-        self.keys(node, Property::Rotation, Interpolation::Linear, period, 16, value);
+        self.keys(node, Property::Rotation, period, 16, value);
     }
 
     /// Turns about `axis` by whole `turns` in a period, starting at `phase` turns.
     pub fn spin(&mut self, node: u32, axis: [f64; 3], turns: i32, period: u32, phase: f64) {
         let value = |t: f64| rotation(axis, std::f64::consts::TAU * (f64::from(turns) * t + phase));
-        self.keys(
-            node,
-            Property::Rotation,
-            Interpolation::Linear,
-            period,
-            6 * turns.unsigned_abs(),
-            value,
-        );
+        self.keys(node, Property::Rotation, period, 6 * turns.unsigned_abs(), value);
     }
 
     /// Moves up and down around `at`, `height` in metres, `phase` in turns.
@@ -127,14 +121,7 @@ impl SceneBuilder {
             let y = at[1] + height * on_circle(t + phase)[1];
             [at[0] as f32, y as f32, at[2] as f32, 0.0]
         };
-        self.keys(
-            node,
-            Property::Translation,
-            Interpolation::Linear,
-            period,
-            12,
-            value,
-        );
+        self.keys(node, Property::Translation, period, 12, value);
     }
 
     /// Evenly spaced keys over a period of `period` frames; the last one closes the loop.
@@ -142,7 +129,6 @@ impl SceneBuilder {
         &mut self,
         node: u32,
         property: Property,
-        interpolation: Interpolation,
         period: u32,
         steps: u32,
         value: impl Fn(f64) -> [f32; 4],
@@ -152,16 +138,8 @@ impl SceneBuilder {
             .map(|i| (at(i) * f64::from(period) / 25.0) as f32)
             .collect();
         let values = (0..=steps).map(|i| value(at(i % steps))).collect();
-        self.channel(
-            period,
-            Channel {
-                node,
-                property,
-                interpolation,
-                times,
-                values,
-            },
-        );
+        let interpolation = Interpolation::Linear;
+        self.channel(period, node, (property, interpolation), times, values);
     }
 
     /// Flies through `points` and back to the first on a smooth closed curve (Catmull-Rom tangents).
@@ -181,16 +159,7 @@ impl SceneBuilder {
         }
         let times = (0..=count).map(|i| (i as f64 * step) as f32).collect();
         let (property, interpolation) = (Property::Translation, Interpolation::CubicSpline);
-        self.channel(
-            period,
-            Channel {
-                node,
-                property,
-                interpolation,
-                times,
-                values,
-            },
-        );
+        self.channel(period, node, (property, interpolation), times, values);
     }
 
     /// Drives along a closed track, facing ahead with +Z, from `start` turns of the track on.
@@ -204,21 +173,25 @@ impl SceneBuilder {
         }
         for (property, values) in [(Property::Translation, places), (Property::Rotation, turns)] {
             let (times, interpolation) = (times.clone(), Interpolation::Linear);
-            self.channel(
-                period,
-                Channel {
-                    node,
-                    property,
-                    interpolation,
-                    times,
-                    values,
-                },
-            );
+            self.channel(period, node, (property, interpolation), times, values);
         }
     }
 
-    fn channel(&mut self, period: u32, channel: Channel) {
-        self.channels.entry(period).or_default().push(channel);
+    fn channel(
+        &mut self,
+        period: u32,
+        node: u32,
+        (property, interpolation): (Property, Interpolation),
+        times: Vec<f32>,
+        values: Vec<[f32; 4]>,
+    ) {
+        self.channels.entry(period).or_default().push(Channel {
+            node,
+            property,
+            interpolation,
+            times,
+            values,
+        });
     }
 
     /// A camera at `eye` that looks at `target`.

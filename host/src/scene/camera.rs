@@ -2,7 +2,8 @@
 
 use crate::render::View;
 
-use super::transform::{Affine, cross, unit_or};
+use super::transform::{Affine, unit_or};
+use crate::vector::cross;
 
 /// Vertical field of view of the default camera: 50 degrees, a natural view on a screen.
 const DEFAULT_YFOV: f32 = 0.872_664_6;

@@ -10,9 +10,9 @@ mod rides;
 mod wheel;
 
 use super::builder::SceneBuilder;
-use super::dice::Dice;
 use super::error::SceneError;
 use super::model::{Material, Scene};
+use super::random::Random;
 use super::shapes::{Shape, on_circle};
 
 const UP: [f64; 3] = [0.0, 1.0, 0.0];
@@ -32,7 +32,7 @@ struct Palette {
 /// None in practice: the scene passes the same checks as one from a file.
 pub fn carousel() -> Result<Scene, SceneError> {
     let mut b = SceneBuilder::new("carousel", [0.010, 0.010, 0.026]);
-    let mut dice = Dice::new(3);
+    let mut random = Random::new(3);
     let colors = [
         [34.0, 21.0, 9.0],
         [40.0, 4.0, 2.5],
@@ -53,8 +53,8 @@ pub fn carousel() -> Result<Scene, SceneError> {
         wood: b.matte("wood", [0.30, 0.19, 0.11], 0.8),
         bulbs: colors.map(|radiance| b.glow("bulbs", radiance)),
     };
-    ground::add(&mut b, &mut dice, &palette);
-    rides::add(&mut b, &mut dice, &palette);
+    ground::add(&mut b, &mut random, &palette);
+    rides::add(&mut b, &mut random, &palette);
     wheel::add(&mut b, &palette);
     b.camera([4.0, 3.2, 23.0], [-1.0, 5.6, 0.0], 60.0);
     b.finish()

@@ -1,12 +1,13 @@
 //! The checked constructor: what a scene must be before anything is built on it.
 
-use lightbvh::light::{MAX_COORDINATE, MAX_RADIANCE, MIN_COORDINATE, MIN_RADIANCE};
+use lightbvh::light::{MAX_COORDINATE, MAX_RADIANCE};
 
 use super::camera::view_of_bounds;
 use super::error::SceneError;
-use super::frame::{emits, flush};
+use super::flush::flush_tiny;
+use super::frame::emits;
 use super::model::{Channel, Counts, Interpolation, Material, Primitive, Scene, SceneData};
-use super::reach;
+use super::motion_bounds;
 use super::transform::Transform;
 
 /// Most triangles of a frame, over all instances: 2^26, some 3 GiB of records, well inside 32-bit indices.
@@ -52,8 +53,8 @@ impl Scene {
         }
         check.color(|| String::from("background"), data.background)?;
         let counts = check.count(&data)?;
-        reach::check(&data)?;
-        let (min, max) = reach::bounds(&data);
+        motion_bounds::check(&data)?;
+        let (min, max) = motion_bounds::bounds(&data);
         let default_camera = view_of_bounds(min, max);
         Ok(Self::from_checked(data, counts, default_camera))
     }
@@ -69,13 +70,15 @@ impl Check<'_> {
         self.scene.to_owned()
     }
 
-    fn out_of_range(&self, element: String, value: impl Into<f64>, expected: &'static str) -> SceneError {
-        SceneError::OutOfRange {
+    fn invalid(&self, problem: String) -> SceneError {
+        SceneError::Invalid {
             scene: self.scene(),
-            element,
-            value: value.into(),
-            expected,
+            problem,
         }
+    }
+
+    fn out_of_range(&self, element: String, value: impl Into<f64>, expected: &str) -> SceneError {
+        self.invalid(format!("{element} is {}, expected {expected}", value.into()))
     }
 
     fn limit(&self, what: &'static str, count: usize, limit: u64) -> Result<(), SceneError> {
@@ -92,26 +95,20 @@ impl Check<'_> {
 
     fn index(&self, element: impl Fn() -> String, index: u32, count: usize) -> Result<(), SceneError> {
         if index as usize >= count {
-            let (index, count) = (u64::from(index), count as u64);
-            return Err(SceneError::BadIndex {
-                scene: self.scene(),
-                element: element(),
-                index,
-                count,
-            });
+            let element = element();
+            return Err(self.invalid(format!(
+                "{element} is {index}, but there are only {count}; repair the model's references"
+            )));
         }
         Ok(())
     }
 
     fn length(&self, element: impl Fn() -> String, found: usize, expected: usize) -> Result<(), SceneError> {
         if found != expected {
-            let (found, expected) = (found as u64, expected as u64);
-            return Err(SceneError::BadLength {
-                scene: self.scene(),
-                element: element(),
-                found,
-                expected,
-            });
+            let element = element();
+            return Err(self.invalid(format!(
+                "{element} has {found} entries, expected {expected}; export the scene again"
+            )));
         }
         Ok(())
     }
@@ -295,23 +292,5 @@ impl Check<'_> {
             return Err(SceneError::Empty { scene: self.scene() });
         }
         Ok(total)
-    }
-}
-
-/// +0 for what is too small to matter: devices may flush subnormal numbers where the CPU does not.
-fn flush_tiny(data: &mut SceneData) {
-    // NaN and infinity stay, to be reported.
-    let flush_all =
-        |values: &mut [f32], smallest: f32| values.iter_mut().for_each(|x| *x = flush(*x, smallest));
-    flush_all(&mut data.background, MIN_RADIANCE);
-    for material in &mut data.materials {
-        flush_all(&mut material.radiance, MIN_RADIANCE);
-        flush_all(&mut material.base_color, MIN_RADIANCE);
-    }
-    for primitive in data.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
-        flush_all(primitive.positions.as_flattened_mut(), MIN_COORDINATE);
-        if let Some(radiance) = &mut primitive.radiance {
-            flush_all(radiance.as_flattened_mut(), MIN_RADIANCE);
-        }
     }
 }

@@ -39,7 +39,7 @@ pub enum SceneError {
         /// What was expected and what was found.
         problem: String,
     },
-    /// An element of the file breaks a rule of glTF 2.0.
+    /// An element of the file breaks a rule of glTF 2.0, or needs something that this loader does not do.
     #[error("{path}: {element}: {problem}; {advice}")]
     Malformed {
         /// The file.
@@ -48,18 +48,6 @@ pub enum SceneError {
         element: String,
         /// What was expected and what was found.
         problem: String,
-        /// What to do about it.
-        advice: &'static str,
-    },
-    /// The file needs something that this loader does not do.
-    #[error("{path}: {element}: {feature} is not supported; {advice}")]
-    Unsupported {
-        /// The file.
-        path: String,
-        /// The element, as its place in the file's JSON.
-        element: String,
-        /// What it asks for.
-        feature: String,
         /// What to do about it.
         advice: &'static str,
     },
@@ -75,43 +63,13 @@ pub enum SceneError {
         /// What was found.
         value: f64,
     },
-    /// A value lies outside its range.
-    #[error("scene `{scene}`: {element} is {value}, expected {expected}")]
-    OutOfRange {
+    /// A value out of its range, an index past the end of what it refers to, or two lists of different lengths.
+    #[error("scene `{scene}`: {problem}")]
+    Invalid {
         /// The scene.
         scene: String,
-        /// The element.
-        element: String,
-        /// What was found.
-        value: f64,
-        /// The range, in words.
-        expected: &'static str,
-    },
-    /// An index points past the end of what it refers to.
-    #[error(
-        "scene `{scene}`: {element} is {index}, but there are only {count}; repair the model's references"
-    )]
-    BadIndex {
-        /// The scene.
-        scene: String,
-        /// The element that holds the index.
-        element: String,
-        /// The index.
-        index: u64,
-        /// How many elements there are.
-        count: u64,
-    },
-    /// Two lists that belong together have different lengths.
-    #[error("scene `{scene}`: {element} has {found} entries, expected {expected}; export the scene again")]
-    BadLength {
-        /// The scene.
-        scene: String,
-        /// The list.
-        element: String,
-        /// Its length.
-        found: u64,
-        /// The length it must have.
-        expected: u64,
+        /// The element, what was found and what was expected.
+        problem: String,
     },
     /// More elements than 32-bit indices, or memory, can hold.
     #[error(

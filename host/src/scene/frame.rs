@@ -8,6 +8,7 @@ use crate::render::View;
 
 use super::animate::world_transforms;
 use super::camera::view_of_node;
+use super::flush::flush;
 use super::model::{Scene, SceneData};
 use super::transform::Affine;
 
@@ -44,7 +45,6 @@ pub struct Frame {
 
 impl Scene {
     /// The scene at `frame` / [`FRAMES_PER_SECOND`] seconds.
-    #[must_use]
     pub fn frame(&self, frame: u32) -> Frame {
         let data = self.data();
         let world = world_transforms(data, f64::from(frame) / f64::from(FRAMES_PER_SECOND));
@@ -127,9 +127,4 @@ fn world_point(to_world: &Affine, p: [f32; 3]) -> [f32; 3] {
     to_world
         .point(p.map(f64::from))
         .map(|x| flush(x as f32, MIN_COORDINATE))
-}
-
-/// +0 below `smallest` in magnitude and for -0: devices may flush subnormal numbers where the CPU does not.
-pub(super) fn flush(x: f32, smallest: f32) -> f32 {
-    if x.abs() < smallest { 0.0 } else { x }
 }

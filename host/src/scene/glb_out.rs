@@ -1,16 +1,19 @@
 //! Any scene as `.glb`: the loader is exercised by the built-in scenes, and other programs can show them.
 
+mod material;
+
 use std::collections::HashMap;
-use std::fs;
-use std::io;
 use std::path::Path;
 
+use gltf::binary::{Glb, Header};
 use serde_json::{Value, json};
 
+use self::material::{is_product, material};
 use super::error::SceneError;
 use super::gltf_in::{BACKGROUND_EXTRA, RADIANCE_ATTRIBUTE};
 use super::model::{Channel, Interpolation, Material, Primitive, Property, Scene};
 use super::transform::Transform;
+use crate::render::write_whole;
 
 /// glTF's numbers for component types.
 const FLOAT: u32 = 5126;
@@ -22,18 +25,9 @@ impl Scene {
     /// # Errors
     /// [`SceneError::Write`] where the folder cannot be written to; [`SceneError::TooMany`] beyond 4 GiB.
     pub fn write_glb(&self, path: &Path) -> Result<(), SceneError> {
-        let bytes = self.to_glb()?;
-        let mut temporary = path.as_os_str().to_owned();
-        temporary.push(format!(".{}.tmp", std::process::id()));
-        let temporary = Path::new(&temporary);
-        let written = fs::write(temporary, bytes).and_then(|()| fs::rename(temporary, path));
-        written.map_err(|source: io::Error| {
-            // The first error is the one to report; without the file there is nothing to remove.
-            let _ = fs::remove_file(temporary);
-            SceneError::Write {
-                path: path.to_owned(),
-                source,
-            }
+        write_whole(path, &self.to_glb()?).map_err(|source| SceneError::Write {
+            path: path.to_owned(),
+            source,
         })
     }
 
@@ -48,32 +42,27 @@ impl Scene {
     pub fn to_glb(&self) -> Result<Vec<u8>, SceneError> {
         let mut out = Writer::default();
         let root = out.root(self);
-        let mut text = root.to_string().into_bytes();
-        // Chunks end on four bytes: JSON with spaces, binary with zeros (glTF 2.0, section 4.4.3).
-        text.resize(text.len().next_multiple_of(4), b' ');
-        out.binary.resize(out.binary.len().next_multiple_of(4), 0);
-
-        let length = 12 + 8 + text.len() + 8 + out.binary.len();
-        let Ok(total) = u32::try_from(length) else {
-            let (scene, count, limit) = (self.name().to_owned(), length as u64, u64::from(u32::MAX));
+        let text = root.to_string().into_bytes();
+        // Header, and a header and up to three bytes of padding for each of two chunks.
+        let length = (12 + 2 * (8 + 3) + text.len() + out.binary.len()) as u64;
+        if length > u64::from(u32::MAX) {
             return Err(SceneError::TooMany {
-                scene,
+                scene: self.name().to_owned(),
                 what: "bytes as .glb",
-                count,
-                limit,
+                count: length,
+                limit: u64::from(u32::MAX),
             });
-        };
-        let mut glb = Vec::with_capacity(length);
-        glb.extend(b"glTF");
-        for word in [2, total, text.len() as u32] {
-            glb.extend(word.to_le_bytes());
         }
-        glb.extend(b"JSON");
-        glb.extend(text);
-        glb.extend((out.binary.len() as u32).to_le_bytes());
-        glb.extend(b"BIN\0");
-        glb.extend(out.binary);
-        Ok(glb)
+        let container = Glb {
+            header: Header {
+                magic: *b"glTF",
+                version: 2,
+                length: length as u32,
+            },
+            json: text.into(),
+            bin: Some(out.binary.into()),
+        };
+        Ok(container.to_vec().expect("writing to memory does not fail"))
     }
 }
 
@@ -273,41 +262,6 @@ fn nodes(scene: &Scene) -> Vec<Value> {
         out[camera.node as usize]["camera"] = json!(index);
     }
     out
-}
-
-/// The least power of two, from 1 on, that is not below any channel: the strength with which factors lie in [0, 1].
-fn strength(radiance: [f32; 3]) -> f32 {
-    let peak = radiance.iter().fold(0.0_f32, |m, &channel| m.max(channel));
-    let mut strength = 1.0_f32;
-    // 2^127 is the largest power of two in `f32`.
-    while strength < peak && strength < 1.0 / f32::MIN_POSITIVE {
-        strength *= 2.0;
-    }
-    strength
-}
-
-/// Whether every channel is the product of an `f32` and the strength: one that is 2^126 times weaker may not be.
-fn is_product(radiance: [f32; 3]) -> bool {
-    let strength = strength(radiance);
-    radiance
-        .iter()
-        .all(|&channel| channel / strength * strength == channel)
-}
-
-/// Emission as a factor in [0, 1] and a strength.
-fn material(material: &Material) -> Value {
-    let strength = strength(material.radiance);
-    json!({
-        "name": material.name,
-        "doubleSided": material.double_sided,
-        "emissiveFactor": material.radiance.map(|channel| channel / strength),
-        "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": strength } },
-        "pbrMetallicRoughness": {
-            "baseColorFactor": [material.base_color[0], material.base_color[1], material.base_color[2], 1.0],
-            "metallicFactor": material.metallic,
-            "roughnessFactor": material.roughness,
-        },
-    })
 }
 
 fn target(sampler: usize, channel: &Channel) -> Value {

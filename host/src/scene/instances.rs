@@ -35,8 +35,8 @@ impl Instances {
         let mut lights = lightbvh::Bvh::new(params);
         let mut meshes: BTreeMap<(u32, usize), MeshId> = BTreeMap::new();
         let mut add = Vec::new();
-        let mut nodes = Vec::new();
-        for (node, place) in data.nodes.iter().zip(&world) {
+        let mut nodes: Vec<u32> = Vec::new();
+        for (index, (node, place)) in (0..).zip(data.nodes.iter().zip(&world)) {
             let Some(mesh) = node.mesh else { continue };
             for (primitive, triangles) in emissive_of(scene, mesh).into_iter().enumerate() {
                 if triangles.is_empty() {
@@ -50,21 +50,13 @@ impl Instances {
                         id
                     }
                 };
+                nodes.push(index);
                 add.push(Edit::AddInstance {
                     mesh: id,
                     transform: transform(place),
                     radiance: 1.0,
                 });
             }
-        }
-        for (index, node) in data.nodes.iter().enumerate() {
-            let count = node.mesh.map_or(0, |mesh| {
-                emissive_of(scene, mesh)
-                    .iter()
-                    .filter(|triangles| !triangles.is_empty())
-                    .count()
-            });
-            nodes.extend(std::iter::repeat_n(index as u32, count));
         }
         let ids = lights.apply(add)?.instances;
         lights.refit();
@@ -73,7 +65,6 @@ impl Instances {
     }
 
     /// The edits from the last frame asked for to this one: the instances that moved.
-    #[must_use]
     pub fn edits(&mut self, scene: &Scene, frame: u32) -> Vec<Edit> {
         let world = world_at(scene, frame);
         let mut edits = Vec::new();

@@ -109,7 +109,6 @@ impl Material {
     /// The exponent follows Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces",
     /// section 5.2: n = 2/α² - 2 with α = roughness², rounded down to a power of two. The glossy lobe is white in the
     /// reference renderer, so a metal keeps its colour in the diffuse lobe that is left.
-    #[must_use]
     pub fn surface(&self) -> SurfaceMaterial {
         let [r, g, b] = self.base_color;
         let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
@@ -134,7 +133,6 @@ pub struct Animation {
 
 impl Animation {
     /// Time of the last key of any channel, in seconds; the animation starts again there.
-    #[must_use]
     pub fn duration(&self) -> f32 {
         self.channels
             .iter()
@@ -218,43 +216,36 @@ impl Scene {
     }
 
     /// Built-in name or path of the file.
-    #[must_use]
     pub fn name(&self) -> &str {
         &self.data.name
     }
 
     /// What the scene is made of.
-    #[must_use]
     pub fn data(&self) -> &SceneData {
         &self.data
     }
 
     /// Gives the parts back, for changes; [`Scene::new`] checks them again.
-    #[must_use]
     pub fn into_data(self) -> SceneData {
         self.data
     }
 
     /// What the loader left out, one sentence each.
-    #[must_use]
     pub fn warnings(&self) -> &[String] {
         &self.data.warnings
     }
 
     /// Triangles of every frame.
-    #[must_use]
     pub fn triangle_count(&self) -> usize {
         self.counts.triangles
     }
 
     /// Emissive triangles of every frame.
-    #[must_use]
     pub fn emissive_count(&self) -> usize {
         self.counts.emissive
     }
 
     /// Mesh lights of every frame: instances of emissive primitives.
-    #[must_use]
     pub fn mesh_light_count(&self) -> usize {
         self.counts.mesh_lights
     }

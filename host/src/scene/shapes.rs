@@ -228,8 +228,8 @@ fn halve_edges([a, b, c]: [[f64; 3]; 3]) -> [[[f64; 3]; 3]; 4] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::transform::{cross, dot};
     use super::*;
+    use crate::vector::{cross, dot};
 
     /// Six times the volume that the shape's front faces enclose; negative where they look inward.
     fn volume(shape: &Shape) -> f64 {

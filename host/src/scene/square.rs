@@ -11,9 +11,9 @@ mod motion;
 mod park;
 
 use super::builder::SceneBuilder;
-use super::dice::Dice;
 use super::error::SceneError;
 use super::model::{Material, Scene};
+use super::random::Random;
 use super::shapes::Shape;
 
 /// Half the width of the park inside the road, metres.
@@ -28,7 +28,7 @@ const FRONTS: f64 = 92.0;
 /// None in practice: the scene passes the same checks as one from a file.
 pub fn square() -> Result<Scene, SceneError> {
     let mut b = SceneBuilder::new("square", [0.008, 0.012, 0.028]);
-    let mut dice = Dice::new(2);
+    let mut random = Random::new(2);
     let iron = b.material(Material {
         name: String::from("iron"),
         base_color: [0.12, 0.13, 0.14],
@@ -37,9 +37,9 @@ pub fn square() -> Result<Scene, SceneError> {
         ..Material::default()
     });
     ground(&mut b);
-    buildings::add(&mut b, &mut dice);
-    park::add(&mut b, &mut dice, iron);
-    motion::add(&mut b, &mut dice, iron);
+    buildings::add(&mut b, &mut random);
+    park::add(&mut b, &mut random, iron);
+    motion::add(&mut b, &mut random, iron);
     b.camera([-0.5, 2.6, 46.0], [0.4, 4.6, 0.0], 55.0);
     b.finish()
 }

@@ -11,9 +11,9 @@ mod lamps;
 mod traffic;
 
 use super::builder::SceneBuilder;
-use super::dice::Dice;
 use super::error::SceneError;
 use super::model::{Material, Scene};
+use super::random::Random;
 use super::shapes::Shape;
 
 /// Half the length of the street, metres.
@@ -35,7 +35,7 @@ struct Palette {
 /// None in practice: the scene passes the same checks as one from a file.
 pub fn street() -> Result<Scene, SceneError> {
     let mut b = SceneBuilder::new("street", [0.010, 0.014, 0.030]);
-    let mut dice = Dice::new(1);
+    let mut random = Random::new(1);
     let palette = Palette {
         iron: b.material(Material {
             name: String::from("iron"),
@@ -48,9 +48,9 @@ pub fn street() -> Result<Scene, SceneError> {
         stone: b.matte("stone", [0.45, 0.43, 0.40], 0.8),
     };
     ground(&mut b, &palette);
-    facades::add(&mut b, &mut dice, &palette);
-    lamps::add(&mut b, &mut dice, &palette);
-    traffic::add(&mut b, &mut dice, &palette);
+    facades::add(&mut b, &mut random, &palette);
+    lamps::add(&mut b, &mut random, &palette);
+    traffic::add(&mut b, &mut random, &palette);
     b.camera([2.2, 2.6, 58.0], [-0.8, 3.0, 0.0], 50.0);
     b.finish()
 }

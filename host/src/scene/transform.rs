@@ -1,5 +1,7 @@
 //! Node transforms: translation, rotation, scale or a matrix, composed in `f64`.
 
+use crate::vector::{cross, dot};
+
 /// A node's place relative to its parent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Transform {
@@ -25,7 +27,6 @@ impl Transform {
     };
 
     /// Moves by `translation` metres.
-    #[must_use]
     pub fn at(translation: [f32; 3]) -> Self {
         Self::Trs {
             translation,
@@ -123,22 +124,6 @@ impl Affine {
             .sum::<f64>()
             .sqrt()
     }
-}
-
-pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]
-}
-
-pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-pub(super) fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 /// `v` at length one; `fallback` where it has no direction.

@@ -37,7 +37,6 @@ pub struct Case {
 
 impl Case {
     /// Triangles in the world; points in and about their box and near some of them.
-    #[must_use]
     pub fn new(name: impl Into<String>, triangles: Vec<EmissiveTriangle>) -> Self {
         let random = &mut Random::new(triangles.len() as u32);
         let points = around(&triangles, 16, random);
@@ -52,7 +51,6 @@ impl Case {
     }
 
     /// Meshes and instances; points near the instances.
-    #[must_use]
     pub fn moving(
         name: impl Into<String>,
         meshes: Vec<Vec<EmissiveTriangle>>,
@@ -65,21 +63,18 @@ impl Case {
     }
 
     /// The same at these points as well.
-    #[must_use]
     pub fn with_points(mut self, points: impl IntoIterator<Item = ShadingPoint>) -> Self {
         self.points.extend(points);
         self
     }
 
     /// The same at these points alone.
-    #[must_use]
     pub fn at(mut self, points: Vec<ShadingPoint>) -> Self {
         self.points = points;
         self
     }
 
     /// The same with trees built otherwise.
-    #[must_use]
     pub fn built(mut self, params: BuildParams) -> Self {
         self.params = params;
         self
@@ -96,11 +91,7 @@ pub fn moving_scene(
     instances: &[(usize, Transform, f32)],
     params: &BuildParams,
 ) -> Result<(Bvh, Lights), HostError> {
-    let refused = |source| HostError::Edit {
-        scene: name.to_owned(),
-        frame: 0,
-        source,
-    };
+    let refused = |error| HostError::in_frame(name, 0, error);
     let mut scene: Bvh = lightbvh::Bvh::new(*params);
     let edits = meshes.iter().map(|triangles| Edit::AddMesh {
         triangles: triangles.clone(),
@@ -115,7 +106,7 @@ pub fn moving_scene(
         });
     scene.apply(edits.collect()).map_err(refused)?;
     scene.plan();
-    let lights = door(name, scene.world_lights())?;
+    let lights = validated(name, scene.world_lights())?;
     Ok((scene, lights))
 }
 
@@ -123,17 +114,12 @@ pub fn moving_scene(
 ///
 /// # Errors
 /// [`HostError`] when it refuses them.
-pub fn door(name: &str, triangles: Vec<EmissiveTriangle>) -> Result<Lights, HostError> {
-    Lights::new(triangles).map_err(|source| HostError::Lights {
-        scene: name.to_owned(),
-        frame: 0,
-        source,
-    })
+pub fn validated(name: &str, triangles: Vec<EmissiveTriangle>) -> Result<Lights, HostError> {
+    Lights::new(triangles).map_err(|error| HostError::in_frame(name, 0, error))
 }
 
 /// `count` points about the lights: near one of them, at a distance of 2^-8 to 2^4 of its size; or anywhere in a box a
 /// little larger than that of all. One in four is in a volume.
-#[must_use]
 pub fn around(lights: &[EmissiveTriangle], count: u32, random: &mut Random) -> Vec<ShadingPoint> {
     if lights.is_empty() {
         return Vec::new();

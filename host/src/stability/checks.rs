@@ -59,7 +59,6 @@ impl Worst {
 }
 
 /// Runs every check of `subject` at `points`, with `samples` samples at each.
-#[must_use]
 pub fn check(
     extreme: &str,
     structure: &str,
@@ -140,7 +139,6 @@ pub fn check(
 }
 
 /// Probabilities of all lights at a point.
-#[must_use]
 pub fn all_pmfs(subject: &dyn Subject, point: &ShadingPoint) -> Vec<f32> {
     let count = subject.lights().len() as u32;
     (0..count)
@@ -152,7 +150,6 @@ pub fn all_pmfs(subject: &dyn Subject, point: &ShadingPoint) -> Vec<f32> {
 
 /// Standard deviation of the estimate of direct light at `point` from one sample, as a share of that light; `None` where
 /// there is none.
-#[must_use]
 pub fn relative_deviation(subject: &dyn Subject, point: &ShadingPoint) -> Option<f64> {
     let seen = look(subject, subject.lights(), point);
     (seen.sum > 0.0).then(|| seen.variance.max(0.0).sqrt() / seen.sum)

@@ -4,7 +4,6 @@ use glam::DVec3;
 use lightbvh::{EmissiveTriangle, ShadingPoint};
 
 /// A vector of the crate in f64.
-#[must_use]
 pub fn vector(v: [f32; 3]) -> DVec3 {
     DVec3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]))
 }
@@ -22,7 +21,6 @@ pub struct Triangle {
 
 impl Triangle {
     /// The triangle of a light.
-    #[must_use]
     pub fn new(light: &EmissiveTriangle) -> Self {
         let p = light.p.map(vector);
         let (e1, e2) = (p[1] - p[0], p[2] - p[0]);
@@ -35,7 +33,6 @@ impl Triangle {
     }
 
     /// Area, m².
-    #[must_use]
     pub fn area(&self) -> f64 {
         0.5 * self.normal.length()
     }
@@ -43,7 +40,6 @@ impl Triangle {
 
 /// Whether light can arrive, by geometry alone: some of the triangle is above the point's horizon, and the point is on
 /// an emitting side, both by more than `margin` of the distance.
-#[must_use]
 pub fn can_contribute(light: &EmissiveTriangle, point: &ShadingPoint, margin: f64) -> bool {
     let triangle = Triangle::new(light);
     let (p, n) = (vector(point.p), vector(point.n));
@@ -64,7 +60,6 @@ pub fn can_contribute(light: &EmissiveTriangle, point: &ShadingPoint, margin: f6
 
 /// Whether rounding in `f32` may leave nothing of the triangle's area: it is none, or below 2^-21 of the product of two of its edges.
 /// Such a light may count as one without area, and then emits nothing.
-#[must_use]
 pub fn may_lose_its_area(light: &EmissiveTriangle) -> bool {
     let triangle = Triangle::new(light);
     triangle.area() == 0.0 || triangle.condition.recip() < 1.0 / 2_097_152.0
@@ -72,7 +67,6 @@ pub fn may_lose_its_area(light: &EmissiveTriangle) -> bool {
 
 /// What `light` contributes to `point` if nothing is between, in f64: radiance (green) times both cosines over squared
 /// distance, times area, at four points of the triangle. In a volume there is no cosine at the receiver.
-#[must_use]
 pub fn contribution(light: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
     let triangle = Triangle::new(light);
     let length = triangle.normal.length();

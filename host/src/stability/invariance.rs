@@ -1,10 +1,13 @@
 //! A scene against itself scaled, turned, moved and dimmed: what may change, and by how much.
 
-use glam::{DMat3, DQuat, DVec3};
+mod scenes;
+
+use glam::{DMat3, DVec3};
 use lightbvh::{BuildParams, EmissiveTriangle, Lights, ShadingPoint, exact};
 use rayon::prelude::*;
 
-use super::case::{around, door};
+use self::scenes::{offset, scene_of_zeros, turns};
+use super::case::{around, validated};
 use super::cases::scattered;
 use super::checks::{all_pmfs, relative_deviation};
 use super::random::Random;
@@ -81,7 +84,7 @@ impl Scene {
     }
 
     fn tree(&self, sampler: Sampler) -> Result<(Bvh, Lights), HostError> {
-        let lights = door("invariance", self.lights.clone())?;
+        let lights = validated("invariance", self.lights.clone())?;
         Ok((workload::build(&lights, sampler, &BuildParams::default()), lights))
     }
 
@@ -90,7 +93,7 @@ impl Scene {
     fn study(&self, sampler: Sampler, base: Option<&Self>) -> Result<Study, HostError> {
         let (mut bvh, mut lights) = base.unwrap_or(self).tree(sampler)?;
         if base.is_some() {
-            lights = door("invariance", self.lights.clone())?;
+            lights = validated("invariance", self.lights.clone())?;
             bvh.follow(&lights).expect("as many lights");
         }
         let tree = walked(&bvh, &lights);
@@ -220,87 +223,4 @@ pub fn rows() -> Result<Vec<Row>, HostError> {
         )?;
     }
     Ok(out)
-}
-
-fn turns(base: &Scene) -> Vec<Scene> {
-    let random = &mut Random::new(9);
-    (0..12)
-        .map(|_| {
-            let axis = DVec3::from(random.direction().map(f64::from)).normalize();
-            base.turned(DMat3::from_quat(DQuat::from_axis_angle(
-                axis,
-                f64::from(random.between(0.1, 3.0)),
-            )))
-        })
-        .collect()
-}
-
-/// A scene on a grid of 1 m about the origin, and the same at 10^7 m, where that is the grid of f32: no vertex is rounded.
-fn offset() -> (Scene, Scene) {
-    let random = &mut Random::new(13);
-    let mut lights = Vec::new();
-    for i in 0..400 {
-        let corner = [0; 3].map(|_| random.between(0.0, 2000.0).floor());
-        let vertex = |random: &mut Random| corner.map(|c| c + random.between(-40.0, 40.0).floor());
-        lights.push(EmissiveTriangle {
-            p: [corner, vertex(random), vertex(random)],
-            radiance: [1.0; 3],
-            mesh: i / 8,
-            flags: u32::from(i.is_multiple_of(4)),
-        });
-    }
-    let points = around(&lights, 48, random);
-    let points = points.into_iter().map(|point| ShadingPoint {
-        p: point.p.map(f32::floor),
-        ..point
-    });
-    let near = Scene {
-        points: points.collect(),
-        lights,
-    };
-    let far = near.mapped(|[x, y, z]| [x + 1e7, y - 1e7, z + 1e7], |n| n);
-    (near, far)
-}
-
-/// Lights in coordinate planes, seen from coordinate axes, with `zero` for every zero.
-fn scene_of_zeros(zero: f32) -> Scene {
-    let mut lights = Vec::new();
-    for i in 0..48u32 {
-        let mut corner = [zero; 3];
-        corner[(i % 3) as usize] = 1.0 + (i / 3) as f32;
-        let mut p = [corner; 3];
-        p[1][(i as usize + 1) % 3] = 0.5;
-        p[2][(i as usize + 2) % 3] = 0.25;
-        // Radiance may be minus zero too; a subnormal one is refused.
-        let blue = if zero.to_bits() == (-0f32).to_bits() {
-            zero
-        } else {
-            0.0
-        };
-        lights.push(EmissiveTriangle {
-            p,
-            radiance: [1.0, 1.0, blue],
-            mesh: i / 8,
-            flags: i & 1,
-        });
-    }
-    let axis = |k: usize, x: f32| {
-        let mut v = [zero; 3];
-        v[k] = x;
-        v
-    };
-    let mut points = Vec::new();
-    for k in 0..3 {
-        for x in [0.5, -2.0, 3.25, 20.0] {
-            points.extend((0..3).map(|m| ShadingPoint {
-                p: axis(k, x),
-                n: axis(m, x.signum()),
-            }));
-        }
-        points.push(ShadingPoint {
-            p: [zero; 3],
-            n: axis(k, 1.0),
-        });
-    }
-    Scene { lights, points }
 }

@@ -20,7 +20,7 @@ use lightbvh::{
 };
 use lightbvh_kernels::bvh::{Choice, Node, Standard, WIDTH};
 
-use self::case::{Case, Source, door, moving_scene};
+use self::case::{Case, Source, moving_scene, validated};
 use self::row::{Check, Row};
 use self::subject::{Subject, Walked};
 use self::words::Compared;
@@ -115,7 +115,7 @@ fn world(
     devices: &[&Device],
     found: &mut Found,
 ) -> Result<(), HostError> {
-    let lights = door(&case.name, triangles.to_vec())?;
+    let lights = validated(&case.name, triangles.to_vec())?;
     // Few points do for very many lights: each asks for all their probabilities.
     let samples = if case.large {
         50 * effort.samples
@@ -170,7 +170,6 @@ fn narrow<N: BoundsNode<2>>(case: &Case, lights: &Lights, samples: u32, found: &
 }
 
 /// A tree over triangles in the world, walked by importance `I`.
-#[must_use]
 pub fn walked<'a, N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     bvh: &'a Bvh<N, I, W>,
     lights: &'a Lights,

@@ -8,7 +8,6 @@ pub struct Random(u32);
 
 impl Random {
     /// A stream from a seed.
-    #[must_use]
     pub fn new(seed: u32) -> Self {
         Self(exact::hash(seed ^ 0x9e37_79b9))
     }
@@ -51,7 +50,6 @@ impl Random {
 }
 
 /// The inverse of [`exact::hash`], which is a permutation: PCG's output function undone step by step.
-#[must_use]
 pub fn unhash(hashed: u32) -> u32 {
     // A shift by at least half the width undoes itself.
     let word = hashed ^ (hashed >> 22);
@@ -81,7 +79,6 @@ fn inverse(odd: u32) -> u32 {
 ///
 /// A walk hashes `random + 0x9e3779b9 (4 level + storey)` at each level (`lightbvh::traverse`); were that changed, these would
 /// be random numbers like any others.
-#[must_use]
 pub fn adversarial(levels: u32) -> Vec<u32> {
     let mut out = vec![0, 1, u32::MAX, u32::MAX - 1, 1 << 31, (1 << 31) - 1];
     for choice in 0..levels * 4 {

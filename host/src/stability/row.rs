@@ -1,10 +1,12 @@
 //! What is checked, against which bound, and what came out.
 
 use serde::Serialize;
+use strum::{IntoStaticStr, VariantArray};
 
 /// A check; every row is one of them for one extreme, one structure and one device.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, IntoStaticStr, VariantArray)]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum Check {
     /// Probabilities that are not numbers in [0, 1].
     Finite,
@@ -37,44 +39,14 @@ pub enum Check {
 
 impl Check {
     /// All of them.
-    pub const ALL: [Self; 13] = [
-        Self::Finite,
-        Self::Sum,
-        Self::Equal,
-        Self::Starved,
-        Self::Frequencies,
-        Self::Bias,
-        Self::Depth,
-        Self::SameBits,
-        Self::Variation,
-        Self::Deviation,
-        Self::RefitWords,
-        Self::SampleWords,
-        Self::PmfWords,
-    ];
+    pub const ALL: &[Self] = Self::VARIANTS;
 
     /// As in JSON.
-    #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Finite => "finite",
-            Self::Sum => "sum",
-            Self::Equal => "equal",
-            Self::Starved => "starved",
-            Self::Frequencies => "frequencies",
-            Self::Bias => "bias",
-            Self::Depth => "depth",
-            Self::SameBits => "same-bits",
-            Self::Variation => "variation",
-            Self::Deviation => "deviation",
-            Self::RefitWords => "refit-words",
-            Self::SampleWords => "sample-words",
-            Self::PmfWords => "pmf-words",
-        }
+        self.into()
     }
 
     /// What is measured, and why the bound is what it is.
-    #[must_use]
     pub fn reason(self) -> &'static str {
         match self {
             Self::Finite => "probabilities that are not numbers in [0, 1]; none may be",
@@ -141,7 +113,6 @@ pub struct Row {
 
 impl Row {
     /// A row on the CPU.
-    #[must_use]
     pub fn new(extreme: &str, structure: &str, check: Check, worst: f64, bound: f64) -> Self {
         Self {
             name: format!("{extreme}, {structure}: {}", check.name()),
@@ -158,14 +129,12 @@ impl Row {
     }
 
     /// The same on a device.
-    #[must_use]
     pub fn on(mut self, device: &str) -> Self {
         device.clone_into(&mut self.device);
         self
     }
 
     /// With the place of the worst, which is kept if the row fails.
-    #[must_use]
     pub fn at(mut self, place: Option<String>) -> Self {
         self.at = place.filter(|_| !self.pass);
         self

@@ -2,7 +2,6 @@
 
 /// Upper quantile of the χ² distribution: exceeded with probability `tail` (Wilson & Hilferty 1931). Good to a percent
 /// from three degrees of freedom on, at tails down to 1e-9.
-#[must_use]
 pub fn chi_squared_quantile(degrees: usize, tail: f64) -> f64 {
     let k = degrees as f64;
     let a = 2.0 / (9.0 * k);
@@ -10,7 +9,6 @@ pub fn chi_squared_quantile(degrees: usize, tail: f64) -> f64 {
 }
 
 /// Upper quantile of the normal distribution (Abramowitz & Stegun 1964, 26.2.23; error below 4.5e-4).
-#[must_use]
 pub fn normal_quantile(tail: f64) -> f64 {
     let t = (-2.0 * tail.ln()).sqrt();
     t - (2.515_517 + t * (0.802_853 + t * 0.010_328))
@@ -19,7 +17,6 @@ pub fn normal_quantile(tail: f64) -> f64 {
 
 /// χ² of observed counts against expected probabilities, cells expected below 8 pooled. Returns the statistic and its
 /// degrees of freedom; a count where none is expected gives infinity.
-#[must_use]
 pub fn chi_squared(observed: &[u64], expected: &[f64]) -> (f64, usize) {
     let total = observed.iter().sum::<u64>() as f64;
     let (mut statistic, mut cells) = (0.0, 0);
@@ -63,13 +60,11 @@ impl Mean {
     }
 
     /// The mean so far.
-    #[must_use]
     pub fn mean(&self) -> f64 {
         self.mean
     }
 
     /// Its standard error.
-    #[must_use]
     pub fn error(&self) -> f64 {
         (self.squares / (self.count - 1.0) / self.count).sqrt()
     }

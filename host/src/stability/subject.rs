@@ -45,7 +45,6 @@ pub struct Walked<'a, N, I, const W: usize> {
 
 impl<'a, N: LightNode<W>, I, const W: usize> Walked<'a, N, I, W> {
     /// A tree over `lights`, which are in the world.
-    #[must_use]
     pub fn new(tree: LightTree<'a, N, I, W>, lights: &'a [EmissiveTriangle]) -> Self {
         Self { tree, lights }
     }

@@ -8,9 +8,9 @@ use lightbvh_kernels::query::Query;
 use super::random::{Random, adversarial};
 use super::row::{Check, Row};
 use crate::backend::{Backend, Bvh, CpuBackend, DeviceBackend, Follow, PMF_RECORD, SAMPLED_RECORD};
-use crate::compare::{Record, compare_words};
 use crate::error::HostError;
 use crate::vulkan::{Device, VulkanError};
+use crate::words::{Record, compare_words};
 
 /// Random numbers per point, beside the adversarial ones.
 const NUMBERS: u32 = 96;

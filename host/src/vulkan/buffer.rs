@@ -10,7 +10,7 @@ use std::marker::PhantomData;
 use std::sync::Arc;
 
 /// What every word of an output buffer holds until a kernel writes it: a NaN as a float, no index as an integer.
-pub use crate::compare::UNWRITTEN;
+pub use crate::words::UNWRITTEN;
 
 /// An array of `T` in device memory. Lives as long as it is held, and keeps its device open.
 pub struct Buffer<T> {
@@ -73,25 +73,21 @@ impl<T: Pod> Buffer<T> {
     }
 
     /// Number of elements.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.len
     }
 
     /// Whether there are no elements.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
 
     /// Bytes of all elements.
-    #[must_use]
     pub fn byte_len(&self) -> usize {
         self.len * Self::ELEMENT_BYTES
     }
 
     /// The buffer as an argument of a dispatch.
-    #[must_use]
     pub fn bind(&self) -> Binding<'_> {
         Binding {
             memory: &self.memory,

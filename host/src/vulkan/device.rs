@@ -117,13 +117,11 @@ impl Device {
     }
 
     /// What the device said about itself.
-    #[must_use]
     pub fn probe(&self) -> &Probe {
         &self.shared.probe
     }
 
     /// Device name as the driver gives it.
-    #[must_use]
     pub fn name(&self) -> &str {
         &self.shared.probe.name
     }

@@ -109,13 +109,11 @@ fn built_in(name: &str) -> Result<&'static lightbvh_gpu::Kernel, VulkanError> {
 
 impl Kernel {
     /// The name it was made with.
-    #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
     /// What its module says it takes.
-    #[must_use]
     pub fn interface(&self) -> &Interface {
         &self.interface
     }

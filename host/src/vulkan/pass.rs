@@ -22,7 +22,6 @@ pub(crate) struct Dispatch<'a> {
 
 impl<'a> Pass<'a> {
     /// An empty pass.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
@@ -46,13 +45,11 @@ impl<'a> Pass<'a> {
     }
 
     /// Number of dispatches.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.dispatches.len()
     }
 
     /// Whether there are no dispatches.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.dispatches.is_empty()
     }

@@ -4,6 +4,7 @@ use super::instance::Instance;
 use ash::vk;
 use serde::Serialize;
 use std::ffi::CStr;
+use std::fmt;
 
 /// A device's own account of itself, as read from the driver.
 #[derive(Clone, Debug, Serialize)]
@@ -37,6 +38,12 @@ pub struct Driver {
     pub info: String,
     /// Version number in the driver's own encoding.
     pub version: u32,
+}
+
+impl fmt::Display for Driver {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", self.name, self.info)
+    }
 }
 
 /// Which execution modes for 32-bit floats the device offers (`VkPhysicalDeviceFloatControlsProperties`).

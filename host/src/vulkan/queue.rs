@@ -73,7 +73,7 @@ impl Queue {
             // SAFETY: the fence belongs to this device.
             match unsafe { device.get_fence_status(self.fence) } {
                 Ok(false) => return Err(VulkanError::Busy { device: name.into() }),
-                // Signalled, or the device is lost: either way it runs nothing any more.
+                // Signalled, or the device is lost: in both cases it runs nothing any more.
                 Ok(true) | Err(_) => self.unfinished = false,
             }
         }

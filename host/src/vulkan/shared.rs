@@ -130,7 +130,7 @@ impl Shared {
 impl Drop for Shared {
     fn drop(&mut self) {
         if self.is_busy() {
-            // The device may still write to its memory. Leaking all of it is the only safe way out.
+            // The device may still write to its memory. Leaking all of it is the only safe end.
             return;
         }
         // SAFETY: the device is alive, and no other thread can use it: this is its last owner. A lost device is an

@@ -7,30 +7,11 @@ use crate::program::{Folder, has_device, json, refused};
 #[test]
 fn sequences_are_numbered_and_hold_what_single_frames_do() {
     let folder = Folder::new("animate");
-    let small = [
-        "--width",
-        "32",
-        "--height",
-        "18",
-        "--spp",
-        "2",
-        "--backend",
-        "cpu",
-        "--json",
-    ];
+    let small = "--width 32 --height 18 --spp 2 --backend cpu --json";
     for sampler in ["power", "single-level-rebuilt", "two-level", "bvh-restir"] {
         let out = folder.file(&format!("{sampler}.exr"));
-        let args = [
-            "render",
-            "street",
-            "--sampler",
-            sampler,
-            "--animate",
-            "0..3",
-            "-o",
-            &out,
-        ];
-        let report = json(&[&args[..], &small].concat());
+        let line = format!("render street --sampler {sampler} --animate 0..3 -o {out} {small}");
+        let report = json(&line);
         let frames = report["frames"].as_array().expect("frames");
         assert_eq!(frames.len(), 3);
         for (number, frame) in (0..).zip(frames) {
@@ -45,48 +26,22 @@ fn sequences_are_numbered_and_hold_what_single_frames_do() {
         // Nothing is carried from frame to frame without a tree or with a new one, and the same history where it starts at frame 0.
         if sampler != "two-level" {
             let single = folder.file("single.exr");
-            let args = [
-                "render",
-                "street",
-                "--sampler",
-                sampler,
-                "--frame",
-                "2",
-                "-o",
-                &single,
-            ];
-            json(&[&args[..], &small].concat());
+            json(&format!(
+                "render street --sampler {sampler} --frame 2 -o {single} {small}"
+            ));
             let last = std::fs::read(folder.file(&format!("{sampler}-0002.exr"))).expect("an image");
             assert!(last == std::fs::read(&single).expect("an image"), "{sampler}");
         }
     }
     let image = folder.file("refused.png");
     for wrong in ["3", "3..3", "4..3", "a..b"] {
-        let said = refused(&["render", "street", "--animate", wrong, "-o", &image]);
+        let said = refused(&format!("render street --animate {wrong} -o {image}"));
         assert!(said.contains("--animate"), "{said}");
     }
-    refused(&[
-        "render",
-        "street",
-        "--animate",
-        "0..2",
-        "--frame",
-        "1",
-        "-o",
-        &image,
-    ]);
-    let said = refused(&["render", "street", "--restir-mode", "biased", "-o", &image]);
+    refused(&format!("render street --animate 0..2 --frame 1 -o {image}"));
+    let said = refused(&format!("render street --restir-mode biased -o {image}"));
     assert!(said.contains("--sampler restir"), "{said}");
-    let said = refused(&[
-        "render",
-        "street",
-        "--sampler",
-        "restir",
-        "--spp",
-        "65",
-        "-o",
-        &image,
-    ]);
+    let said = refused(&format!("render street --sampler restir --spp 65 -o {image}"));
     assert!(said.contains("--spp 65"), "{said}");
 }
 
@@ -106,25 +61,10 @@ fn animations_of_moving_lights_give_the_same_files_on_both_processors() {
                 continue;
             }
             let out = folder.file(&format!("{sampler}-{backend}.exr"));
-            json(&[
-                "render",
-                "square",
-                "--sampler",
-                sampler,
-                "--animate",
-                "8..11",
-                "--width",
-                "16",
-                "--height",
-                "9",
-                "--spp",
-                spp,
-                "--backend",
-                backend,
-                "-o",
-                &out,
-                "--json",
-            ]);
+            json(&format!(
+                "render square --sampler {sampler} --animate 8..11 --width 16 --height 9 --spp {spp} \
+                 --backend {backend} -o {out} --json"
+            ));
             let frames = (8..11).map(|n| {
                 let file = folder.file(&format!("{sampler}-{backend}-{n:04}.exr"));
                 std::fs::read(file).expect("an image")

@@ -9,22 +9,9 @@ fn verify_compares_words_on_every_device() {
     if !has_device() {
         return;
     }
-    let report = json(&[
-        "verify",
-        "--json",
-        "--queries",
-        "3000",
-        "--scene",
-        "street",
-        "--seed",
-        "7",
-        "--frames",
-        "0..3",
-        "--frame-queries",
-        "64",
-        "--refits",
-        "2",
-    ]);
+    let report = json(
+        "verify --json --queries 3000 --scene street --seed 7 --frames 0..3 --frame-queries 64 --refits 2",
+    );
     assert_eq!(report["different"], 0);
     assert_eq!(report["cpu_different"], 0);
     assert_eq!(report["frames"], serde_json::json!({ "start": 0, "end": 3 }));
@@ -51,8 +38,7 @@ fn verify_compares_words_on_every_device() {
 
 #[test]
 fn bench_reports_every_case() {
-    let small = ["--lights", "2000", "--queries", "5000", "--no-trade"];
-    let report = json(&[&["bench", "--json"][..], &small[..]].concat());
+    let report = json("bench --json --lights 2000 --queries 5000 --no-trade");
     let cases = report["cases"].as_array().expect("cases");
     for structure in ["single-level", "two-level"] {
         for what in ["build", "refit", "sample", "pmf"] {
@@ -81,8 +67,7 @@ fn bench_reports_every_case() {
 
 #[test]
 fn bench_follows_moving_lights() {
-    let size = ["--instances", "200", "--mesh-triangles", "20"];
-    let report = json(&[&["bench", "--json", "--dynamic"], &size[..]].concat());
+    let report = json("bench --json --dynamic --instances 200 --mesh-triangles 20");
     let report = &report["dynamic"];
     assert!(report["single_level_refit_ms"]["median"].as_f64() > Some(0.0));
     let rows = report["rows"].as_array().expect("rows");
@@ -103,7 +88,7 @@ fn bench_follows_moving_lights() {
     for swapped in ["rebuild_ms", "swap_ms", "refit_after_swap_ms"] {
         assert!(all[swapped]["median"].as_f64() > Some(0.0), "{all}");
     }
-    // What little changes costs little: no more than its ways to the root.
+    // What little changes costs little: no more than its paths to the root.
     assert!(nodes(of("move", 200, 2)) * 4 < nodes(all), "{all}");
     assert!(nodes(of("shine", 200, 2)) * 4 < nodes(all), "{all}");
     of("move", 200, 20);
@@ -115,7 +100,7 @@ fn bench_follows_moving_lights() {
 fn validate_finds_the_scenes_valid() {
     for scene in ["street", "square", "carousel"] {
         for importance in ["moments", "eq4"] {
-            let report = json(&["validate", scene, "--importance", importance, "--json"]);
+            let report = json(&format!("validate {scene} --importance {importance} --json"));
             assert_eq!(report["valid"], true, "{report}");
             assert_eq!(report["importance"], importance);
         }
@@ -126,8 +111,7 @@ fn validate_finds_the_scenes_valid() {
 fn demo_ends_with_no_word_different() {
     let folder = Folder::new("demo");
     let images = folder.file("images");
-    let small = ["--width", "96", "--height", "54"];
-    let report = json(&[&["demo", "--json", "--out", &images][..], &small[..]].concat());
+    let report = json(&format!("demo --json --out {images} --width 96 --height 54"));
     let rows = report["rows"].as_array().expect("rows");
     assert_eq!(rows[0]["backend"], "cpu");
     for row in &rows[1..] {

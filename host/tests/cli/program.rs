@@ -26,32 +26,33 @@ impl Drop for Folder {
     }
 }
 
-pub fn run(args: &[&str]) -> Output {
+/// Runs the program with the words of a command line.
+pub fn run(line: &str) -> Output {
     Command::new(env!("CARGO_BIN_EXE_lightbvh"))
-        .args(args)
+        .args(line.split_whitespace())
         .output()
         .expect("the program starts")
 }
 
-pub fn json(args: &[&str]) -> Value {
-    let output = run(args);
+pub fn json(line: &str) -> Value {
+    let output = run(line);
     let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{args:?}: {errors}");
+    assert!(output.status.success(), "{line}: {errors}");
     serde_json::from_slice(&output.stdout).expect("one JSON object")
 }
 
 /// Runs what must be refused and returns what it said.
-pub fn refused(args: &[&str]) -> String {
-    let output = run(args);
+pub fn refused(line: &str) -> String {
+    let output = run(line);
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{args:?} said {said}");
+    assert_eq!(output.status.code(), Some(2), "{line} said {said}");
     assert!(!said.contains("panicked"), "{said}");
     said
 }
 
 /// Whether there is a device; where one is required, there must be.
 pub fn has_device() -> bool {
-    let devices = json(&["info", "--json"]);
+    let devices = json("info --json");
     let found = devices["devices"].as_array().is_some_and(|list| !list.is_empty());
     if !found {
         eprintln!("skipped: no Vulkan device");

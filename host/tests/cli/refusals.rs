@@ -8,47 +8,48 @@ use crate::program::{Folder, has_device, refused, run};
 fn bad_input_is_refused_with_what_where_and_what_to_do() {
     let folder = Folder::new("refused");
     let image = folder.file("image.png");
-    let said = refused(&["render", "streets", "-o", &image]);
+    let said = refused(&format!("render streets -o {image}"));
     assert!(
         said.contains("streets") && said.contains("street, square, carousel"),
         "{said}"
     );
-    let said = refused(&["render", "no/such/file.glb", "-o", &image]);
+    let said = refused(&format!("render no/such/file.glb -o {image}"));
     assert!(said.contains("no/such/file.glb"), "{said}");
-    let said = refused(&["render", "street", "--spp", "0", "-o", &image]);
+    let said = refused(&format!("render street --spp 0 -o {image}"));
     assert!(said.contains("--spp 0"), "{said}");
-    let said = refused(&["render", "street", "--width", "100000", "-o", &image]);
+    let said = refused(&format!("render street --width 100000 -o {image}"));
     assert!(said.contains("--width 100000"), "{said}");
-    let said = refused(&["render", "street", "--bounces", "65", "-o", &image]);
+    let said = refused(&format!("render street --bounces 65 -o {image}"));
     assert!(
         said.contains("--bounces 65") && said.contains("1 to 64"),
         "{said}"
     );
-    let said = refused(&["demo", "--height", "0", "--out", &folder.file("images")]);
+    let said = refused(&format!("demo --height 0 --out {}", folder.file("images")));
     assert!(
         said.contains("--height 0") && !folder.0.join("images").exists(),
         "{said}"
     );
     for option in ["--lights", "--queries"] {
-        let said = refused(&["bench", option, "0"]);
+        let said = refused(&format!("bench {option} 0"));
         assert!(said.contains(&format!("{option} 0")), "{said}");
     }
-    let said = refused(&["bench", "--dynamic", "--instances", "0"]);
+    let said = refused("bench --dynamic --instances 0");
     assert!(said.contains("--instances 0"), "{said}");
-    let said = refused(&["bench", "--dynamic", "--mesh-triangles", "100000"]);
+    let said = refused("bench --dynamic --mesh-triangles 100000");
     assert!(said.contains("1000000000") && said.contains("10000000"), "{said}");
-    refused(&["render", "street", "--sampler", "best", "-o", &image]);
-    refused(&["verify", "--queries", "many"]);
+    refused(&format!("render street --sampler best -o {image}"));
+    refused("verify --queries many");
     assert!(!Path::new(&image).exists());
 
-    let small = ["--width", "16", "--height", "9", "--spp", "1"];
     for output in [folder.file("no/such/folder/image.png"), folder.file("image.gif")] {
-        let said = refused(&[&["render", "street", "-o", &output], &small[..]].concat());
+        let said = refused(&format!(
+            "render street -o {output} --width 16 --height 9 --spp 1"
+        ));
         assert!(said.contains(&output), "{said}");
     }
     if has_device() {
-        let said = refused(&["verify", "--queries", "1", "--device", "no such device"]);
-        assert!(said.contains("no such device"), "{said}");
+        let said = refused("verify --queries 1 --device no-such-device");
+        assert!(said.contains("no-such-device"), "{said}");
     }
 }
 
@@ -56,12 +57,12 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
 fn broken_scene_files_are_refused() {
     let folder = Folder::new("broken");
     let whole = folder.file("whole.glb");
-    assert!(run(&["export", "street", "-o", &whole]).status.success());
+    assert!(run(&format!("export street -o {whole}")).status.success());
     let bytes = std::fs::read(&whole).expect("the exported scene");
     let broken = folder.file("broken.glb");
     for length in [0, 3, 11, 12, 19, 20, 500, bytes.len() / 2, bytes.len() - 1] {
         std::fs::write(&broken, &bytes[..length]).expect("a file");
-        let said = refused(&["render", &broken, "-o", &folder.file("image.png")]);
+        let said = refused(&format!("render {broken} -o {}", folder.file("image.png")));
         assert!(said.contains("broken.glb"), "{length} bytes: {said}");
     }
     // A scene without any light is a scene, but there is nothing to sample.
@@ -72,6 +73,6 @@ fn broken_scene_files_are_refused() {
         "bufferViews":[{"buffer":0,"byteLength":36}],
         "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}]}"#;
     std::fs::write(&dark, document).expect("a file");
-    let said = refused(&["render", &dark, "-o", &folder.file("image.png")]);
+    let said = refused(&format!("render {dark} -o {}", folder.file("image.png")));
     assert!(said.contains("emissive"), "{said}");
 }

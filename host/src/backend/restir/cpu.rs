@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
-use lightbvh_kernels::shading::pick::{PickLight, Power};
+use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use lightbvh_kernels::shading::pixel::Scene;
 use lightbvh_kernels::shading::restir::combine::{Biased, Combine, Unbiased};
 use lightbvh_kernels::shading::restir::initial::{first_reservoir, first_surface};
@@ -16,11 +16,8 @@ use lightbvh_kernels::shading::restir::temporal::{Before, temporal};
 use lightbvh_kernels::shading::restir::{PixelReservoir, RestirParams};
 use rayon::prelude::*;
 
-use super::{
-    CandidateSource, Combination, LightRemap, Restir, RestirFrame, RestirOptions, continues, params,
-};
-use crate::backend::{SceneArrays, Timed};
-use crate::vulkan::VulkanError;
+use super::{Combination, History, LightRemap, Restir, RestirFrame, RestirOptions, continues, params};
+use crate::backend::{BackendError, Sampler, SceneArrays, Timed};
 
 /// ReSTIR on the CPU.
 pub struct CpuRestir<C: Choice<W> = Standard, const W: usize = WIDTH> {
@@ -40,7 +37,6 @@ struct Last {
 
 impl<C: Choice<W>, const W: usize> CpuRestir<C, W> {
     /// Before the first frame.
-    #[must_use]
     pub fn new(options: RestirOptions) -> Self {
         Self {
             options,
@@ -52,20 +48,21 @@ impl<C: Choice<W>, const W: usize> CpuRestir<C, W> {
 }
 
 impl<C: Choice<W>, const W: usize> Restir<C, W> for CpuRestir<C, W> {
-    fn frame(&mut self, frame: &RestirFrame<'_, C, W>) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
+    fn frame(&mut self, frame: &RestirFrame<'_, C, W>) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
         let start = Instant::now();
         let params = params(&self.options, frame);
         let view = frame.scene.view();
         let scene = frame.scene.as_ref();
         let (gbuffer, mut reservoirs) = match self.options.source {
-            CandidateSource::Power => initial(
-                scene,
-                &params,
-                &Power {
-                    thresholds: &scene.thresholds,
-                },
-            ),
-            CandidateSource::LightBvh => initial(scene, &params, &frame.bvh),
+            Sampler::Uniform => {
+                let count = scene.lights.triangles().len() as u32;
+                initial(scene, &params, &Uniform { count })
+            }
+            Sampler::Power => {
+                let thresholds = &scene.thresholds;
+                initial(scene, &params, &Power { thresholds })
+            }
+            Sampler::SingleLevel | Sampler::TwoLevel => initial(scene, &params, &frame.bvh),
         };
         let usable = |last: &&Last| continues(&last.scene, last.size, frame) && self.options.history > 0;
         if let Some(last) = self.last.as_ref().filter(usable) {
@@ -136,7 +133,7 @@ impl<C: Choice<W>, const W: usize> Restir<C, W> for CpuRestir<C, W> {
         self.shadow_rays
     }
 
-    fn state(&self) -> Result<(Vec<Surface>, Vec<PixelReservoir>), VulkanError> {
+    fn state(&self) -> Result<History, BackendError> {
         Ok(self.last.as_ref().map_or_else(Default::default, |last| {
             (last.gbuffer.clone(), last.reservoirs.clone())
         }))

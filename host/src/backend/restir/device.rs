@@ -4,21 +4,17 @@ use std::marker::PhantomData;
 use std::sync::Arc;
 use std::time::Duration;
 
-use bytemuck::{Pod, bytes_of};
-use lightbvh::{EmissiveTriangle, Instance};
-use lightbvh_kernels::bvh::{Choice, Standard, TreeOf, TreePush, WIDTH};
+use bytemuck::bytes_of;
+use lightbvh_kernels::bvh::{Choice, Standard, TreePush, WIDTH};
 use lightbvh_kernels::restir::RestirPush;
-use lightbvh_kernels::shading::camera::Camera;
-use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::restir::shade::Shaded;
 use lightbvh_kernels::shading::restir::surface::Surface;
 use lightbvh_kernels::shading::restir::{PixelReservoir, RestirParams};
-use lightbvh_kernels::shading::trace::{RayNode, SurfaceTriangle};
 
-use super::{CandidateSource, Combination, Restir, RestirFrame, RestirOptions, continues, params};
-use crate::backend::device::device_time;
-use crate::backend::{SceneArrays, Timed};
-use crate::vulkan::{Binding, Buffer, Device, Pass, VulkanError};
+use super::{Combination, History, Restir, RestirFrame, RestirOptions, continues, params};
+use crate::backend::device_arrays::{DeviceScene, DeviceTree, device_time, kernel_name};
+use crate::backend::{BackendError, SceneArrays, Timed};
+use crate::vulkan::{Binding, Buffer, Device, Pass};
 
 /// Candidates or neighbours per dispatch: keeps one well below the seconds after which a driver gives up on it.
 const WORK_PER_PASS: usize = 1 << 21;
@@ -32,105 +28,17 @@ pub struct DeviceRestir<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     choice: PhantomData<C>,
 }
 
-/// A frame's scene on the device.
-struct SceneBuffers {
-    ray_nodes: Buffer<RayNode>,
-    surfaces: Buffer<SurfaceTriangle>,
-    materials: Buffer<Material>,
-    lights: Buffer<EmissiveTriangle>,
-    camera: Buffer<Camera>,
-}
-
 /// The frame before.
 struct Last {
     scene: Arc<SceneArrays>,
     size: (u32, u32),
-    buffers: SceneBuffers,
+    buffers: DeviceScene,
     gbuffer: Buffer<Surface>,
     reservoirs: Buffer<PixelReservoir>,
 }
 
-/// What initial candidates are drawn from.
-enum SourceBuffers<N> {
-    Power(Buffer<u32>),
-    LightBvh(Box<TreeBuffers<N>>),
-}
-
-/// A light BVH on the device.
-struct TreeBuffers<N> {
-    nodes: Buffer<N>,
-    instances: Buffer<Instance>,
-    trails: Buffer<u32>,
-    push: TreePush,
-    kernel: String,
-}
-
-impl SceneBuffers {
-    fn upload(device: &Device, scene: &SceneArrays) -> Result<Self, VulkanError> {
-        Ok(Self {
-            ray_nodes: device.upload(&scene.rays.nodes)?,
-            surfaces: device.upload(&scene.rays.triangles)?,
-            materials: device.upload(&scene.materials)?,
-            lights: device.upload(scene.lights.triangles())?,
-            camera: device.upload(&[scene.camera])?,
-        })
-    }
-
-    /// The four buffers that a [`Scene`](lightbvh_kernels::shading::pixel::Scene) is made of.
-    fn view(&self) -> [Binding<'_>; 4] {
-        [
-            self.ray_nodes.bind(),
-            self.surfaces.bind(),
-            self.materials.bind(),
-            self.lights.bind(),
-        ]
-    }
-}
-
-impl<N: Pod> SourceBuffers<N> {
-    fn upload<C: Choice<W, Node = N>, const W: usize>(
-        device: &Device,
-        source: CandidateSource,
-        scene: &SceneArrays,
-        tree: &TreeOf<'_, C, W>,
-    ) -> Result<Self, VulkanError> {
-        Ok(match source {
-            CandidateSource::Power => Self::Power(device.upload(&scene.thresholds)?),
-            CandidateSource::LightBvh => Self::LightBvh(Box::new(TreeBuffers {
-                nodes: device.upload(tree.nodes)?,
-                instances: device.upload(tree.instances)?,
-                trails: device.upload(tree.trails)?,
-                push: TreePush::of(tree),
-                kernel: format!("restir_initial_bvh{}", C::SUFFIX),
-            })),
-        })
-    }
-
-    fn kernel(&self) -> &str {
-        match self {
-            Self::Power(_) => "restir_initial_power",
-            Self::LightBvh(tree) => &tree.kernel,
-        }
-    }
-
-    fn bindings(&self) -> Vec<Binding<'_>> {
-        match self {
-            Self::Power(thresholds) => vec![thresholds.bind()],
-            Self::LightBvh(tree) => vec![tree.nodes.bind(), tree.instances.bind(), tree.trails.bind()],
-        }
-    }
-
-    fn push(&self) -> TreePush {
-        match self {
-            Self::Power(_) => TreePush::default(),
-            Self::LightBvh(tree) => tree.push,
-        }
-    }
-}
-
 impl<'d, C: Choice<W>, const W: usize> DeviceRestir<'d, C, W> {
     /// Before the first frame.
-    #[must_use]
     pub fn new(device: &'d Device, options: RestirOptions) -> Self {
         Self {
             device,
@@ -149,7 +57,7 @@ impl<'d, C: Choice<W>, const W: usize> DeviceRestir<'d, C, W> {
         params: &RestirParams,
         tree: TreePush,
         work: u32,
-    ) -> Result<Duration, VulkanError> {
+    ) -> Result<Duration, BackendError> {
         let kernel = self.device.kernel(kernel)?;
         let pixels = params.width as usize * params.height as usize;
         let per_pass = (WORK_PER_PASS / work.max(1) as usize).max(64);
@@ -174,10 +82,10 @@ impl<'d, C: Choice<W>, const W: usize> DeviceRestir<'d, C, W> {
         frame: &RestirFrame<'_, C, W>,
         last: &Last,
         params: &RestirParams,
-        scene: &SceneBuffers,
+        scene: &DeviceScene,
         gbuffer: &Buffer<Surface>,
         reservoirs: &Buffer<PixelReservoir>,
-    ) -> Result<Duration, VulkanError> {
+    ) -> Result<Duration, BackendError> {
         let (to_current, to_previous) = frame
             .remap
             .map_or((&[][..], &[][..]), |r| (r.to_current(), r.to_previous()));
@@ -211,25 +119,24 @@ impl<'d, C: Choice<W>, const W: usize> DeviceRestir<'d, C, W> {
 }
 
 impl<C: Choice<W>, const W: usize> Restir<C, W> for DeviceRestir<'_, C, W> {
-    fn frame(&mut self, frame: &RestirFrame<'_, C, W>) -> Result<Timed<Vec<[f32; 3]>>, VulkanError> {
+    fn frame(&mut self, frame: &RestirFrame<'_, C, W>) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
         let device = self.device;
         let mut params = params(&self.options, frame);
         let pixels = frame.width as usize * frame.height as usize;
-        let scene = SceneBuffers::upload(device, frame.scene)?;
-        let source = SourceBuffers::upload::<C, W>(device, self.options.source, frame.scene, &frame.bvh)?;
+        let scene = DeviceScene::upload(device, frame.scene)?;
         let gbuffer = device.output::<Surface>(pixels)?;
         let mut reservoirs = device.output::<PixelReservoir>(pixels)?;
         let none = TreePush::default();
 
-        let own = [
-            vec![scene.camera.bind()],
-            source.bindings(),
-            vec![gbuffer.bind(), reservoirs.bind()],
-        ]
-        .concat();
-        let bindings = [scene.view().as_slice(), &own].concat();
+        let source = self.options.source;
+        let upload = || DeviceTree::upload::<C, W>(device, &frame.bvh);
+        let tree = source.needs_bvh().then(upload).transpose()?;
+        let inputs = scene.with_lights(source, tree.as_ref());
+        let bindings = [inputs.as_slice(), &[gbuffer.bind(), reservoirs.bind()]].concat();
+        let kernel = kernel_name::<C, W>("restir_initial", source);
         let work = self.options.candidates;
-        let mut time = self.over_pixels(source.kernel(), &bindings, &params, source.push(), work)?;
+        let push = tree.as_ref().map_or(none, |tree| tree.push);
+        let mut time = self.over_pixels(&kernel, &bindings, &params, push, work)?;
 
         let usable = |last: &&Last| continues(&last.scene, last.size, frame) && self.options.history > 0;
         if let Some(last) = self.last.as_ref().filter(usable) {
@@ -282,7 +189,7 @@ impl<C: Choice<W>, const W: usize> Restir<C, W> for DeviceRestir<'_, C, W> {
         self.shadow_rays
     }
 
-    fn state(&self) -> Result<(Vec<Surface>, Vec<PixelReservoir>), VulkanError> {
+    fn state(&self) -> Result<History, BackendError> {
         match &self.last {
             Some(last) => Ok((last.gbuffer.read()?, last.reservoirs.read()?)),
             None => Ok(Default::default()),

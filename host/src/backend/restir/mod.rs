@@ -15,23 +15,12 @@ use lightbvh_kernels::shading::restir::surface::Surface;
 use lightbvh_kernels::shading::restir::{PixelReservoir, RestirParams};
 use lightbvh_kernels::shading::trace::NONE;
 
-use super::{SceneArrays, Timed};
-use crate::compare::{Field, Record};
-use crate::vulkan::VulkanError;
-
-/// Where initial candidates come from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, clap::ValueEnum, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum CandidateSource {
-    /// In proportion to power, as in the paper on ReSTIR.
-    Power,
-    /// The light BVH.
-    LightBvh,
-}
+use super::{BackendError, Sampler, SceneArrays, Timed};
+use crate::words::{Field, Record};
 
 /// How reservoirs are combined.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, clap::ValueEnum, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, clap::ValueEnum, strum::IntoStaticStr)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Combination {
     /// The expectation is the direct light (under the conditions in [`lightbvh_kernels::shading::restir`]); one shadow ray
     /// for each reservoir merged.
@@ -44,16 +33,11 @@ pub enum Combination {
 
 impl Combination {
     /// As on the command line and in reports.
-    #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Unbiased => "unbiased",
-            Self::Biased => "biased",
-        }
+        self.into()
     }
 
     /// Whether the expectation of an image is its direct light.
-    #[must_use]
     pub fn is_unbiased(self) -> bool {
         self == Self::Unbiased
     }
@@ -62,8 +46,9 @@ impl Combination {
 /// What ReSTIR does in each frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RestirOptions {
-    /// Where candidates come from.
-    pub source: CandidateSource,
+    /// What initial candidates are chosen by: power, as in the paper on ReSTIR, or a light BVH. There is no kernel for
+    /// [`Sampler::Uniform`], so devices refuse it.
+    pub source: Sampler,
     /// How reservoirs are combined.
     pub combination: Combination,
     /// Candidates per pixel and frame, 1 to 1024: a software device ends the loops of an invocation after 65,535 turns in
@@ -84,8 +69,7 @@ impl RestirOptions {
     /// pixels — three of them and one pass where each costs a shadow ray, five and two passes where none does. From a
     /// light BVH a quarter as many: with 32 the street's error is 8 % lower (`lightbvh compare`, frames 0 and 60,
     /// 192 × 108), but llvmpipe then ends loops early in the scene `carousel`: `lightbvh verify` found 7,363 words different.
-    #[must_use]
-    pub fn new(source: CandidateSource, combination: Combination) -> Self {
+    pub fn new(source: Sampler, combination: Combination) -> Self {
         let (neighbors, spatial_passes) = match combination {
             Combination::Unbiased => (3, 1),
             Combination::Biased => (5, 2),
@@ -93,10 +77,7 @@ impl RestirOptions {
         Self {
             source,
             combination,
-            candidates: match source {
-                CandidateSource::Power => 32,
-                CandidateSource::LightBvh => 8,
-            },
+            candidates: if source.needs_bvh() { 8 } else { 32 },
             history: 20,
             neighbors,
             radius: 30,
@@ -106,7 +87,6 @@ impl RestirOptions {
 
     /// Shadow rays that a pixel costs in a frame at most: for visibility reuse, for the final sample, and, where the
     /// combination is unbiased, for the frame before and for each neighbour. [`Restir::shadow_rays`] counts those traced.
-    #[must_use]
     pub fn most_shadow_rays(&self) -> u32 {
         2 + match self.combination {
             Combination::Unbiased => u32::from(self.history > 0) + self.neighbors * self.spatial_passes,
@@ -125,7 +105,6 @@ pub struct LightRemap {
 impl LightRemap {
     /// From the index now of each light of the frame before (`u32::MAX` for one that is gone), of `now` lights. An index
     /// that is out of range or was given before counts as gone: no two lights can become one.
-    #[must_use]
     pub fn new(to_current: &[u32], now: usize) -> Self {
         let mut to_previous = vec![NONE; now];
         let to_current = to_current
@@ -148,13 +127,11 @@ impl LightRemap {
     }
 
     /// By index in the frame before.
-    #[must_use]
     pub fn to_current(&self) -> &[u32] {
         &self.to_current
     }
 
     /// By index now.
-    #[must_use]
     pub fn to_previous(&self) -> &[u32] {
         &self.to_previous
     }
@@ -165,7 +142,7 @@ impl LightRemap {
 pub struct RestirFrame<'a, C: Choice<W> = Standard, const W: usize = WIDTH> {
     /// The scene; kept until the next frame, which asks what it hid from whom.
     pub scene: &'a Arc<SceneArrays>,
-    /// The light BVH over its lights; used by [`CandidateSource::LightBvh`] only.
+    /// The light BVH over its lights; used where candidates are chosen by it.
     pub bvh: TreeOf<'a, C, W>,
     /// Columns.
     pub width: u32,
@@ -189,8 +166,8 @@ pub trait Restir<C: Choice<W> = Standard, const W: usize = WIDTH> {
     /// differ, or the number of lights does without a remap to say how.
     ///
     /// # Errors
-    /// [`VulkanError`] from a device.
-    fn frame(&mut self, frame: &RestirFrame<'_, C, W>) -> Result<Timed<Vec<[f32; 3]>>, VulkanError>;
+    /// [`BackendError`] from a device.
+    fn frame(&mut self, frame: &RestirFrame<'_, C, W>) -> Result<Timed<Vec<[f32; 3]>>, BackendError>;
 
     /// Forgets the frames so far.
     fn reset(&mut self);
@@ -201,8 +178,8 @@ pub trait Restir<C: Choice<W> = Standard, const W: usize = WIDTH> {
     /// G-buffer and reservoirs of the last frame, for comparing; empty before the first.
     ///
     /// # Errors
-    /// [`VulkanError`] from a device.
-    fn state(&self) -> Result<(Vec<Surface>, Vec<PixelReservoir>), VulkanError>;
+    /// [`BackendError`] from a device.
+    fn state(&self) -> Result<History, BackendError>;
 }
 
 /// Words of a G-buffer's pixel.
@@ -229,6 +206,9 @@ pub const RESERVOIR_RECORD: Record = Record {
         Field::new("shadow_rays", 1),
     ],
 };
+
+/// G-buffer and reservoirs of a frame.
+pub type History = (Vec<Surface>, Vec<PixelReservoir>);
 
 /// Parameters of the passes.
 fn params<C: Choice<W>, const W: usize>(
@@ -281,7 +261,7 @@ mod tests {
 
     #[test]
     fn the_most_shadow_rays_are_those_of_the_passes() {
-        let unbiased = RestirOptions::new(CandidateSource::Power, Combination::Unbiased);
+        let unbiased = RestirOptions::new(Sampler::Power, Combination::Unbiased);
         assert_eq!(unbiased.most_shadow_rays(), 6);
         let initial_only = RestirOptions {
             history: 0,
@@ -289,7 +269,7 @@ mod tests {
             ..unbiased
         };
         assert_eq!(initial_only.most_shadow_rays(), 2);
-        let biased = RestirOptions::new(CandidateSource::LightBvh, Combination::Biased);
+        let biased = RestirOptions::new(Sampler::TwoLevel, Combination::Biased);
         assert_eq!(biased.most_shadow_rays(), 2);
     }
 }

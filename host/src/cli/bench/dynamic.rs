@@ -4,7 +4,7 @@ mod report;
 mod world;
 
 use std::hint::black_box;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use lightbvh::bvh::RebuildParams;
 use lightbvh::{BuildParams, Edit, Instance, LightBvh};
@@ -15,6 +15,7 @@ use self::report::{Report, Row, Spread};
 use self::world::{Change, World};
 use crate::backend::{DeviceBackend, Follow};
 use crate::cli::devices::Opened;
+use crate::cli::times::timed;
 use crate::error::HostError;
 
 /// Frames that count, and those before them that do not.
@@ -53,7 +54,8 @@ pub(super) fn report(instances: u32, mesh_triangles: u32, opened: &[Opened]) -> 
         .into_iter()
         .chain([(Change::Shine, shares[0])])
     {
-        eprintln!("{} {changed} of {instances}", change.name());
+        let name: &str = change.into();
+        eprintln!("{name} {changed} of {instances}");
         rows.push(one.install(|| cpu(&mut world, change, changed, 1, &scale)));
     }
     // The same number in a smaller scene.
@@ -190,7 +192,7 @@ fn row(
     scale: &Scale,
 ) -> Row {
     Row {
-        change: change.name(),
+        change: change.into(),
         instances: world.instance_count(),
         triangles: world.scene.light_count() as u64,
         changed,
@@ -242,10 +244,4 @@ fn copy(world: &mut World) -> (Spread, usize) {
     });
     let bytes = size_of_val(&*nodes) + size_of_val(&*instances);
     (Spread::of(times.collect()), bytes)
-}
-
-fn timed(work: impl FnOnce()) -> Duration {
-    let start = Instant::now();
-    work();
-    start.elapsed()
 }

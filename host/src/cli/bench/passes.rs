@@ -1,13 +1,14 @@
 //! The passes, timed: through a backend, and by the library alone.
 
 use std::hint::black_box;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use lightbvh::{Lights, Random64, SampledLight, ShadingPoint};
 use lightbvh_kernels::query::Query;
 use rayon::prelude::*;
 
 use crate::backend::{Backend, Bvh};
+use crate::cli::times::timed;
 use crate::error::HostError;
 
 /// Samples of a batch that one thread takes.
@@ -98,17 +99,5 @@ fn number(query: &Query) -> Random64 {
 }
 
 pub(super) fn measure(mut work: impl FnMut()) -> Vec<Duration> {
-    (0..RUNS)
-        .map(|_| {
-            let start = Instant::now();
-            work();
-            start.elapsed()
-        })
-        .collect()
-}
-
-pub(super) fn median(times: &[Duration]) -> Duration {
-    let mut sorted = times.to_vec();
-    sorted.sort_unstable();
-    sorted.get(sorted.len() / 2).copied().unwrap_or_default()
+    (0..RUNS).map(|_| timed(&mut work)).collect()
 }

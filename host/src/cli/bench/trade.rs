@@ -13,6 +13,7 @@ use lightbvh::{
 use serde::Serialize;
 
 use crate::cli::table;
+use crate::vector::{dot, normal, sub};
 use crate::workload::instance_of;
 
 /// Lamps of the scene, triangles of each, and points where the variance is taken.
@@ -20,7 +21,7 @@ const LAMPS: u32 = 64;
 const PER_LAMP: u32 = 24;
 const POINTS: u32 = 200;
 
-/// One way to sample.
+/// Samples by one structure, layout and importance.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Row {
     layout: &'static str,
@@ -129,16 +130,9 @@ impl By<'_> {
 
 /// Light from a triangle taken as a point at its centroid, up to a constant.
 fn diffuse(triangle: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
-    let vertex = |k: usize| triangle.p[k].map(f64::from);
-    let sub = |a: [f64; 3], b: [f64; 3]| -> [f64; 3] { std::array::from_fn(|k| a[k] - b[k]) };
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let (e1, e2) = (sub(vertex(1), vertex(0)), sub(vertex(2), vertex(0)));
-    let normal = [
-        e1[1] * e2[2] - e1[2] * e2[1],
-        e1[2] * e2[0] - e1[0] * e2[2],
-        e1[0] * e2[1] - e1[1] * e2[0],
-    ];
-    let centroid: [f64; 3] = std::array::from_fn(|k| (vertex(0)[k] + vertex(1)[k] + vertex(2)[k]) / 3.0);
+    let normal = normal(triangle.p);
+    let [a, b, c] = triangle.p.map(|vertex| vertex.map(f64::from));
+    let centroid: [f64; 3] = std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0);
     let to_light = sub(centroid, point.p.map(f64::from));
     let d_squared = dot(to_light, to_light);
     let received = dot(point.n.map(f64::from), to_light).max(0.0);
@@ -214,28 +208,16 @@ pub(super) fn print(rows: &[Row]) -> io::Result<()> {
         return Ok(());
     }
     println!();
-    let header = [
-        "layout",
-        "width",
-        "importance",
-        "structure",
-        "bytes/light",
-        "sample ns",
-        "relative variance",
-    ];
-    let cells: Vec<Vec<String>> = rows
-        .iter()
-        .map(|r| {
-            vec![
-                r.layout.to_owned(),
-                r.width.to_string(),
-                r.importance.to_owned(),
-                r.structure.to_owned(),
-                format!("{:.1}", r.bytes_per_light),
-                format!("{:.0}", r.sample_ns),
-                format!("{:.3}", r.relative_variance),
-            ]
-        })
-        .collect();
-    table::print(&header, &cells)
+    table::print(
+        rows,
+        &[
+            ("layout", |r| r.layout.to_owned()),
+            ("width", |r| r.width.to_string()),
+            ("importance", |r| r.importance.to_owned()),
+            ("structure", |r| r.structure.to_owned()),
+            ("bytes/light", |r| format!("{:.1}", r.bytes_per_light)),
+            ("sample ns", |r| format!("{:.0}", r.sample_ns)),
+            ("relative variance", |r| format!("{:.3}", r.relative_variance)),
+        ],
+    )
 }

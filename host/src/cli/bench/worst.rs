@@ -70,7 +70,7 @@ pub(super) fn run(context: &Context) -> Result<Outcome, HostError> {
             if bounded { "at most" } else { "ABOVE" }
         );
     }
-    Ok(if bounded { Outcome::Good } else { Outcome::Bad })
+    Ok(Outcome::good_if(bounded))
 }
 
 fn measure<C: Choice<W>, const W: usize>(scene: &Scene) -> Vec<Case> {
@@ -129,34 +129,19 @@ fn ask<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 }
 
 fn print(cases: &[Case]) -> Result<(), HostError> {
-    let header = [
-        "scene",
-        "importance",
-        "what",
-        "lights",
-        "depth",
-        "unit",
-        "median",
-        "99 %",
-        "99.9 %",
-        "most",
-    ];
-    let cells: Vec<Vec<String>> = cases
-        .iter()
-        .map(|case| {
-            vec![
-                case.scene.to_owned(),
-                case.importance.to_owned(),
-                case.what.to_owned(),
-                case.lights.to_string(),
-                case.depth.to_string(),
-                case.unit.to_owned(),
-                format!("{:.0}", case.median),
-                format!("{:.0}", case.p99),
-                format!("{:.0}", case.p999),
-                format!("{:.0}", case.most),
-            ]
-        })
-        .collect();
-    Ok(table::print(&header, &cells)?)
+    Ok(table::print(
+        cases,
+        &[
+            ("scene", |c| c.scene.to_owned()),
+            ("importance", |c| c.importance.to_owned()),
+            ("what", |c| c.what.to_owned()),
+            ("lights", |c| c.lights.to_string()),
+            ("depth", |c| c.depth.to_string()),
+            ("unit", |c| c.unit.to_owned()),
+            ("median", |c| format!("{:.0}", c.median)),
+            ("99 %", |c| format!("{:.0}", c.p99)),
+            ("99.9 %", |c| format!("{:.0}", c.p999)),
+            ("most", |c| format!("{:.0}", c.most)),
+        ],
+    )?)
 }

@@ -8,9 +8,9 @@ use serde::Serialize;
 use super::graphs::shown;
 use super::plan::Plan;
 use crate::error::HostError;
-use crate::figure::{Canvas, text_size};
 use crate::method::Method;
 use crate::metrics::{Judge, Judged, Quality, Region, mean_squared_error};
+use crate::plot::{Canvas, text_size};
 use crate::render::Film;
 
 /// Regions shown.

@@ -5,8 +5,8 @@ use std::path::Path;
 use super::plan::Plan;
 use super::summary::{Errors, Row};
 use crate::error::HostError;
-use crate::figure::{Chart, Point, Series};
 use crate::method::Method;
+use crate::plot::{Chart, Point, Series};
 
 /// A mean and half its confidence interval.
 type Measure = fn(&Errors) -> (f64, Option<f64>);

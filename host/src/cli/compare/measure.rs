@@ -4,19 +4,18 @@ use std::collections::BTreeMap;
 use std::time::Duration;
 
 use bytemuck::cast_slice;
-use indicatif::ProgressBar;
 use serde::{Deserialize, Serialize};
 
 use super::frames::Frames;
-use super::plan::{BLOCK, Plan};
-use super::reference::Reference;
-use super::store::{Store, fingerprint};
-use super::wanted::Wanted;
+use super::job::{Job, Wanted};
+use super::plan::BLOCK;
+use super::store::fingerprint;
+use crate::cli::times::ms;
 use crate::error::HostError;
-use crate::method::{Chain, Method, Runner, Target, UpdateTimes, runner};
+use crate::method::{Method, Runner, SequenceId, UpdateTimes, runner};
 use crate::metrics::Quality;
 use crate::render::Film;
-use crate::workload::Shot;
+use crate::workload::RenderSettings;
 
 /// Seed of images that are rendered for their time.
 const TIMING_SEED: u32 = (1 << 31) - 1;
@@ -63,20 +62,6 @@ impl Results {
         };
         self.images.iter().filter(differs).count() as u64
     }
-}
-
-/// One scene on one backend.
-pub(super) struct Job<'a, 'd> {
-    pub plan: &'a Plan,
-    pub store: &'a Store,
-    pub references: &'a [Reference],
-    pub target: Target<'d>,
-    /// Images per frame, and blocks that are timed.
-    pub seeds: u32,
-    pub blocks: Vec<u32>,
-    /// What this program is, for keys.
-    pub program: &'a str,
-    pub progress: &'a ProgressBar,
 }
 
 /// A method at work, and what is still wanted of it.
@@ -129,7 +114,7 @@ impl<'d> Job<'_, 'd> {
                         results.times.entry(method).or_default().extend(times);
                         results.reused += 1;
                         self.progress
-                            .inc(u64::from(BLOCK) * super::work(self.plan, self.plan.samples));
+                            .inc(u64::from(BLOCK) * self.plan.work(self.plan.samples));
                     }
                     None => lane.blocks.push(wanted),
                 }
@@ -184,8 +169,9 @@ impl<'d> Job<'_, 'd> {
             ));
             let arrays = frames.arrays(frame);
             if timed.is_some() {
-                let image = runner.image(&step, arrays, &self.shot(frame, TIMING_SEED), Chain::MAX)?;
-                self.progress.inc(super::work(self.plan, self.plan.samples));
+                let image =
+                    runner.image(&step, arrays, &self.settings(frame, TIMING_SEED), SequenceId::MAX)?;
+                self.progress.inc(self.plan.work(self.plan.samples));
                 // The first frame of a block follows other methods' work, see `BLOCK`.
                 if frame > block * BLOCK {
                     times.push(FrameTimes::new(frame, &update, image.time));
@@ -193,20 +179,19 @@ impl<'d> Job<'_, 'd> {
             }
             for wanted in images {
                 let chain = u64::from(wanted.at) << 32 | u64::from(wanted.seed);
-                let image = runner.image(&step, arrays, &self.shot(frame, wanted.seed), chain)?;
-                self.progress.inc(super::work(self.plan, self.plan.samples));
+                let image = runner.image(&step, arrays, &self.settings(frame, wanted.seed), chain)?;
+                self.progress.inc(self.plan.work(self.plan.samples));
                 if frame == wanted.at {
                     runner.end(chain);
                     self.keep(wanted, lane.method, image.value, results)?;
                 } else {
-                    self.progress
-                        .inc_length(super::work(self.plan, self.plan.samples));
+                    self.progress.inc_length(self.plan.work(self.plan.samples));
                 }
             }
         }
         if let Some(wanted) = timed {
             if let Some(runner) = &mut lane.runner {
-                runner.end(Chain::MAX);
+                runner.end(SequenceId::MAX);
             }
             self.store.save(&wanted.name, &wanted.key, &times)?;
             results.times.entry(lane.method).or_default().extend(times);
@@ -253,7 +238,7 @@ impl<'d> Job<'_, 'd> {
         }
         results.images.insert((method, wanted.at, wanted.seed), measured);
         results.reused += 1;
-        self.progress.inc(super::work(self.plan, self.plan.samples));
+        self.progress.inc(self.plan.work(self.plan.samples));
         true
     }
 
@@ -262,8 +247,8 @@ impl<'d> Job<'_, 'd> {
         wanted.at == self.plan.last() && wanted.seed == 0
     }
 
-    fn shot(&self, frame: u32, seed: u32) -> Shot {
-        Shot {
+    fn settings(&self, frame: u32, seed: u32) -> RenderSettings {
+        RenderSettings {
             frame,
             width: self.plan.width,
             height: self.plan.height,
@@ -275,13 +260,12 @@ impl<'d> Job<'_, 'd> {
 
 impl FrameTimes {
     fn new(frame: u32, update: &UpdateTimes, image: Duration) -> Self {
-        let milliseconds = |time: Duration| time.as_secs_f64() * 1e3;
         Self {
             frame,
-            refit_ms: milliseconds(update.refit),
-            rebuild_ms: milliseconds(update.rebuild),
-            wait_ms: milliseconds(update.wait),
-            image_ms: milliseconds(image),
+            refit_ms: ms(update.refit),
+            rebuild_ms: ms(update.rebuild),
+            wait_ms: ms(update.wait),
+            image_ms: ms(image),
         }
     }
 

@@ -4,21 +4,20 @@
 mod crops;
 mod frames;
 mod graphs;
+mod job;
 mod measure;
 mod plan;
 mod reference;
 mod report;
 mod store;
 mod summary;
-mod wanted;
 
 use std::path::Path;
 
-use indicatif::{ProgressBar, ProgressStyle};
-use serde::Serialize;
+use indicatif::ProgressBar;
 use serde_json::{Value, json};
 
-use super::{Context, Outcome, devices, table};
+use super::{Context, Outcome, devices, progress, table};
 use crate::error::HostError;
 use crate::method::Target;
 use crate::render::write_whole;
@@ -26,38 +25,14 @@ use crate::scene::Scene;
 use crate::vulkan::VulkanError;
 
 use frames::Frames;
-use measure::{Job, Results};
+use job::Job;
+use measure::Results;
 pub(super) use plan::Args;
 use plan::{BLOCK, Backends, Plan};
-use reference::{Noise, references};
-use store::{Store, fingerprint};
-use summary::{Average, Row, summarize};
-
-/// Everything that came out.
-#[derive(Serialize)]
-struct Report {
-    settings: Value,
-    notes: &'static [&'static str],
-    scenes: Vec<SceneReport>,
-    rows: Vec<Row>,
-    averages: Vec<Average>,
-    crops: Vec<crops::Crop>,
-    /// Results that this run computed, and those that it found in the folder.
-    computed: u64,
-    reused: u64,
-    /// Images of devices with other words than the CPU's.
-    different: u64,
-}
-
-/// What belongs to a scene as a whole.
-#[derive(Serialize)]
-struct SceneReport {
-    scene: String,
-    exposure: f32,
-    references: Vec<Noise>,
-    /// File names in the folder.
-    figures: Vec<String>,
-}
+use reference::references;
+use report::{Report, SceneReport};
+use store::{Store, fingerprint, stem};
+use summary::summarize;
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     let plan = args.plan()?;
@@ -86,7 +61,11 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         plan: &plan,
         store,
         program: program(),
-        progress: progress(),
+        progress: progress::bar(
+            0,
+            "{bar:30} {percent:>3} % {elapsed} passed, {eta} left  {wide_msg}",
+            false,
+        ),
         report: Report {
             settings: settings(&plan),
             notes: &report::NOTES,
@@ -127,11 +106,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     } else {
         table::print_text(&text)?;
     }
-    Ok(if report.different == 0 {
-        Outcome::Good
-    } else {
-        Outcome::Bad
-    })
+    Ok(Outcome::good_if(report.different == 0))
 }
 
 struct Run<'p> {
@@ -202,20 +177,15 @@ impl Run<'_> {
     }
 }
 
-/// Shadow rays in thousands, what the progress bar counts, of an image with `samples` per pixel.
-fn work(plan: &Plan, samples: u32) -> u64 {
-    (u64::from(plan.width) * u64::from(plan.height) * u64::from(samples)).div_ceil(1000)
-}
-
 /// The work of a scene: its references, and every method's images on every backend.
 fn all_work(plan: &Plan, targets: &[Target<'_>]) -> u64 {
-    let references = work(plan, plan.reference_samples) * plan.frames.len() as u64;
+    let references = plan.work(plan.reference_samples) * plan.frames.len() as u64;
     let images = |target: &Target<'_>| {
         let timed = blocks(plan, target).len() as u64 * u64::from(BLOCK);
         plan.frames.len() as u64 * u64::from(seeds(plan, target)) + timed
     };
     let images: u64 = targets.iter().map(images).sum();
-    references + work(plan, plan.samples) * images * plan.methods.len() as u64
+    references + plan.work(plan.samples) * images * plan.methods.len() as u64
 }
 
 /// Images of each frame: devices show that they render the same, and how fast.
@@ -234,13 +204,6 @@ fn blocks(plan: &Plan, target: &Target<'_>) -> Vec<u32> {
     })
 }
 
-fn progress() -> ProgressBar {
-    let style =
-        ProgressStyle::with_template("{bar:30} {percent:>3} % {elapsed} passed, {eta} left  {wide_msg}");
-    // Without a terminal on standard error nothing is drawn.
-    ProgressBar::new(0).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
-}
-
 /// Tells this program from others, whose results may differ: its own file's bytes.
 fn program() -> String {
     let own = std::env::current_exe().and_then(std::fs::read);
@@ -254,17 +217,4 @@ fn settings(plan: &Plan) -> Value {
         "width": plan.width, "height": plan.height, "reference_samples": plan.reference_samples,
         "timed_frames": plan.timed_frames, "timed_on_devices": plan.timed_on_devices, "methods": plan.methods, "cpu_threads": rayon::current_num_threads(),
     })
-}
-
-/// A name for files: that of a scene or of a scene's file, with nothing in it that a file system minds.
-fn stem(name: &str) -> String {
-    let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
-    let plain = |c: char| {
-        if c.is_ascii_alphanumeric() {
-            c.to_ascii_lowercase()
-        } else {
-            '-'
-        }
-    };
-    stem.chars().map(plain).take(40).collect()
 }

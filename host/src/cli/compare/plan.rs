@@ -158,6 +158,11 @@ impl Plan {
         (self.width, self.height)
     }
 
+    /// Shadow rays in thousands, what the progress bar counts, of an image with `samples` per pixel.
+    pub fn work(&self, samples: u32) -> u64 {
+        (u64::from(self.width) * u64::from(self.height) * u64::from(samples)).div_ceil(1000)
+    }
+
     /// The blocks that have so many timed frames between them, as far as there are as many, spread evenly.
     pub fn timed_blocks(&self, timed_frames: u32) -> Vec<u32> {
         // A last block of one frame, which follows no other of its block, does not count.

@@ -8,12 +8,12 @@ use serde_json::{Value, json};
 
 use super::frames::Frames;
 use super::plan::Plan;
-use super::store::{Store, fingerprint};
-use crate::backend::{Backend, Bvh, CpuBackend, Sampler};
+use super::store::{Store, fingerprint, stem};
+use crate::backend::{Backend, Bvh, CpuBackend, Integrator, Sampler};
 use crate::error::HostError;
 use crate::metrics::{Judge, mean_squared_error};
 use crate::render::Film;
-use crate::workload::{Shot, build};
+use crate::workload::{RenderSettings, build};
 
 /// Samples of one pass.
 const PASS: u32 = 64;
@@ -80,10 +80,7 @@ fn entry(frames: &mut Frames<'_>, plan: &Plan, frame: u32, half: u32) -> (String
         "frame": frame, "width": plan.width, "height": plan.height, "samples": plan.reference_samples / 2,
         "half": half,
     });
-    (
-        format!("{}/reference-f{frame:03}-half{half}", super::stem(scene)),
-        key,
-    )
+    (format!("{}/reference-f{frame:03}-half{half}", stem(scene)), key)
 }
 
 fn half(
@@ -96,7 +93,7 @@ fn half(
 ) -> Result<Film, HostError> {
     let (name, key) = entry(frames, plan, frame, half);
     if let Some(film) = store.load_image(&name, &key, plan.size()) {
-        progress.inc(super::work(plan, plan.reference_samples / 2));
+        progress.inc(plan.work(plan.reference_samples / 2));
         return Ok(film);
     }
     progress.set_message(format!("{} frame {frame}: reference", frames.scene().name()));
@@ -108,19 +105,21 @@ fn half(
     let mut sum = vec![[0.0_f64; 3]; plan.width as usize * plan.height as usize];
     for (pass, first) in (0..).zip((0..all).step_by(PASS as usize)) {
         let samples = PASS.min(all - first);
-        let shot = Shot {
+        let settings = RenderSettings {
             frame,
             width: plan.width,
             height: plan.height,
             samples,
             seed: FIRST_SEED + (half << 24) + pass,
         };
-        let params = shot.params(frames.scene().data().background);
-        let image = cpu.render(arrays, &params, Sampler::TwoLevel)?.value;
+        let params = settings.params(frames.scene().data().background);
+        let image = cpu
+            .render(arrays, &params, Sampler::TwoLevel, Integrator::Direct)?
+            .value;
         for (sum, pixel) in sum.iter_mut().flatten().zip(image.iter().flatten()) {
             *sum += f64::from(*pixel) * f64::from(samples);
         }
-        progress.inc(super::work(plan, samples));
+        progress.inc(plan.work(samples));
     }
     let pixels = sum.iter().map(|pixel| pixel.map(|c| (c / f64::from(all)) as f32));
     let film = Film::new(plan.width, plan.height, pixels.collect())?;

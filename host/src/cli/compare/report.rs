@@ -1,11 +1,41 @@
-//! The tables, as Markdown: the same text on standard output and in the folder.
+//! Everything that came out, and its tables as Markdown: the same text on standard output and in the folder.
 
 use std::fmt::Write;
 
+use serde::Serialize;
+use serde_json::Value;
+
+use super::crops::Crop;
 use super::graphs::shown;
 use super::plan::Plan;
+use super::reference::Noise;
 use super::summary::{Average, Errors, Row};
-use super::{Report, SceneReport};
+
+/// Everything that came out.
+#[derive(Serialize)]
+pub(super) struct Report {
+    pub settings: Value,
+    pub notes: &'static [&'static str],
+    pub scenes: Vec<SceneReport>,
+    pub rows: Vec<Row>,
+    pub averages: Vec<Average>,
+    pub crops: Vec<Crop>,
+    /// Results that this run computed, and those that it found in the folder.
+    pub computed: u64,
+    pub reused: u64,
+    /// Images of devices with other words than the CPU's.
+    pub different: u64,
+}
+
+/// What belongs to a scene as a whole.
+#[derive(Serialize)]
+pub(super) struct SceneReport {
+    pub scene: String,
+    pub exposure: f32,
+    pub references: Vec<Noise>,
+    /// File names in the folder.
+    pub figures: Vec<String>,
+}
 
 /// What the tables say that numbers cannot.
 pub(super) const NOTES: [&str; 8] = [

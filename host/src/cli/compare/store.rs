@@ -36,6 +36,19 @@ pub(super) fn fingerprint(bytes: &[u8]) -> String {
     format!("{:016x}", step(state, bytes.len() as u64))
 }
 
+/// A name for files: that of a scene or of a scene's file, with nothing in it that a file system minds.
+pub(super) fn stem(name: &str) -> String {
+    let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
+    let plain = |c: char| {
+        if c.is_ascii_alphanumeric() {
+            c.to_ascii_lowercase()
+        } else {
+            '-'
+        }
+    };
+    stem.chars().map(plain).take(40).collect()
+}
+
 impl Store {
     /// Opens a folder, which is made where it is not there.
     pub fn open(folder: &Path) -> Result<Self, HostError> {

@@ -3,31 +3,18 @@
 use lightbvh::exact::hash;
 
 /// Where the numbers of a point come from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::IntoStaticStr, strum::VariantArray)]
+#[strum(serialize_all = "lowercase")]
 pub(super) enum Sequence {
     Independent,
     Stratified,
+    #[strum(serialize = "golden ratio")]
     GoldenRatio,
+    #[strum(serialize = "Sobol, scrambled")]
     Sobol,
 }
 
 impl Sequence {
-    pub const ALL: [Self; 4] = [
-        Self::Independent,
-        Self::Stratified,
-        Self::GoldenRatio,
-        Self::Sobol,
-    ];
-
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Independent => "independent",
-            Self::Stratified => "stratified",
-            Self::GoldenRatio => "golden ratio",
-            Self::Sobol => "Sobol, scrambled",
-        }
-    }
-
     /// Number `k` of `count`, as a fraction of 2^32; `seed` tells sequences of one kind apart.
     pub fn number(self, k: u32, count: u32, seed: u32) -> u32 {
         match self {

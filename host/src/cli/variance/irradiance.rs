@@ -2,23 +2,9 @@
 
 use lightbvh::{EmissiveTriangle, ShadingPoint};
 
+use crate::vector::{cross, dot, sub};
+
 type V = [f64; 3];
-
-fn sub(a: V, b: V) -> V {
-    std::array::from_fn(|k| a[k] - b[k])
-}
-
-fn dot(a: V, b: V) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: V, b: V) -> V {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
 
 /// Irradiance at a point with a normal, up to a factor common to all lights: Lambert's formula over the part of the triangle
 /// above the horizon, times luminance (J. H. Lambert, Photometria, 1760; Arvo, "Analytic methods for simulated light

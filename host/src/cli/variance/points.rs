@@ -6,6 +6,7 @@ use lightbvh::{Lights, ShadingPoint};
 use crate::cli::bench::scene::{random_lights, random_queries};
 use crate::error::HostError;
 use crate::scene::Scene;
+use crate::vector::{self, dot};
 use crate::workload::lights_at;
 
 /// The lights of a scene, and points on the front sides of its surfaces, spread evenly over their area; in the scene `random`
@@ -51,13 +52,7 @@ pub(super) fn of(
 
 /// Area and unit normal; `None` without area.
 fn normal(p: &[[f32; 3]; 3]) -> Option<(f64, [f32; 3])> {
-    let edge = |k: usize| -> [f64; 3] { std::array::from_fn(|i| f64::from(p[k][i]) - f64::from(p[0][i])) };
-    let (a, b) = (edge(1), edge(2));
-    let m = [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ];
-    let length = m.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let m = vector::normal(*p);
+    let length = dot(m, m).sqrt();
     (length > 0.0).then(|| (0.5 * length, m.map(|x| (x / length) as f32)))
 }

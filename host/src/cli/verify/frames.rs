@@ -4,24 +4,22 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use bytemuck::cast_slice;
 use indicatif::ProgressBar;
 use lightbvh::exact::hash;
 use lightbvh_kernels::query::Query;
 
-use super::queries::compare_queries;
-use super::tally::{Kind, Tally};
-use crate::backend::{Backend, PIXEL_RECORD, RESERVOIR_RECORD, SURFACE_RECORD, SceneArrays};
-use crate::cli::render::ImportanceName;
+use super::side::Side;
+use super::tally::{Kind, Tallies};
+use crate::backend::{Sampler, SceneArrays};
 use crate::error::HostError;
-use crate::method::{Chain, Method, Runner, Step, Target, runner};
+use crate::method::{Importance, Method, Recipe, Runner, SequenceId, Step, Target};
 use crate::scene::Scene;
-use crate::workload::{Shot, arrays_at, queries};
+use crate::workload::{RenderSettings, arrays_at, queries};
 
 /// Images are small: an animation has thousands of them, and SwiftShader takes a millisecond for a pixel of some.
 const SIZE: (u32, u32) = (16, 9);
 /// All images of a method are of one animation.
-const CHAIN: Chain = 0;
+const SEQUENCE: SequenceId = 0;
 
 /// What is compared in each frame.
 pub(super) struct Plan {
@@ -30,12 +28,12 @@ pub(super) struct Plan {
     pub queries: u32,
     pub seed: u32,
     /// Only methods by these, and those without a light BVH.
-    pub importances: &'static [ImportanceName],
+    pub importances: &'static [Importance],
 }
 
 /// A method on the CPU and on each device.
 struct Lane<'d> {
-    method: Method,
+    recipe: Recipe,
     cpu: Box<dyn Runner + 'd>,
     devices: Vec<Box<dyn Runner + 'd>>,
 }
@@ -45,8 +43,7 @@ pub(super) fn compare(
     scene: &Scene,
     plan: &Plan,
     targets: &[Target<'_>],
-    tallies: &mut [Tally],
-    cpu_tally: &mut Tally,
+    tallies: &mut Tallies,
     progress: &ProgressBar,
 ) -> Result<(), HostError> {
     let mut lanes = Vec::new();
@@ -66,8 +63,8 @@ pub(super) fn compare(
             }
         }
         for lane in &mut lanes {
-            progress.set_message(format!("{} frame {frame}: {}", scene.name(), lane.method.name()));
-            lane.compare(&step, &arrays, &asked, plan.seed, tallies, cpu_tally)?;
+            progress.set_message(format!("{} frame {frame}: {}", scene.name(), lane.recipe.name));
+            lane.compare(&step, &arrays, &asked, plan.seed, tallies)?;
         }
         progress.inc(1);
     }
@@ -82,26 +79,18 @@ fn start<'d>(
     targets: &[Target<'d>],
 ) -> Result<Vec<Lane<'d>>, HostError> {
     let mut lanes = Vec::new();
-    let wanted = |name: &str| {
-        plan.importances
-            .iter()
-            .any(|importance| importance.name() == name)
-    };
-    for method in Method::ALL {
-        if !method.importance().is_none_or(wanted) {
-            continue;
+    for recipe in Method::ALL.iter().map(|method| method.recipe()) {
+        let wanted = !recipe.lights.needs_bvh() || plan.importances.contains(&recipe.importance);
+        if wanted && (recipe.lights != Sampler::Power || !arrays.thresholds.is_empty()) {
+            lanes.push(Lane {
+                recipe,
+                cpu: recipe.runner(step, Target::Cpu)?,
+                devices: targets
+                    .iter()
+                    .map(|&target| recipe.runner(step, target))
+                    .collect::<Result<_, _>>()?,
+            });
         }
-        if matches!(method, Method::Power | Method::Restir) && arrays.thresholds.is_empty() {
-            continue;
-        }
-        lanes.push(Lane {
-            method,
-            cpu: runner(method, step, Target::Cpu)?,
-            devices: targets
-                .iter()
-                .map(|&target| runner(method, step, target))
-                .collect::<Result<_, _>>()?,
-        });
     }
     Ok(lanes)
 }
@@ -122,80 +111,52 @@ impl Lane<'_> {
         arrays: &Arc<SceneArrays>,
         asked: &[Query],
         seed: u32,
-        tallies: &mut [Tally],
-        cpu_tally: &mut Tally,
+        tallies: &mut Tallies,
     ) -> Result<(), HostError> {
-        let method = self.method;
+        let recipe = self.recipe;
         let what = |kernel: &str| {
-            format!(
-                "{} {} frame {} {kernel}",
-                step.scene.name(),
-                method.name(),
-                step.frame
-            )
+            let (scene, frame) = (step.scene.name(), step.frame);
+            format!("{scene} {} frame {frame} {kernel}", recipe.name)
         };
-        if method.is_light_bvh()
+        if recipe.is_light_bvh()
             && let Some(cpu) = self.cpu.backend()
         {
-            let mut devices: Vec<&mut dyn Backend> = self
-                .devices
-                .iter_mut()
-                .filter_map(|device| device.backend())
-                .collect();
+            let record = cpu.node_record();
+            let devices = self.devices.iter_mut().filter_map(|device| device.backend());
+            let mut side = Side {
+                cpu,
+                devices: devices.collect(),
+            };
             // A tree that was built anew came to the device complete; there it is refitted, so that its words are the
             // device's own.
-            let refits = method.is_rebuilt();
-            let nodes = |backend: &mut dyn Backend| match refits {
-                true => backend.refit(step.lights).map(|refitted| refitted.value),
-                false => backend.nodes(),
-            };
-            let (expected, record) = (nodes(cpu)?, cpu.node_record());
-            for (device, tally) in devices.iter_mut().zip(tallies.iter_mut()) {
-                let found = nodes(&mut **device)?;
-                tally.take(Kind::Nodes, &what("refit"), &record, &expected, &found)?;
-            }
-            let lights = (arrays.lights.triangles(), method.is_single_level());
-            compare_queries(
-                &what,
-                cpu,
-                &mut devices,
-                asked.to_vec(),
-                lights,
+            side.compare(
                 tallies,
-                cpu_tally,
+                Kind::Nodes,
+                &what("refit"),
+                &record,
+                |backend| match recipe.rebuilt {
+                    true => Ok(backend.refit(step.lights)?.value),
+                    false => backend.nodes(),
+                },
             )?;
+            let lights = (arrays.lights.triangles(), recipe.lights == Sampler::SingleLevel);
+            side.compare_queries(tallies, &what, asked.to_vec(), lights)?;
         }
 
-        let shot = Shot {
+        let settings = RenderSettings {
             frame: step.frame,
             width: SIZE.0,
             height: SIZE.1,
             samples: 1,
             seed: seed.wrapping_add(step.frame),
         };
-        let expected = self.cpu.image(step, arrays, &shot, CHAIN)?.value;
-        let histories = self.cpu.histories(CHAIN)?;
-        for (device, tally) in self.devices.iter_mut().zip(tallies) {
-            let found = device.image(step, arrays, &shot, CHAIN)?.value;
-            let (expected, found) = (cast_slice(&expected), cast_slice(&found));
-            tally.take(Kind::Pixels, &what("render"), &PIXEL_RECORD, expected, found)?;
-            for (cpu, device) in histories.iter().zip(&device.histories(CHAIN)?) {
-                let (expected, found) = (cast_slice(&cpu.0), cast_slice(&device.0));
-                tally.take(
-                    Kind::Surfaces,
-                    &what("restir_initial"),
-                    &SURFACE_RECORD,
-                    expected,
-                    found,
-                )?;
-                let (expected, found) = (cast_slice(&cpu.1), cast_slice(&device.1));
-                tally.take(
-                    Kind::Reservoirs,
-                    &what("restir"),
-                    &RESERVOIR_RECORD,
-                    expected,
-                    found,
-                )?;
+        let expected = self.cpu.image(step, arrays, &settings, SEQUENCE)?.value;
+        let histories = self.cpu.histories(SEQUENCE)?;
+        for (device, tally) in self.devices.iter_mut().zip(&mut tallies.devices) {
+            let found = device.image(step, arrays, &settings, SEQUENCE)?.value;
+            tally.take_pixels(&what("render"), &expected, &found)?;
+            for (cpu, device) in histories.iter().zip(&device.histories(SEQUENCE)?) {
+                tally.take_history([&what("restir_initial"), &what("restir")], cpu, device)?;
             }
         }
         Ok(())

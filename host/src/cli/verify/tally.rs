@@ -2,15 +2,18 @@
 
 use std::collections::BTreeMap;
 
+use bytemuck::cast_slice;
 use serde::Serialize;
 
-use crate::compare::{Record, compare_words};
+use crate::backend::{History, PIXEL_RECORD, RESERVOIR_RECORD, SURFACE_RECORD};
 use crate::error::HostError;
+use crate::words::{Record, compare_words};
 
 /// What words are of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::IntoStaticStr, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(super) enum Kind {
+#[strum(serialize_all = "kebab-case")]
+pub(in crate::cli) enum Kind {
     Nodes,
     Samples,
     Pmfs,
@@ -22,27 +25,20 @@ pub(super) enum Kind {
 impl Kind {
     /// As in reports.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Nodes => "nodes",
-            Self::Samples => "samples",
-            Self::Pmfs => "pmfs",
-            Self::Pixels => "pixels",
-            Self::Surfaces => "surfaces",
-            Self::Reservoirs => "reservoirs",
-        }
+        self.into()
     }
 }
 
 /// Words of one kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub(super) struct Words {
+pub(in crate::cli) struct Words {
     pub compared: u64,
     pub different: u64,
 }
 
 /// What was compared with one device. Nodes, samples, pmfs and pixels are counted as such, the others in words.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
-pub(super) struct Tally {
+pub(in crate::cli) struct Tally {
     pub compared: u64,
     pub different: u64,
     pub nodes: u64,
@@ -53,6 +49,13 @@ pub(super) struct Tally {
     pub words: BTreeMap<Kind, Words>,
     /// Scene, method, frame and kernel, then record, index, field and both words.
     pub first_difference: Option<String>,
+}
+
+/// What was compared with each device, and of the CPU's words those that it computes twice.
+#[derive(Default)]
+pub(super) struct Tallies {
+    pub devices: Vec<Tally>,
+    pub cpu: Tally,
 }
 
 impl Tally {
@@ -83,5 +86,29 @@ impl Tally {
             self.first_difference = Some(format!("{what}: {first}"));
         }
         Ok(())
+    }
+
+    /// Compares images.
+    pub fn take_pixels(
+        &mut self,
+        what: &str,
+        cpu: &[[f32; 3]],
+        device: &[[f32; 3]],
+    ) -> Result<(), HostError> {
+        let (cpu, device) = (cast_slice(cpu), cast_slice(device));
+        self.take(Kind::Pixels, what, &PIXEL_RECORD, cpu, device)
+    }
+
+    /// Compares what ReSTIR keeps of a frame: its G-buffer, then its reservoirs.
+    pub fn take_history(
+        &mut self,
+        what: [&str; 2],
+        cpu: &History,
+        device: &History,
+    ) -> Result<(), HostError> {
+        let (surfaces, found) = (cast_slice(&cpu.0), cast_slice(&device.0));
+        self.take(Kind::Surfaces, what[0], &SURFACE_RECORD, surfaces, found)?;
+        let (reservoirs, found) = (cast_slice(&cpu.1), cast_slice(&device.1));
+        self.take(Kind::Reservoirs, what[1], &RESERVOIR_RECORD, reservoirs, found)
     }
 }

@@ -1,14 +1,14 @@
 //! The fairground: paving, booths with lit fronts, masts with strings of bulbs.
 
 use super::super::builder::SceneBuilder;
-use super::super::dice::Dice;
+use super::super::random::Random;
 use super::super::shapes::{Shape, on_circle};
 use super::{Palette, bulb_line};
 
 /// Distance of the booths from the middle, metres.
 const BOOTHS: f64 = 30.0;
 
-pub(super) fn add(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
+pub(super) fn add(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
     let colors = [[0.22, 0.20, 0.19], [0.26, 0.24, 0.22], [0.18, 0.17, 0.17]];
     let slabs = colors.map(|color| b.matte("paving", color, 0.5));
     let mut paving: [Shape; 3] = std::array::from_fn(|_| Shape::new());
@@ -16,25 +16,25 @@ pub(super) fn add(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
     for x in -half..half {
         for z in -half..half {
             let (x, z) = (2.0 * f64::from(x), 2.0 * f64::from(z));
-            let low = -0.02 * dice.unit();
+            let low = -0.02 * random.unit();
             let corners = [
                 [x, low, z + 2.0],
                 [x + 2.0, low, z + 2.0],
                 [x + 2.0, low, z],
                 [x, low, z],
             ];
-            paving[dice.pick(3)].quad(corners);
+            paving[random.pick(3)].quad(corners);
         }
     }
     let shapes: Vec<(&Shape, u32)> = paving.iter().zip(slabs).collect();
     let mesh = b.mesh("paving", &shapes);
     b.put("paving", None, [0.0; 3], mesh);
-    booths(b, dice, palette);
+    booths(b, random, palette);
     masts(b, palette);
 }
 
 /// Striped booths in a half circle, open to the middle.
-fn booths(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
+fn booths(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
     let mut walls = Shape::new();
     walls
         .block([0.0, 1.5, -1.5], [4.0, 3.0, 0.1])
@@ -81,7 +81,7 @@ fn booths(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
             "booth bulbs",
             Some(booth),
             [0.0; 3],
-            fronts[dice.pick(fronts.len())],
+            fronts[random.pick(fronts.len())],
         );
     }
 }

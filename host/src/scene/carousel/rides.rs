@@ -1,19 +1,19 @@
 //! The carousel itself, the swing ride, the cups and the gyroscope.
 
 use super::super::builder::{STILL, SceneBuilder};
-use super::super::dice::Dice;
+use super::super::random::Random;
 use super::super::shapes::{Shape, on_circle, rotation};
 use super::{Palette, UP, bulb_circle, bulb_line};
 
-pub(super) fn add(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
-    merry_go_round(b, dice, palette);
-    swing_ride(b, dice, palette);
-    cups(b, dice, palette);
+pub(super) fn add(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
+    merry_go_round(b, random, palette);
+    swing_ride(b, random, palette);
+    cups(b, random, palette);
     gyroscope(b, palette);
 }
 
 /// A turning platform with a lit canopy; horses rise and fall on poles of bulbs.
-fn merry_go_round(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
+fn merry_go_round(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
     let mut platform = Shape::new();
     platform
         .cylinder([0.0, 0.2, 0.0], [6.6, 6.6], 0.25, 48)
@@ -73,14 +73,14 @@ fn merry_go_round(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
             let [c, s] = on_circle(turn);
             let at = [radius * c, 0.3, radius * s];
             let facing = rotation(UP, std::f64::consts::TAU * -turn);
-            let seat = b.node("horse", Some(hub), at, facing, Some(meshes[dice.pick(5)]));
+            let seat = b.node("horse", Some(hub), at, facing, Some(meshes[random.pick(5)]));
             b.bob(seat, at, 0.35, 75, f64::from(i % 4) / 4.0);
         }
     }
 }
 
 /// Chairs on chains that fly outward around a tilted, lit crown.
-fn swing_ride(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
+fn swing_ride(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
     let mut tower = Shape::new();
     tower.cylinder([0.0; 3], [1.6, 0.7], 9.0, 16);
     let tower = b.mesh("swing tower", &[(&tower, palette.red)]);
@@ -133,12 +133,12 @@ fn swing_ride(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
             None,
         );
         let chair = b.put("chair", Some(hang), [0.0; 3], meshes[i as usize % 5]);
-        b.swing(chair, [0.0, 0.0, 1.0], 0.1, 60, dice.unit());
+        b.swing(chair, [0.0, 0.0, 1.0], 0.1, 60, random.unit());
     }
 }
 
 /// Three tables of six cups: cups turn on tables that turn on the floor.
-fn cups(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
+fn cups(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
     let mut floor = Shape::new();
     floor.cylinder([0.0; 3], [2.6, 2.6], 0.2, 32);
     let floor = b.mesh("cup table", &[(&floor, palette.wood)]);
@@ -158,8 +158,8 @@ fn cups(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
         for i in 0..6 {
             let [c, s] = on_circle(f64::from(i) / 6.0);
             let node = b.put("cup", Some(table), [1.75 * c, 0.0, 1.75 * s], cup);
-            b.spin(node, UP, -2, 100, dice.unit());
-            b.put("cup bulbs", Some(node), [0.0, 1.05, 0.0], meshes[dice.pick(5)]);
+            b.spin(node, UP, -2, 100, random.unit());
+            b.put("cup bulbs", Some(node), [0.0, 1.05, 0.0], meshes[random.pick(5)]);
         }
     }
 }

@@ -64,18 +64,17 @@ impl Document<'_> {
             return Err(self.malformed(name, "has an unknown component type or element type", ADVICE));
         };
         let components = shape.multiplicity();
-        let (bytes, stride) = match accessor.buffer_view {
+        let view = match accessor.buffer_view {
             Some(view) => self.view(view, name)?,
             None => (&[][..], None),
         };
         let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
         let layout = self.place(
             name,
-            bytes,
-            stride,
+            view,
             offset,
             accessor.count.0,
-            (component, components),
+            (component, components, accessor.normalized),
         )?;
 
         // An accessor without a view holds zeros: nothing else bounds its count.
@@ -93,21 +92,17 @@ impl Document<'_> {
             });
         }
         self.elements.set(elements);
-        Ok(Layout {
-            normalized: accessor.normalized,
-            ..layout
-        })
+        Ok(layout)
     }
 
     /// `count` elements from `offset` on, all inside `bytes` unless `bytes` is empty for want of a view.
     fn place<'b>(
         &self,
         name: &str,
-        bytes: &'b [u8],
-        stride: Option<usize>,
+        (bytes, stride): (&'b [u8], Option<usize>),
         offset: u64,
         count: u64,
-        (component, components): (ComponentType, usize),
+        (component, components, normalized): (ComponentType, usize, bool),
     ) -> Result<Layout<'b>, SceneError> {
         let size = component.size() * components;
         let stride = stride.unwrap_or(size);
@@ -135,7 +130,7 @@ impl Document<'_> {
             stride,
             components,
             component,
-            normalized: false,
+            normalized,
             count: count as usize,
         })
     }
@@ -183,22 +178,12 @@ impl Document<'_> {
             let problem = format!("substitutes {count} of {} elements", values.len());
             return Err(self.malformed(name, problem, ADVICE));
         }
-        let (bytes, stride) = self.view(sparse.indices.buffer_view, name)?;
-        let at = self.place(
-            name,
-            bytes,
-            stride,
-            sparse.indices.byte_offset.0,
-            count,
-            (component, 1),
-        )?;
-        let (bytes, stride) = self.view(sparse.values.buffer_view, name)?;
-        let shape = (of.component, of.components);
-        let new = self.place(name, bytes, stride, sparse.values.byte_offset.0, count, shape)?;
-        let new = Layout {
-            normalized: of.normalized,
-            ..new
-        };
+        let view = self.view(sparse.indices.buffer_view, name)?;
+        let offset = sparse.indices.byte_offset.0;
+        let at = self.place(name, view, offset, count, (component, 1, false))?;
+        let view = self.view(sparse.values.buffer_view, name)?;
+        let shape = (of.component, of.components, of.normalized);
+        let new = self.place(name, view, sparse.values.byte_offset.0, count, shape)?;
         for i in 0..at.count {
             let target = at.unsigned(i) as usize;
             let total = values.len();
@@ -215,11 +200,7 @@ impl Document<'_> {
 impl Layout<'_> {
     /// Element `index`; zeros where there are no bytes.
     fn element<const N: usize>(&self, index: usize) -> [f32; N] {
-        let mut element = [0.0; N];
-        for (component, value) in element.iter_mut().enumerate() {
-            *value = self.float(index, component);
-        }
-        element
+        std::array::from_fn(|component| self.float(index, component))
     }
 
     /// Four little-endian bytes, missing ones zero.

@@ -122,13 +122,7 @@ impl Document<'_> {
         feature: impl Into<String>,
         advice: &'static str,
     ) -> SceneError {
-        let path = self.path.to_owned();
-        SceneError::Unsupported {
-            path,
-            element: element.into(),
-            feature: feature.into(),
-            advice,
-        }
+        self.malformed(element, format!("{} is not supported", feature.into()), advice)
     }
 
     fn warn(&self, warning: String) {

@@ -1,7 +1,7 @@
 //! Houses around the square; about every third window is lit.
 
 use super::super::builder::SceneBuilder;
-use super::super::dice::Dice;
+use super::super::random::Random;
 use super::super::shapes::{Shape, on_circle};
 use super::FRONTS;
 
@@ -9,7 +9,7 @@ use super::FRONTS;
 const BAY: f64 = 3.2;
 const FLOOR: f64 = 3.6;
 
-pub(super) fn add(b: &mut SceneBuilder, dice: &mut Dice) {
+pub(super) fn add(b: &mut SceneBuilder, random: &mut Random) {
     let wall_colors = [
         [0.50, 0.34, 0.26],
         [0.52, 0.48, 0.42],
@@ -48,16 +48,16 @@ pub(super) fn add(b: &mut SceneBuilder, dice: &mut Dice) {
         let heading = quarter * std::f64::consts::TAU;
         let mut x = -FRONTS;
         while x < FRONTS - 4.0 * BAY {
-            let bays = 5 + dice.pick(4);
+            let bays = 5 + random.pick(4);
             let width = bays as f64 * BAY;
-            let floors = 4 + dice.pick(5);
+            let floors = 4 + random.pick(5);
             let mut body = Shape::new();
             body.block(
                 [0.0, 0.5 * (floors as f64 * FLOOR + 1.0), -7.0],
                 [width - 0.4, floors as f64 * FLOOR + 1.0, 14.0],
             );
             let middle = x + 0.5 * width;
-            bodies[dice.pick(4)].place(&body, turned([middle, 0.0, -FRONTS]), heading);
+            bodies[random.pick(4)].place(&body, turned([middle, 0.0, -FRONTS]), heading);
             let mut cornice = Shape::new();
             cornice.block([0.0, 0.0, 0.15], [width - 0.2, 0.4, 0.6]);
             trim.place(
@@ -75,9 +75,9 @@ pub(super) fn add(b: &mut SceneBuilder, dice: &mut Dice) {
                     let mut sill = Shape::new();
                     sill.block([0.0, -1.0, 0.1], [1.7, 0.12, 0.24]);
                     trim.place(&sill, turned(at), heading);
-                    if dice.unit() < 0.36 {
+                    if random.unit() < 0.36 {
                         let turn = super::super::shapes::rotation([0.0, 1.0, 0.0], heading);
-                        b.node("window", None, turned(at), turn, Some(lit[dice.pick(4)]));
+                        b.node("window", None, turned(at), turn, Some(lit[random.pick(4)]));
                     } else {
                         dark.place(&pane, turned(at), heading);
                     }

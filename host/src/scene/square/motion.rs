@@ -1,7 +1,7 @@
 //! What moves: cars round the park, drones above it, fireflies in it.
 
 use super::super::builder::{STILL, SceneBuilder};
-use super::super::dice::Dice;
+use super::super::random::Random;
 use super::super::shapes::{Shape, on_circle};
 use super::super::track::Track;
 use super::PARK;
@@ -19,14 +19,14 @@ const DRONE_RINGS: [(f64, f64, u32, i32); 4] = [
 
 const UP: [f64; 3] = [0.0, 1.0, 0.0];
 
-pub(super) fn add(b: &mut SceneBuilder, dice: &mut Dice, iron: u32) {
-    cars(b, dice, iron);
-    drones(b, dice, iron);
-    fireflies(b, dice);
+pub(super) fn add(b: &mut SceneBuilder, random: &mut Random, iron: u32) {
+    cars(b, random, iron);
+    drones(b, random, iron);
+    fireflies(b, random);
 }
 
 /// Two lanes, at 12 m/s, with two lamps ahead and two behind.
-fn cars(b: &mut SceneBuilder, dice: &mut Dice, iron: u32) {
+fn cars(b: &mut SceneBuilder, random: &mut Random, iron: u32) {
     let paints = [
         [0.5, 0.05, 0.05],
         [0.08, 0.10, 0.30],
@@ -75,8 +75,8 @@ fn cars(b: &mut SceneBuilder, dice: &mut Dice, iron: u32) {
         // 12 m/s at 25 frames per second.
         let period = (track.length() / 12.0 * 25.0) as u32;
         for i in 0..CARS / 2 {
-            let start = (f64::from(i) + dice.between(-0.3, 0.3)) / f64::from(CARS / 2);
-            let car = b.put("car", None, [0.0; 3], cars[dice.pick(cars.len())]);
+            let start = (f64::from(i) + random.between(-0.3, 0.3)) / f64::from(CARS / 2);
+            let car = b.put("car", None, [0.0; 3], cars[random.pick(cars.len())]);
             b.drive(car, &track, -0.05, period, start);
             for x in [-0.6, 0.6] {
                 b.put("headlamp", Some(car), [x, 0.65, 2.12], head);
@@ -87,7 +87,7 @@ fn cars(b: &mut SceneBuilder, dice: &mut Dice, iron: u32) {
 }
 
 /// Rings that turn about the middle; each drone bobs and carries a lamp below it.
-fn drones(b: &mut SceneBuilder, dice: &mut Dice, iron: u32) {
+fn drones(b: &mut SceneBuilder, random: &mut Random, iron: u32) {
     let glows = [
         [500.0, 60.0, 280.0],
         [60.0, 380.0, 560.0],
@@ -109,13 +109,13 @@ fn drones(b: &mut SceneBuilder, dice: &mut Dice, iron: u32) {
             let [c, s] = on_circle(turn);
             let at = [radius * c, 0.0, radius * s];
             let node = b.put("drone", Some(hub), at, drone);
-            b.bob(node, at, 1.2, 150, 3.0 * turn + 0.1 * dice.unit());
+            b.bob(node, at, 1.2, 150, 3.0 * turn + 0.1 * random.unit());
         }
     }
 }
 
 /// Each on a smooth closed path of its own around a home between the trees.
-fn fireflies(b: &mut SceneBuilder, dice: &mut Dice) {
+fn fireflies(b: &mut SceneBuilder, random: &mut Random) {
     let glows = [[170.0, 260.0, 30.0], [250.0, 220.0, 40.0]].map(|radiance| b.glow("firefly", radiance));
     let meshes = glows.map(|glow| {
         let mut body = Shape::new();
@@ -124,15 +124,15 @@ fn fireflies(b: &mut SceneBuilder, dice: &mut Dice) {
     });
     for _ in 0..FIREFLIES {
         let home = [
-            dice.between(-PARK, PARK),
-            dice.between(0.5, 1.8),
-            dice.between(-PARK, PARK),
+            random.between(-PARK, PARK),
+            random.between(0.5, 1.8),
+            random.between(-PARK, PARK),
         ];
         let points: [[f64; 3]; 6] = std::array::from_fn(|_| {
             let reach = [3.0, 0.4, 3.0];
-            [0, 1, 2].map(|axis| home[axis] + dice.between(-reach[axis], reach[axis]))
+            [0, 1, 2].map(|axis| home[axis] + random.between(-reach[axis], reach[axis]))
         });
-        let node = b.put("firefly", None, home, meshes[dice.pick(2)]);
-        b.fly(node, &points, 200 + 50 * dice.pick(4) as u32);
+        let node = b.put("firefly", None, home, meshes[random.pick(2)]);
+        b.fly(node, &points, 200 + 50 * random.pick(4) as u32);
     }
 }

@@ -1,7 +1,7 @@
 //! Trees with fairy lights, path lamps and a fountain.
 
 use super::super::builder::SceneBuilder;
-use super::super::dice::Dice;
+use super::super::random::Random;
 use super::super::shapes::{Shape, on_circle};
 use super::PARK;
 
@@ -11,13 +11,13 @@ const TREES: usize = 210;
 /// Fairy lights in each tree.
 const LIGHTS_PER_TREE: u32 = 9;
 
-pub(super) fn add(b: &mut SceneBuilder, dice: &mut Dice, iron: u32) {
-    trees(b, dice);
+pub(super) fn add(b: &mut SceneBuilder, random: &mut Random, iron: u32) {
+    trees(b, random);
     path_lamps(b, iron);
     fountain(b);
 }
 
-fn trees(b: &mut SceneBuilder, dice: &mut Dice) {
+fn trees(b: &mut SceneBuilder, random: &mut Random) {
     let bark = b.matte("bark", [0.16, 0.11, 0.07], 1.0);
     let leaves =
         [[0.10, 0.24, 0.06], [0.14, 0.26, 0.05], [0.07, 0.18, 0.07]].map(|c| b.matte("leaves", c, 1.0));
@@ -30,11 +30,11 @@ fn trees(b: &mut SceneBuilder, dice: &mut Dice) {
             let mut crown = Shape::new();
             for _ in 0..2 {
                 let at = [
-                    dice.between(-0.8, 0.8) * size,
-                    dice.between(3.4, 4.8) * size,
-                    dice.between(-0.8, 0.8) * size,
+                    random.between(-0.8, 0.8) * size,
+                    random.between(3.4, 4.8) * size,
+                    random.between(-0.8, 0.8) * size,
                 ];
-                let radius = dice.between(1.2, 1.6) * size;
+                let radius = random.between(1.2, 1.6) * size;
                 crown.icosphere(at, [radius, 0.85 * radius, radius], 1);
             }
             (b.mesh("tree", &[(&trunk, bark), (&crown, leaf)]), size)
@@ -51,23 +51,23 @@ fn trees(b: &mut SceneBuilder, dice: &mut Dice) {
     for _ in 0..TREES {
         let at = loop {
             let at = [
-                dice.between(-PARK + 3.0, PARK - 3.0),
+                random.between(-PARK + 3.0, PARK - 3.0),
                 0.0,
-                dice.between(-PARK + 3.0, PARK - 3.0),
+                random.between(-PARK + 3.0, PARK - 3.0),
             ];
             // Paths and the round place in the middle stay free.
             if at[0].abs() > 4.5 && at[2].abs() > 4.5 && at[0] * at[0] + at[2] * at[2] > 18.0 * 18.0 {
                 break at;
             }
         };
-        let (mesh, size) = kinds[dice.pick(kinds.len())];
+        let (mesh, size) = kinds[random.pick(kinds.len())];
         let tree = b.put("tree", None, at, mesh);
-        let color = dice.pick(lights.len());
+        let color = random.pick(lights.len());
         for i in 0..LIGHTS_PER_TREE {
             // Around the crown's widest part, where the leaves do not hide them.
-            let [c, s] = on_circle((f64::from(i) + dice.unit()) / f64::from(LIGHTS_PER_TREE));
-            let radius = dice.between(2.3, 2.6) * size;
-            let y = dice.between(2.6, 4.6) * size;
+            let [c, s] = on_circle((f64::from(i) + random.unit()) / f64::from(LIGHTS_PER_TREE));
+            let radius = random.between(2.3, 2.6) * size;
+            let y = random.between(2.6, 4.6) * size;
             b.put(
                 "fairy light",
                 Some(tree),

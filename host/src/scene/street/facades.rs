@@ -1,7 +1,7 @@
 //! Houses with windows, some of them lit, shop fronts, awnings and café tables.
 
 use super::super::builder::SceneBuilder;
-use super::super::dice::Dice;
+use super::super::random::Random;
 use super::super::shapes::Shape;
 use super::{FACADE, HALF_LENGTH, Palette};
 
@@ -26,14 +26,14 @@ struct Houses {
     tables: Vec<[f64; 3]>,
 }
 
-pub(super) fn add(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
+pub(super) fn add(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
     let mut houses = Houses::default();
     for side in [-1.0, 1.0] {
         let mut z = -HALF_LENGTH;
         while z < HALF_LENGTH - 4.0 {
-            let bays = 4 + dice.pick(3);
+            let bays = 4 + random.pick(3);
             let bays = bays.min(((HALF_LENGTH - z) / BAY) as usize).max(1);
-            houses.add_house(dice, side, z, bays);
+            houses.add_house(random, side, z, bays);
             z += bays as f64 * BAY;
         }
     }
@@ -57,14 +57,14 @@ pub(super) fn add(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
     ]);
     let mesh = b.mesh("houses", &shapes);
     b.put("houses", None, [0.0; 3], mesh);
-    add_panes(b, dice, &houses);
+    add_panes(b, random, &houses);
     add_tables(b, &houses, palette);
 }
 
 impl Houses {
-    fn add_house(&mut self, dice: &mut Dice, side: f64, z: f64, bays: usize) {
-        let floors = 2 + dice.pick(3);
-        let style = dice.pick(self.walls.len());
+    fn add_house(&mut self, random: &mut Random, side: f64, z: f64, bays: usize) {
+        let floors = 2 + random.pick(3);
+        let style = random.pick(self.walls.len());
         let (width, height) = (bays as f64 * BAY, GROUND_FLOOR + floors as f64 * FLOOR);
         let (front, back) = (side * FACADE, side * (FACADE + 8.0));
         self.walls[style].cuboid([front.min(back), 0.0, z], [front.max(back), height, z + width]);
@@ -77,10 +77,10 @@ impl Houses {
             let z = z + (bay as f64 + 0.5) * BAY;
             for floor in 0..floors {
                 let y = GROUND_FLOOR + floor as f64 * FLOOR + 1.6;
-                self.add_window([front, y, z], side, dice.unit() < 0.24);
+                self.add_window([front, y, z], side, random.unit() < 0.24);
             }
         }
-        self.add_shop(dice, side, z, bays);
+        self.add_shop(random, side, z, bays);
     }
 
     /// A frame of four bars with a sill, 1.2 m by 1.8 m inside.
@@ -100,12 +100,12 @@ impl Houses {
     }
 
     /// A door in the first bay; shop windows, awnings and café tables along the others.
-    fn add_shop(&mut self, dice: &mut Dice, side: f64, z: f64, bays: usize) {
+    fn add_shop(&mut self, random: &mut Random, side: f64, z: f64, bays: usize) {
         let front = side * FACADE;
         self.doors
             .block([front - side * 0.04, 1.25, z + 0.5 * BAY], [0.1, 2.4, 1.2]);
-        let color = dice.pick(self.awnings.len());
-        let cafe = dice.unit() < 0.5;
+        let color = random.pick(self.awnings.len());
+        let cafe = random.unit() < 0.5;
         for bay in 1..bays {
             let z = z + (bay as f64 + 0.5) * BAY;
             let pane = [front - side * 0.02, 1.6, z];
@@ -148,7 +148,7 @@ fn pane_corners([x, y, z]: [f64; 3], side: f64, size: [f64; 2]) -> [[f64; 3]; 4]
 }
 
 /// Lit panes as instances: one mesh per colour and side, every pane a mesh light.
-fn add_panes(b: &mut SceneBuilder, dice: &mut Dice, houses: &Houses) {
+fn add_panes(b: &mut SceneBuilder, random: &mut Random, houses: &Houses) {
     let colors = [
         [1.0, 0.58, 0.22],
         [0.85, 0.62, 0.36],
@@ -175,7 +175,7 @@ fn add_panes(b: &mut SceneBuilder, dice: &mut Dice, houses: &Houses) {
                 name,
                 None,
                 at,
-                sides[usize::from(side > 0.0)][dice.pick(colors.len())],
+                sides[usize::from(side > 0.0)][random.pick(colors.len())],
             );
         }
     }

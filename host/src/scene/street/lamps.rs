@@ -1,17 +1,17 @@
 //! Street lamps, strings of bulbs, paper lanterns and neon signs.
 
 use super::super::builder::{STILL, SceneBuilder};
-use super::super::dice::Dice;
+use super::super::random::Random;
 use super::super::shapes::Shape;
 use super::{FACADE, HALF_LENGTH, Palette};
 
 const ALONG_X: [f64; 3] = [1.0, 0.0, 0.0];
 
-pub(super) fn add(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
+pub(super) fn add(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
     street_lamps(b, palette);
-    strings(b, dice, palette);
-    lanterns(b, dice, palette);
-    signs(b, dice, palette);
+    strings(b, random, palette);
+    lanterns(b, random, palette);
+    signs(b, random, palette);
 }
 
 /// A post every 8 m on either side, with two lamps each.
@@ -42,7 +42,7 @@ fn street_lamps(b: &mut SceneBuilder, palette: &Palette) {
 }
 
 /// Strings of bulbs across the street, each one mesh light, swinging about the line between its ends.
-fn strings(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
+fn strings(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
     let colors = [
         [26.0, 15.0, 6.0],
         [30.0, 8.0, 4.0],
@@ -69,21 +69,21 @@ fn strings(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
     let meshes = glows.map(|glow| b.mesh("string of bulbs", &[(&beads, glow), (&cable, palette.iron)]));
     let mut z = -HALF_LENGTH + 3.0;
     while z < HALF_LENGTH {
-        let mesh = meshes[dice.pick(meshes.len())];
-        let node = b.put("string of bulbs", None, [0.0, dice.between(5.6, 6.6), z], mesh);
+        let mesh = meshes[random.pick(meshes.len())];
+        let node = b.put("string of bulbs", None, [0.0, random.between(5.6, 6.6), z], mesh);
         b.swing(
             node,
             ALONG_X,
-            dice.between(0.15, 0.5),
-            60 + 15 * dice.pick(4) as u32,
-            dice.unit(),
+            random.between(0.15, 0.5),
+            60 + 15 * random.pick(4) as u32,
+            random.unit(),
         );
         z += 6.0;
     }
 }
 
 /// Paper lanterns on cords between the strings.
-fn lanterns(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
+fn lanterns(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
     let glows = [[5.0, 0.8, 0.4], [4.5, 2.4, 0.7], [5.0, 1.7, 0.35]]
         .map(|radiance| b.glow("paper lantern", radiance));
     let mut cord = Shape::new();
@@ -103,14 +103,14 @@ fn lanterns(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
                 "paper lantern",
                 Some(span),
                 [x, 0.0, 0.0],
-                meshes[dice.pick(meshes.len())],
+                meshes[random.pick(meshes.len())],
             );
             b.swing(
                 node,
                 ALONG_X,
-                dice.between(0.2, 0.6),
-                45 + 10 * dice.pick(4) as u32,
-                dice.unit(),
+                random.between(0.2, 0.6),
+                45 + 10 * random.pick(4) as u32,
+                random.unit(),
             );
         }
         z += 12.0;
@@ -118,7 +118,7 @@ fn lanterns(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
 }
 
 /// Neon signs on brackets; every second one swings.
-fn signs(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
+fn signs(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
     let colors = [
         [9.0, 0.2, 0.7],
         [0.2, 4.0, 7.0],
@@ -141,17 +141,17 @@ fn signs(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
     let mut count = 0;
     while z < HALF_LENGTH - 2.0 {
         let side = if count % 2 == 0 { -1.0 } else { 1.0 };
-        let at = [side * (FACADE - 0.9), dice.between(4.4, 5.4), z];
+        let at = [side * (FACADE - 0.9), random.between(4.4, 5.4), z];
         let bracket = b.put("bracket", None, at, bracket);
-        let mesh = meshes[dice.pick(tubes.len())][dice.pick(colors.len())];
+        let mesh = meshes[random.pick(tubes.len())][random.pick(colors.len())];
         let sign = b.node("neon sign", Some(bracket), [0.0, -0.05, 0.0], STILL, Some(mesh));
         if count % 4 < 2 {
             b.swing(
                 sign,
                 ALONG_X,
-                dice.between(0.1, 0.35),
-                50 + 10 * dice.pick(3) as u32,
-                dice.unit(),
+                random.between(0.1, 0.35),
+                50 + 10 * random.pick(3) as u32,
+                random.unit(),
             );
         }
         z += 4.0;

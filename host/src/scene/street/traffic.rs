@@ -1,7 +1,7 @@
 //! Carts and bicycles that carry their lamps along the street and back.
 
 use super::super::builder::SceneBuilder;
-use super::super::dice::Dice;
+use super::super::random::Random;
 use super::super::shapes::Shape;
 use super::super::track::Track;
 use super::Palette;
@@ -10,13 +10,13 @@ use super::Palette;
 const CARTS: u32 = 14;
 const BICYCLES: u32 = 22;
 
-pub(super) fn add(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
-    carts(b, dice, palette);
-    bicycles(b, dice, palette);
+pub(super) fn add(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
+    carts(b, random, palette);
+    bicycles(b, random, palette);
 }
 
 /// Street vendors' carts at 6 m/s: two lanterns that swing and a row of bulbs under the roof.
-fn carts(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
+fn carts(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
     let cloths = [[0.60, 0.10, 0.08], [0.12, 0.22, 0.50], [0.65, 0.55, 0.20]]
         .map(|color| b.matte("cloth", color, 0.9));
     let mut wood = Shape::new();
@@ -59,20 +59,20 @@ fn carts(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
         radius: 2.0,
     };
     for i in 0..CARTS {
-        let start = (f64::from(i) + dice.between(-0.3, 0.3)) / f64::from(CARTS);
-        let cart = b.put("cart", None, [0.0; 3], carts[dice.pick(carts.len())]);
+        let start = (f64::from(i) + random.between(-0.3, 0.3)) / f64::from(CARTS);
+        let cart = b.put("cart", None, [0.0; 3], carts[random.pick(carts.len())]);
         // Carts share one lane, so they share one speed: 295 m in 49 s.
         b.drive(cart, &track, 0.0, 1225, start);
         b.put("cart bulbs", Some(cart), [0.0; 3], bulbs);
         for z in [-1.1, 1.1] {
             let lantern = b.put("cart lantern", Some(cart), [0.0, 2.1, z], lantern);
-            b.swing(lantern, [1.0, 0.0, 0.0], 0.4, 35, dice.unit());
+            b.swing(lantern, [1.0, 0.0, 0.0], 0.4, 35, random.unit());
         }
     }
 }
 
 /// Bicycles at 9 m/s with a lamp to the front and one to the back.
-fn bicycles(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
+fn bicycles(b: &mut SceneBuilder, random: &mut Random, palette: &Palette) {
     let mut frame = Shape::new();
     let (rear, front, crank, seat, bar) = (
         [0.0, 0.34, -0.5],
@@ -132,7 +132,7 @@ fn bicycles(b: &mut SceneBuilder, dice: &mut Dice, palette: &Palette) {
         radius: 3.3,
     };
     for i in 0..BICYCLES {
-        let start = (f64::from(i) + dice.between(-0.3, 0.3)) / f64::from(BICYCLES);
+        let start = (f64::from(i) + random.between(-0.3, 0.3)) / f64::from(BICYCLES);
         let node = b.put("bicycle", None, [0.0; 3], bicycle);
         // 311 m in 35 s.
         b.drive(node, &track, 0.0, 875, start);

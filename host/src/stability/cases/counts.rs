@@ -15,7 +15,6 @@ pub(super) fn few() -> Vec<Case> {
 }
 
 /// `count` equal lights in a cube, all seen from so far away that each is as probable as any other to a few percent.
-#[must_use]
 pub fn equal(count: u32) -> Case {
     let side = f64::from(count).cbrt().ceil() as u32;
     let light = |i: u32| {
@@ -40,7 +39,6 @@ pub fn equal(count: u32) -> Case {
 }
 
 /// `count` lights anywhere in a box of 1000 m.
-#[must_use]
 pub fn many(count: u32) -> Case {
     let random = &mut Random::new(97);
     let light = |i: u32| small([0; 3].map(|_| random.between(0.0, 1000.0)), i / 1000);

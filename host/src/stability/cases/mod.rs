@@ -18,7 +18,6 @@ use super::case::Case;
 use scattered::add;
 
 /// All extremes but the largest, [`equal`] and [`many`], in the order of the report.
-#[must_use]
 pub fn small() -> Vec<Case> {
     [
         places::cases(),

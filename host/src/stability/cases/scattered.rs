@@ -6,7 +6,6 @@ use crate::stability::random::Random;
 
 /// `count` triangles of 0.01 to 0.04 m anywhere in the unit cube, facing anywhere, one in four on both sides, in mesh lights
 /// of eight.
-#[must_use]
 pub fn scattered(count: u32, seed: u32) -> Vec<EmissiveTriangle> {
     let random = &mut Random::new(seed);
     let light = |i: u32| {

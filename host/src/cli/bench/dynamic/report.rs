@@ -6,6 +6,7 @@ use std::time::Duration;
 use serde::Serialize;
 
 use crate::cli::table;
+use crate::cli::times::ms;
 
 /// Least, greatest and median of the frames, milliseconds.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
@@ -18,11 +19,11 @@ pub(in crate::cli::bench) struct Spread {
 impl Spread {
     pub fn of(mut times: Vec<Duration>) -> Self {
         times.sort_unstable();
-        let ms = |time: Option<&Duration>| time.map_or(0.0, |time| time.as_secs_f64() * 1e3);
+        let at = |index: usize| times.get(index).copied().map_or(0.0, ms);
         Self {
-            median: ms(times.get(times.len() / 2)),
-            least: ms(times.first()),
-            most: ms(times.last()),
+            median: at(times.len() / 2),
+            least: at(0),
+            most: at(times.len().saturating_sub(1)),
         }
     }
 }
@@ -67,54 +68,30 @@ pub(in crate::cli::bench) struct Report {
 
 /// Prints the table.
 pub(in crate::cli::bench) fn print(report: &Report) -> io::Result<()> {
-    let header = [
-        "change",
-        "instances",
-        "triangles",
-        "changed",
-        "backend",
-        "threads",
-        "update ms",
-        "refit ms",
-        "least",
-        "most",
-        "nodes",
-        "rebuild ms",
-        "swap ms",
-        "refit then",
-        "copies",
-        "of single-level",
-    ];
-    let median = |spread: &Option<Spread>| spread.map_or("-".to_owned(), |s| format!("{:.3}", s.median));
-    let rows: Vec<Vec<String>> = report
-        .rows
-        .iter()
-        .map(|r| {
-            vec![
-                r.change.to_owned(),
-                r.instances.to_string(),
-                r.triangles.to_string(),
-                r.changed.to_string(),
-                r.backend.clone(),
-                if r.threads == 0 {
-                    "-".to_owned()
-                } else {
-                    r.threads.to_string()
-                },
-                format!("{:.3}", r.update_ms.median),
-                format!("{:.3}", r.refit_ms.median),
-                format!("{:.3}", r.refit_ms.least),
-                format!("{:.3}", r.refit_ms.most),
-                r.nodes.to_string(),
-                median(&r.rebuild_ms),
-                median(&r.swap_ms),
-                median(&r.refit_after_swap_ms),
-                format!("{:.2}", r.copies),
-                format!("{:.4}", r.of_single_level),
-            ]
-        })
-        .collect();
-    table::print(&header, &rows)?;
+    fn median(spread: Option<Spread>) -> String {
+        spread.map_or("-".to_owned(), |s| format!("{:.3}", s.median))
+    }
+    table::print(
+        &report.rows,
+        &[
+            ("change", |r| r.change.to_owned()),
+            ("instances", |r| r.instances.to_string()),
+            ("triangles", |r| r.triangles.to_string()),
+            ("changed", |r| r.changed.to_string()),
+            ("backend", |r| r.backend.clone()),
+            ("threads", |r| table::threads(r.threads)),
+            ("update ms", |r| format!("{:.3}", r.update_ms.median)),
+            ("refit ms", |r| format!("{:.3}", r.refit_ms.median)),
+            ("least", |r| format!("{:.3}", r.refit_ms.least)),
+            ("most", |r| format!("{:.3}", r.refit_ms.most)),
+            ("nodes", |r| r.nodes.to_string()),
+            ("rebuild ms", |r| median(r.rebuild_ms)),
+            ("swap ms", |r| median(r.swap_ms)),
+            ("refit then", |r| median(r.refit_after_swap_ms)),
+            ("copies", |r| format!("{:.2}", r.copies)),
+            ("of single-level", |r| format!("{:.4}", r.of_single_level)),
+        ],
+    )?;
     table::print_text(&format!(
         "single-level refit of all triangles, one thread: {:.3} ms; copy of the top level ({} bytes): {:.4} ms\n",
         report.single_level_refit_ms.median, report.top_level_bytes, report.copy_ms.median

@@ -11,12 +11,13 @@ const SIDE: f32 = 100.0;
 const EDGE: f32 = 0.1;
 /// Different meshes.
 const MESHES: u32 = 16;
-/// Turn and way of an instance in a frame, rad and metres.
+/// Turn and step of an instance in a frame, rad and metres.
 const TURN: f32 = 0.05;
 const STEP: f32 = 0.1;
 
 /// What changes in a frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::IntoStaticStr)]
+#[strum(serialize_all = "lowercase")]
 pub(super) enum Change {
     /// Instances move rigidly.
     Move,
@@ -24,16 +25,6 @@ pub(super) enum Change {
     Shine,
     /// A mesh gets other vertices.
     Deform,
-}
-
-impl Change {
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Move => "move",
-            Self::Shine => "shine",
-            Self::Deform => "deform",
-        }
-    }
 }
 
 /// A scene and what is in it.
@@ -116,7 +107,7 @@ impl World {
         }
     }
 
-    /// The triangles of a mesh, each moved by some other way in each frame.
+    /// The triangles of a mesh, each moved by another step in each frame.
     fn mesh(&self, mesh: u32, frame: u32) -> Vec<EmissiveTriangle> {
         (0..self.per_mesh)
             .map(|i| {
@@ -147,9 +138,9 @@ fn transform(instance: u32, frame: u32) -> Transform {
     let draw = |k: u32| unit_f32(hash(hash(instance).wrapping_add(k)));
     let angle = |k: u32| libm::sincosf(std::f32::consts::TAU * draw(k) + TURN * frame as f32);
     let ((s, c), (t, d)) = (angle(0), angle(1));
-    let way = STEP * (frame % 64) as f32;
+    let path = STEP * (frame % 64) as f32;
     Transform {
         columns: [[c, s, 0.0], [-s * d, c * d, t], [s * t, -c * t, d]],
-        translation: std::array::from_fn(|k| SIDE * draw(2 + k as u32) + way),
+        translation: std::array::from_fn(|k| SIDE * draw(2 + k as u32) + path),
     }
 }

@@ -83,7 +83,7 @@ fn facing_wall(r: u32, height: f32) -> ShadingPoint {
     }
 }
 
-/// 128 signs of 2048 lamps, turned every way.
+/// 128 signs of 2048 lamps, turned in every direction.
 fn signs() -> Vec<EmissiveTriangle> {
     let mut lamps = Vec::new();
     for sign in 0..128u32 {

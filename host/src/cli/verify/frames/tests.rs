@@ -5,9 +5,10 @@ use lightbvh_kernels::bvh::Paper;
 use lightbvh_kernels::render::RenderParams;
 
 use super::*;
-use crate::backend::{BackendError, Bvh, CpuBackend, Sampler, Timed};
-use crate::compare::Record;
-use crate::method::{History, UpdateTimes};
+use crate::backend::{Backend, BackendError, Bvh, CpuBackend, History, Integrator, Timed};
+use crate::cli::verify::tally::Tally;
+use crate::method::{UpdateTimes, runner};
+use crate::words::Record;
 use crate::workload::build;
 
 /// A method whose results are right at its first frame, and then but for one bit of the middle word of what is `wrong`.
@@ -44,10 +45,10 @@ impl Runner for Corrupt {
         &mut self,
         step: &Step<'_>,
         arrays: &Arc<SceneArrays>,
-        shot: &Shot,
-        chain: Chain,
+        settings: &RenderSettings,
+        chain: SequenceId,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
-        let mut image = self.inner.image(step, arrays, shot, chain)?;
+        let mut image = self.inner.image(step, arrays, settings, chain)?;
         turn(Kind::Pixels, self.wrong, &mut image.value);
         Ok(image)
     }
@@ -56,7 +57,7 @@ impl Runner for Corrupt {
         Some(&mut self.backend)
     }
 
-    fn histories(&self, chain: Chain) -> Result<Vec<History>, HostError> {
+    fn histories(&self, chain: SequenceId) -> Result<Vec<History>, HostError> {
         let mut histories = self.inner.histories(chain)?;
         for (surfaces, reservoirs) in &mut histories {
             turn(Kind::Surfaces, self.wrong, surfaces);
@@ -67,10 +68,6 @@ impl Runner for Corrupt {
 }
 
 impl Backend for CorruptBackend {
-    fn name(&self) -> &str {
-        "corrupt"
-    }
-
     fn node_record(&self) -> Record {
         self.inner.node_record()
     }
@@ -102,26 +99,19 @@ impl Backend for CorruptBackend {
         scene: &SceneArrays,
         params: &RenderParams,
         sampler: Sampler,
+        integrator: Integrator,
     ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
-        self.inner.render(scene, params, sampler)
-    }
-
-    fn render_path(
-        &mut self,
-        scene: &SceneArrays,
-        params: &RenderParams,
-        bounces: u32,
-        sampler: Sampler,
-    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
-        self.inner.render_path(scene, params, bounces, sampler)
+        self.inner.render(scene, params, sampler, integrator)
     }
 }
 
 /// What is found in two frames of `method`, the second of which is corrupt where `wrong` says.
 fn found(method: Method, wrong: Option<Kind>) -> Tally {
     let scene = Scene::open("street").expect("built in");
-    let mut tally = [Tally::default()];
-    let mut own = Tally::default();
+    let mut tallies = Tallies {
+        devices: vec![Tally::default()],
+        cpu: Tally::default(),
+    };
     let mut lane = None;
     for frame in [0, 1] {
         let arrays = Arc::new(arrays_at(&scene, frame, SIZE.0, SIZE.1).expect("a frame"));
@@ -144,7 +134,7 @@ fn found(method: Method, wrong: Option<Kind>) -> Tally {
                     wrong: None,
                 };
                 lane.insert(Lane {
-                    method,
+                    recipe: method.recipe(),
                     cpu: runner(method, &step, Target::Cpu).expect("a runner"),
                     devices: vec![Box::new(corrupt)],
                 })
@@ -155,12 +145,11 @@ fn found(method: Method, wrong: Option<Kind>) -> Tally {
             }
         };
         let asked = queries(&arrays, 1, 0, 64);
-        lane.compare(&step, &arrays, &asked, 1, &mut tally, &mut own)
+        lane.compare(&step, &arrays, &asked, 1, &mut tallies)
             .expect("words that can be compared");
     }
-    assert_eq!(own.different, 0);
-    let [tally] = tally;
-    tally
+    assert_eq!(tallies.cpu.different, 0);
+    tallies.devices.remove(0)
 }
 
 #[test]

@@ -5,7 +5,8 @@ use lightbvh::light::MAX_COORDINATE;
 use super::animate::world_transforms;
 use super::error::SceneError;
 use super::model::{Interpolation, Mesh, Property, SceneData};
-use super::transform::{Transform, cross, dot, sub};
+use super::transform::Transform;
+use crate::vector::{dot, normal};
 
 /// Bound of the scene's total flux, W: leaves room below `f32::MAX` (about 2^128) for sums and products.
 const MAX_FLUX: f64 = (1_u128 << 100) as f64;
@@ -14,11 +15,9 @@ const MAX_FLUX: f64 = (1_u128 << 100) as f64;
 ///
 /// `data` must have passed all other checks.
 pub(super) fn check(data: &SceneData) -> Result<(), SceneError> {
-    let out_of_range = |element: String, value: f64, expected: &'static str| SceneError::OutOfRange {
+    let out_of_range = |element: String, value: f64, expected: &str| SceneError::Invalid {
         scene: data.name.clone(),
-        element,
-        value,
-        expected,
+        problem: format!("{element} is {value}, expected {expected}"),
     };
     let motion = Motion::of(data);
     let extent: Vec<f64> = data.meshes.iter().map(mesh_extent).collect();
@@ -98,8 +97,7 @@ fn mesh_flux(data: &SceneData, mesh: &Mesh) -> f64 {
         let of_material = data.materials[primitive.material as usize].radiance;
         for (index, triangle) in primitive.triangles.iter().enumerate() {
             let radiance = primitive.triangle_radiance(index, of_material).map(f64::from);
-            let [a, b, c] = triangle.map(|vertex| primitive.positions[vertex as usize].map(f64::from));
-            let normal = cross(sub(b, a), sub(c, a));
+            let normal = normal(triangle.map(|vertex| primitive.positions[vertex as usize]));
             let area = 0.5 * dot(normal, normal).sqrt();
             flux += 2.0 * std::f64::consts::PI * area * radiance.iter().sum::<f64>();
         }

@@ -1,9 +1,9 @@
 //! Numbers for placement, the same on every machine and in every run.
 
 /// A small generator; the seed names the sequence.
-pub(super) struct Dice(u32);
+pub(super) struct Random(u32);
 
-impl Dice {
+impl Random {
     pub fn new(seed: u32) -> Self {
         Self(seed)
     }

@@ -1,11 +1,12 @@
-//! Results by name and key: everything that they depend on.
+//! One scene on one backend, and its results by name and key: everything that they depend on.
 
+use indicatif::ProgressBar;
 use serde_json::{Value, json};
 
 use super::frames::Frames;
-use super::measure::Job;
-use super::plan::BLOCK;
+use super::plan::{BLOCK, Plan};
 use super::reference::Reference;
+use super::store::{Store, stem};
 use crate::method::{Method, Target};
 
 /// A result that is still wanted, with its name and key.
@@ -16,6 +17,20 @@ pub(super) struct Wanted {
     pub seed: u32,
     pub name: String,
     pub key: Value,
+}
+
+/// One scene on one backend.
+pub(super) struct Job<'a, 'd> {
+    pub plan: &'a Plan,
+    pub store: &'a Store,
+    pub references: &'a [Reference],
+    pub target: Target<'d>,
+    /// Images per frame, and blocks that are timed.
+    pub seeds: u32,
+    pub blocks: Vec<u32>,
+    /// What this program is, for keys.
+    pub program: &'a str,
+    pub progress: &'a ProgressBar,
 }
 
 impl Job<'_, '_> {
@@ -55,10 +70,7 @@ impl Job<'_, '_> {
     fn key(&self, frames: &mut Frames<'_>, method: Method, frame: u32) -> Value {
         let driver = match self.target {
             Target::Cpu => String::new(),
-            Target::Device(device) => {
-                let driver = &device.probe().driver;
-                format!("{} {}", driver.name, driver.info)
-            }
+            Target::Device(device) => device.probe().driver.to_string(),
         };
         json!({
             "program": self.program, "scene": frames.scene().name(), "print": frames.print(frame), "frame": frame,
@@ -68,10 +80,7 @@ impl Job<'_, '_> {
     }
 
     fn name(&self, frames: &Frames<'_>, method: Method, rest: &str) -> String {
-        let (scene, backend) = (
-            super::stem(frames.scene().name()),
-            super::stem(self.target.name()),
-        );
+        let (scene, backend) = (stem(frames.scene().name()), stem(self.target.name()));
         format!("{scene}/{}-{backend}-{rest}", method.name())
     }
 }

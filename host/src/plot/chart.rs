@@ -53,7 +53,6 @@ pub struct Chart {
 
 impl Chart {
     /// The chart as an SVG document. Points that are not finite are left out.
-    #[must_use]
     pub fn svg(&self) -> String {
         let points = || {
             let all = self.series.iter().flat_map(|series| &series.points);

@@ -1,15 +1,13 @@
 //! A canvas of displayed pixels, for sheets of images with labels.
 
-use std::io::Cursor;
 use std::path::Path;
 
 use image::{ExtendedColorType, ImageFormat};
 
 use super::font::{SIZE, glyph};
-use crate::render::{FilmError, write_whole};
+use crate::render::{FilmError, write_image};
 
 /// Columns and rows that a line of text takes, with dots of `scale` pixels.
-#[must_use]
 pub fn text_size(text: &str, scale: u32) -> (u32, u32) {
     let letters = text.chars().count() as u32;
     ((letters * (SIZE.0 + 1)).saturating_sub(1) * scale, SIZE.1 * scale)
@@ -25,7 +23,6 @@ pub struct Canvas {
 
 impl Canvas {
     /// A canvas of one colour.
-    #[must_use]
     pub fn new(width: u32, height: u32, color: [u8; 3]) -> Self {
         Self {
             width,
@@ -35,7 +32,6 @@ impl Canvas {
     }
 
     /// The pixels by rows from the upper left.
-    #[must_use]
     pub fn pixels(&self) -> &[[u8; 3]] {
         &self.pixels
     }
@@ -85,19 +81,9 @@ impl Canvas {
     /// # Errors
     /// [`FilmError`] for a canvas that the encoder refuses (an empty one), and a path that cannot be written.
     pub fn write_png(&self, path: &Path) -> Result<(), FilmError> {
-        let mut file = Cursor::new(Vec::new());
-        let bytes: &[u8] = self.pixels.as_flattened();
+        let bytes = self.pixels.as_flattened();
         let (color, format) = (ExtendedColorType::Rgb8, ImageFormat::Png);
-        image::write_buffer_with_format(&mut file, bytes, self.width, self.height, color, format).map_err(
-            |source| FilmError::Encode {
-                path: path.to_owned(),
-                source,
-            },
-        )?;
-        write_whole(path, file.get_ref()).map_err(|source| FilmError::Write {
-            path: path.to_owned(),
-            source,
-        })
+        write_image(path, bytes, (self.width, self.height), color, format)
     }
 }
 

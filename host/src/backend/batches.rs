@@ -12,19 +12,36 @@ use lightbvh_kernels::render::RenderParams;
 use super::Timed;
 
 /// Most light samples of a pixel in one invocation. A sample walks a light BVH and a ray BVH: some hundred turns each.
-pub const MAX_SAMPLES_PER_INVOCATION: u32 = 8;
+const MAX_SAMPLES_PER_INVOCATION: u32 = 8;
 /// Most surfaces that the paths of a pixel meet in one invocation, but always one path: each surface costs two rays, a
 /// sampled light and a pmf.
 const MAX_SURFACES_PER_INVOCATION: u32 = 16;
 
-/// Most paths of up to `bounces` reflections in one invocation.
-pub(super) fn paths_per_invocation(bounces: u32) -> u32 {
-    (MAX_SURFACES_PER_INVOCATION / bounces.saturating_add(1)).max(1)
+/// What light is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Integrator {
+    /// Reflected once.
+    Direct,
+    /// Reflected up to `bounces` times.
+    Path {
+        /// At most [`MAX_BOUNCES`](lightbvh_kernels::shading::path::MAX_BOUNCES).
+        bounces: u32,
+    },
+}
+
+impl Integrator {
+    /// Most light samples, or paths, of a pixel in one invocation.
+    pub fn samples_per_invocation(self) -> u32 {
+        match self {
+            Self::Direct => MAX_SAMPLES_PER_INVOCATION,
+            Self::Path { bounces } => (MAX_SURFACES_PER_INVOCATION / bounces.saturating_add(1)).max(1),
+        }
+    }
 }
 
 /// The image of `params` from images of at most `most` samples each, which differ in their seed. Up to `most` samples it is
 /// `image` itself; beyond, the mean over all samples, added in order in `f64` and rounded once.
-pub(super) fn in_parts<E>(
+pub(super) fn in_batches<E>(
     params: &RenderParams,
     most: u32,
     mut image: impl FnMut(&RenderParams) -> Result<Timed<Vec<[f32; 3]>>, E>,
@@ -76,7 +93,7 @@ mod tests {
     /// What is asked of an image of `samples` samples in parts of 8, each of which returns its share as its pixel.
     fn asked(samples: u32) -> (Vec<RenderParams>, [f32; 3]) {
         let mut asked = Vec::new();
-        let image = in_parts(&params(samples), 8, |part| {
+        let image = in_batches(&params(samples), 8, |part| {
             asked.push(*part);
             Ok::<_, ()>(Timed {
                 value: vec![[1.0, part.samples as f32, asked.len() as f32]],
@@ -111,7 +128,8 @@ mod tests {
     #[test]
     fn long_paths_go_alone() {
         assert_eq!(
-            [0, 1, 5, 7, 15, 64, u32::MAX].map(paths_per_invocation),
+            [0, 1, 5, 7, 15, 64, u32::MAX]
+                .map(|bounces| Integrator::Path { bounces }.samples_per_invocation()),
             [16, 8, 2, 2, 1, 1, 1]
         );
     }

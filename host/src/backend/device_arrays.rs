@@ -1,0 +1,108 @@
+//! A frame of a scene, and what its lights are chosen by, on a device.
+
+use std::time::Duration;
+
+use bytemuck::Pod;
+use lightbvh::{EmissiveTriangle, Instance};
+use lightbvh_kernels::bvh::{Choice, TreeOf, TreePush};
+use lightbvh_kernels::shading::camera::Camera;
+use lightbvh_kernels::shading::material::Material;
+use lightbvh_kernels::shading::trace::{RayNode, SurfaceTriangle};
+
+use super::{Sampler, SceneArrays};
+use crate::vulkan::{Binding, Buffer, Device, Timings, VulkanError};
+
+/// A frame's arrays on the device.
+pub(super) struct DeviceScene {
+    pub ray_nodes: Buffer<RayNode>,
+    pub surfaces: Buffer<SurfaceTriangle>,
+    pub materials: Buffer<Material>,
+    pub lights: Buffer<EmissiveTriangle>,
+    pub camera: Buffer<Camera>,
+    pub thresholds: Buffer<u32>,
+}
+
+impl DeviceScene {
+    pub fn upload(device: &Device, scene: &SceneArrays) -> Result<Self, VulkanError> {
+        Ok(Self {
+            ray_nodes: device.upload(&scene.rays.nodes)?,
+            surfaces: device.upload(&scene.rays.triangles)?,
+            materials: device.upload(&scene.materials)?,
+            lights: device.upload(scene.lights.triangles())?,
+            camera: device.upload(&[scene.camera])?,
+            thresholds: device.upload(&scene.thresholds)?,
+        })
+    }
+
+    /// The four buffers that a [`Scene`](lightbvh_kernels::shading::pixel::Scene) is made of.
+    pub fn view(&self) -> [Binding<'_>; 4] {
+        [
+            self.ray_nodes.bind(),
+            self.surfaces.bind(),
+            self.materials.bind(),
+            self.lights.bind(),
+        ]
+    }
+
+    /// What a kernel that chooses lights by `sampler` takes from the scene on: the scene, who looks, and what lights are
+    /// chosen by.
+    pub fn with_lights<'a, N: Pod>(
+        &'a self,
+        sampler: Sampler,
+        tree: Option<&'a DeviceTree<N>>,
+    ) -> Vec<Binding<'a>> {
+        let mut bindings = self.view().to_vec();
+        bindings.push(self.camera.bind());
+        match sampler {
+            Sampler::Uniform => {}
+            Sampler::Power => bindings.push(self.thresholds.bind()),
+            Sampler::SingleLevel | Sampler::TwoLevel => {
+                bindings.extend(tree.iter().flat_map(|tree| tree.bindings()));
+            }
+        }
+        bindings
+    }
+}
+
+/// The arrays of a light BVH on the device.
+pub(super) struct DeviceTree<N> {
+    pub nodes: Buffer<N>,
+    pub instances: Buffer<Instance>,
+    pub trails: Buffer<u32>,
+    pub push: TreePush,
+}
+
+impl<N: Pod> DeviceTree<N> {
+    pub fn upload<C: Choice<W, Node = N>, const W: usize>(
+        device: &Device,
+        tree: &TreeOf<'_, C, W>,
+    ) -> Result<Self, VulkanError> {
+        Ok(Self {
+            nodes: device.upload(tree.nodes)?,
+            instances: device.upload(tree.instances)?,
+            trails: device.upload(tree.trails)?,
+            push: TreePush::of(tree),
+        })
+    }
+
+    pub fn bindings(&self) -> [Binding<'_>; 3] {
+        [self.nodes.bind(), self.instances.bind(), self.trails.bind()]
+    }
+}
+
+/// The name of the kernel of `pass` that chooses lights by `sampler`.
+pub(super) fn kernel_name<C: Choice<W>, const W: usize>(pass: &str, sampler: Sampler) -> String {
+    match sampler {
+        Sampler::Uniform => format!("{pass}_uniform"),
+        Sampler::Power => format!("{pass}_power"),
+        Sampler::SingleLevel | Sampler::TwoLevel => format!("{pass}_bvh{}", C::SUFFIX),
+    }
+}
+
+/// The kernels' own time by the device's clock, or else by ours.
+pub(super) fn device_time(timings: &Timings) -> Duration {
+    match &timings.dispatch_ns {
+        Some(ns) => Duration::from_nanos(ns.iter().sum::<f64>() as u64),
+        None => timings.wall,
+    }
+}

@@ -1,0 +1,118 @@
+//! Samples that know nothing of each other: lights chosen by a table, by a tree over all triangles, or by the paper's two
+//! levels.
+
+use std::sync::Arc;
+
+use lightbvh::exact::hash;
+use lightbvh_kernels::bvh::Choice;
+
+use super::moving::Moving;
+use super::{Recipe, Runner, SampleBudget, SequenceId, Step, Target, UpdateTimes, mean_of, time_power_table};
+use crate::backend::{Backend, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed};
+use crate::error::HostError;
+use crate::workload::{RenderSettings, build};
+
+/// Camera rays per pixel that make edges smooth; the light samples of a pixel are shared out among them.
+const MAX_CAMERA_RAYS: u32 = 8;
+
+/// A method of independent samples.
+pub(super) struct Independent<'d, C: Choice<W>, const W: usize> {
+    recipe: Recipe,
+    target: Target<'d>,
+    backend: Box<dyn Follow<C, W> + 'd>,
+    /// The lights of two levels.
+    moving: Option<Moving<C, W>>,
+}
+
+impl<'d, C: Choice<W>, const W: usize> Independent<'d, C, W> {
+    pub fn new(recipe: Recipe, first: &Step<'_>, target: Target<'d>) -> Result<Self, HostError> {
+        let params = recipe.builder.params();
+        let moving = (recipe.lights == Sampler::TwoLevel)
+            .then(|| Moving::<C, W>::new(first, params))
+            .transpose()?;
+        let bvh: Bvh<C, W> = match &moving {
+            Some(moving) => moving.scene().clone(),
+            // Backends come with a tree, which no table walks.
+            None => build(first.lights, recipe.lights, &params),
+        };
+        Ok(Self {
+            recipe,
+            target,
+            backend: target.backend::<C, W>(bvh)?,
+            moving,
+        })
+    }
+}
+
+impl<C: Choice<W>, const W: usize> Runner for Independent<'_, C, W> {
+    fn advance(&mut self, step: &Step<'_>) -> Result<UpdateTimes, HostError> {
+        if let Some(moving) = &mut self.moving {
+            return moving.advance(step, Some(&mut *self.backend));
+        }
+        match self.recipe.lights {
+            Sampler::Power => Ok(time_power_table(step)),
+            Sampler::SingleLevel if self.recipe.rebuilt => {
+                let params = self.recipe.builder.params();
+                let built = Timed::of(|| build(step.lights, Sampler::SingleLevel, &params));
+                self.backend = self.target.backend::<C, W>(built.value)?;
+                Ok(UpdateTimes::waited(built.time))
+            }
+            Sampler::SingleLevel => Ok(UpdateTimes {
+                refit: self.backend.refit(step.lights)?.time,
+                ..UpdateTimes::default()
+            }),
+            Sampler::Uniform | Sampler::TwoLevel => Ok(UpdateTimes::default()),
+        }
+    }
+
+    fn image(
+        &mut self,
+        step: &Step<'_>,
+        arrays: &Arc<SceneArrays>,
+        settings: &RenderSettings,
+        _sequence: SequenceId,
+    ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
+        let recipe = self.recipe;
+        recipe.require_power_table(step, arrays)?;
+        let all = settings.params(step.scene.data().background);
+        let mut render = |params| {
+            self.backend
+                .render(arrays, &params, recipe.lights, recipe.integrator)
+        };
+        match recipe.budget {
+            SampleBudget::ShadowRays => Ok(render(all)?),
+            SampleBudget::CameraRays => {
+                let parts = parts(recipe.integrator, settings.samples);
+                mean_of(parts, settings, |part| {
+                    let mut params = all;
+                    params.samples = settings.samples / parts;
+                    params.seed = hash(settings.seed).wrapping_add(part);
+                    params.jitter = part;
+                    Ok(render(params)?)
+                })
+            }
+        }
+    }
+
+    fn backend(&mut self) -> Option<&mut dyn Backend> {
+        Some(&mut *self.backend)
+    }
+
+    /// A single level has the shape of the first frame or of this one.
+    fn may_skip(&self) -> bool {
+        self.moving.is_none()
+    }
+}
+
+/// Into how many parts the samples of a pixel are shared out, each with a camera ray of its own: of light samples, as few as
+/// make edges smooth; of paths, one part each. A part is one invocation on a device.
+fn parts(integrator: Integrator, samples: u32) -> u32 {
+    let most = integrator.samples_per_invocation();
+    let fits = |&parts: &u32| samples.is_multiple_of(parts) && samples / parts <= most;
+    match integrator {
+        Integrator::Direct if samples > MAX_CAMERA_RAYS => {
+            (MAX_CAMERA_RAYS..=samples).find(fits).unwrap_or(samples)
+        }
+        Integrator::Direct | Integrator::Path { .. } => samples,
+    }
+}
