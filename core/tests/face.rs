@@ -110,6 +110,14 @@ fn no_lights_are_a_tree_that_answers_none() {
             (bvh.to_words(), bvh.is_single_level())
         );
     }
+    // What comes later finds its place.
+    for bvh in trees.iter_mut().filter(|bvh| !bvh.is_single_level()) {
+        let added = bvh.apply(vec![add_mesh(), add(MeshId::added(0), 1.0)]);
+        added.expect("a lamp");
+        bvh.refit();
+        bvh.validate().expect("valid");
+        assert_eq!(bvh.sample(&POINT, 7_u32).light, 0);
+    }
     let eq4 = Bvh::<CompactNode<4>, Eq4, 4>::single_level(&lights, &params);
     assert_eq!(eq4.sample(&POINT, 7_u32).light, INVALID);
 }

@@ -36,11 +36,14 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         params: &BuildParams,
     ) -> Self {
         let mut bvh = Self::new(*params);
+        let meshes: Vec<_> = meshes.map(|range| &triangles[range]).collect();
+        if meshes.is_empty() {
+            return bvh;
+        }
         // The top level of no instances gives its place up, so that no node is left unused.
         for range in core::mem::take(&mut bvh.top.ranges) {
             bvh.node_ranges.give(range);
         }
-        let meshes: Vec<_> = meshes.map(|range| &triangles[range]).collect();
         let topologies = build_each(&meshes, params);
         let mut added = Vec::new();
         for (triangles, topology) in meshes.into_iter().zip(topologies) {
