@@ -128,8 +128,9 @@ mod tests {
             for (k, x) in p.into_iter().enumerate() {
                 mean[k] += f64::from(x) / f64::from(n * n);
             }
-            square += f64::from((Vec3::from(p) - Vec3::new(4.0, 9.0, 8.0) / 3.0).length_squared())
-                / f64::from(n * n);
+            let c = [4.0 / 3.0, 3.0, 8.0 / 3.0];
+            let off = p.into_iter().zip(c).map(|(x, c)| (f64::from(x) - c).powi(2));
+            square += off.sum::<f64>() / f64::from(n * n);
         }
         let c = [4.0 / 3.0, 3.0, 8.0 / 3.0];
         let spread: f64 = light

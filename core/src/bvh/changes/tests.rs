@@ -123,7 +123,7 @@ fn what_only_one_side_does_stays_short() {
     }
     // One mirror takes all of it at once.
     let told = bvh.plan();
-    assert_eq!(told.written_instances, [0..500]);
+    assert!(told.written_instances.iter().eq([&(0..500)]));
     assert!(!told.top.nodes().is_empty());
     bvh.refit();
     bvh.validate().expect("valid");
