@@ -95,7 +95,8 @@ fn no_lights_are_a_tree_that_answers_none() {
     ];
     for bvh in &mut trees {
         bvh.refit();
-        bvh.validate().expect("valid");
+        let stats = bvh.validate().expect("valid");
+        assert_eq!((stats.depth, bvh.depth()), (1, 1), "its empty root");
         let sampled = bvh.sample(&POINT, 7_u32);
         assert_eq!(
             (sampled.light, sampled.instance, sampled.pmf),

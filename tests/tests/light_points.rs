@@ -106,7 +106,9 @@ fn points_on_sampled_lights_agree_with_every_device() {
             .zip(&numbers)
             .map(|(sample, &uv)| light_point(bvh.triangles(), instances, sample, uv))
             .collect();
-        for sample in &samples {
+        // Trees of one level do not look at the instance.
+        let names = |sample: &&SampledLight| !bvh.is_single_level() || sample.instance == INVALID;
+        for sample in samples.iter().filter(names) {
             let world = world_light(bvh.triangles(), instances, sample.light, sample.instance);
             match bvh.triangle(sample.light, sample.instance) {
                 Some(triangle) => assert_eq!(world, triangle),

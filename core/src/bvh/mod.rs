@@ -327,7 +327,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// Greatest number of nodes on a path from the root to a light.
     #[must_use]
     pub fn depth(&self) -> u32 {
-        if self.single {
+        if self.single && !self.blases.is_empty() {
             self.bottom_depth
         } else {
             self.top.depth + self.bottom_depth

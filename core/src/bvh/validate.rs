@@ -146,7 +146,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             instances,
             blases,
             lights,
-            depth: bottom_depth + if self.single { 0 } else { found.depth },
+            depth: bottom_depth + if self.single && blases > 0 { 0 } else { found.depth },
         })
     }
 
