@@ -45,7 +45,7 @@ thread_local! {
 
 /// Runs a function's body. What it fails with, or panics with, becomes its status and the thread's last error.
 pub(crate) fn guard(body: impl FnOnce() -> Result<(), Fault>) -> Status {
-    // Whoever changes something marks it as broken for the time (`Handle::change`).
+    // A change marks the handle as broken while it runs (`Handle::change`).
     let fault = match catch_unwind(AssertUnwindSafe(body)) {
         Ok(Ok(())) => return Status::Ok,
         Ok(Err(fault)) => fault,

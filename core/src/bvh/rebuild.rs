@@ -223,6 +223,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 .map(|(index, _)| index)
                 .collect();
             self.insert_instances(&added);
+            // Where a device refits in place of the CPU, the copy was of roots that are not those of the device.
+            self.changes.new.whole_top |= !self.changes.unrefitted.is_empty();
             // Its words are those of the copy.
             for (index, placed) in (0..).zip(&self.placed).filter(|(_, placed)| placed.live) {
                 let blas = &self.blases[self.meshes[placed.mesh as usize].blas as usize];

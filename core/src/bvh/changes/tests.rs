@@ -101,7 +101,7 @@ fn edits_without_end_before_a_refit_take_no_more_room_than_the_arrays() {
     bvh.validate().expect("valid");
 }
 
-/// Whoever plans and never refits here, or the other way round, pays for what is new.
+/// A plan without refits, and a refit without plans, cost what is new.
 #[test]
 fn what_only_one_side_does_stays_short() {
     let (mut bvh, ids) = lamps(500);
