@@ -208,6 +208,47 @@ fn a_device_follows_a_scene_that_is_never_refitted_itself() {
     }
 }
 
+/// The copy that a rebuild takes has the CPU's roots, which only a device has refitted since.
+#[test]
+fn a_rebuild_swapped_in_reaches_a_device_that_alone_refits() {
+    let mut scene = Bvh::<MomentNode<8>, (), 8>::default();
+    // So many that a change is told by its path, not by all nodes.
+    let meshes: Vec<_> = (0..100)
+        .map(|seed| scene.add_mesh(mesh(3, seed)).expect("a mesh"))
+        .collect();
+    let places = meshes.iter().zip(0u8..).map(|(&mesh, k)| Edit::AddInstance {
+        mesh,
+        transform: Transform::at([f32::from(k % 10), f32::from(k / 10), 0.0]),
+        radiance: 1.0,
+    });
+    let ids = scene.apply(places.collect()).expect("places").instances;
+    scene.refit();
+    let mut device = Device::default();
+    scene.plan();
+    device.follow(&scene);
+    for frame in 0..20 {
+        scene
+            .set_triangles(meshes[frame as usize * 3], mesh(3, 200 + frame))
+            .expect("as many");
+        scene.plan();
+        device.follow(&scene);
+        let rebuild = scene.rebuild(&RebuildParams::default());
+        // Before the copy, and after it.
+        let moved = Transform::at([frame as f32, 20.0, 0.0]);
+        scene.set_transform(ids[frame as usize], moved).expect("there");
+        if frame % 2 == 1 {
+            scene.plan();
+            device.follow(&scene);
+        }
+        scene.install(rebuild.run()).expect("its own");
+        scene.plan();
+        device.follow(&scene);
+        let mut twin = scene.clone();
+        twin.refit();
+        device.assert_is(&twin, frame);
+    }
+}
+
 /// Frames refitted here that no plan was taken of are told by the next plan.
 #[test]
 fn a_device_may_skip_frames() {
