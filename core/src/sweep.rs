@@ -202,3 +202,59 @@ fn each_parallel<N: Copy + Send + Sync>(
         }
     }
 }
+
+#[cfg(all(test, feature = "rayon"))]
+mod tests {
+    use super::*;
+    use crate::{BuildParams, LightBvh, Lights, MomentNode};
+
+    /// Subtrees in subtrees, each on the thread that is free.
+    #[test]
+    fn several_threads_write_the_words_of_one() {
+        let light = |k: u32| {
+            let [x, y, z] = [7, 31, 101].map(|by| (k * by % 499) as f32);
+            EmissiveTriangle {
+                p: [[x, y, z], [x + 1.0, y, z], [x, y + 1.0, z]],
+                radiance: [1.0 + (k % 5) as f32; 3],
+                mesh: 0,
+                flags: 0,
+            }
+        };
+        let lights = Lights::new((0..60_000).map(light).collect()).expect("in the domain");
+        let bvh = LightBvh::single_level(&lights, &BuildParams::FAST);
+        let plan = bvh.plan_of_everything();
+        let range = plan.trees[0].start as usize..plan.trees[0].end as usize;
+        assert!(range.len() > 2 * PARALLEL);
+        // Links and kinds, without what refit computes.
+        let bare: Vec<MomentNode<8>> = bvh.nodes()[range.clone()]
+            .iter()
+            .map(|node| {
+                let mut bare = MomentNode::EMPTY;
+                for slot in 0..8 {
+                    bare.set_child(slot, node.kind(slot), node.link(slot));
+                }
+                bare
+            })
+            .collect();
+        for threads in 1..=3 {
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .expect("threads");
+            let mut nodes = bare.clone();
+            pool.install(|| {
+                bottom_sweep(
+                    &mut nodes,
+                    plan.trees[0].start,
+                    bvh.triangles(),
+                    &[plan.trees[0].start],
+                )
+            });
+            let words: (&[u32], &[u32]) = (
+                bytemuck::cast_slice(&nodes),
+                bytemuck::cast_slice(&bvh.nodes()[range.clone()]),
+            );
+            assert!(words.0 == words.1, "{threads} threads");
+        }
+    }
+}

@@ -1,4 +1,4 @@
-//! The domain of shading points at the door and behind it: what `checked` accepts is sampled, what is beyond all bounds stops a
+//! The domain of shading points: what `checked` accepts is sampled, what is beyond all bounds stops a
 //! debug build.
 
 use lightbvh::point::{MAX_REACH, NORMAL_TOLERANCE};
@@ -14,7 +14,7 @@ fn lamps() -> (Lights, Tree) {
     (lights, bvh)
 }
 
-/// Every point that the door lets in has probabilities that sum to one, and a sample.
+/// Every point that `checked` accepts has probabilities that sum to one, and a sample.
 #[test]
 fn accepted_points_are_sampled() {
     let (lights, bvh) = lamps();
@@ -99,6 +99,6 @@ fn points_up_to_the_last_bound_are_sampled() {
         assert!(point.checked().is_err());
         assert!(bvh.sample(&point, 3u32).pmf > 0.0);
     }
-    // Nothing that the door refuses for good is within it.
+    // What is beyond all bounds is beyond this one too.
     assert!(beyond().iter().all(|point| point.checked().is_err()));
 }

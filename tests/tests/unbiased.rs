@@ -1,4 +1,4 @@
-//! Direct lighting by sampled lights converges to the sum over all lights, whoever samples.
+//! Direct lighting by sampled lights converges to the sum over all lights, for every sampler.
 
 use glam::Vec3;
 use lightbvh::light::uniform_point;

@@ -14,7 +14,7 @@ pub(super) struct Changes {
     pub unrefitted: Pending,
     /// Refitted since the last plan, if there ever was one.
     pub unplanned: Pending,
-    /// Whether anybody takes plans.
+    /// Whether plans are taken.
     pub is_planned: bool,
     /// Whether the last lists are those of all that a refit has to do.
     pub is_fresh: bool,
@@ -51,7 +51,7 @@ impl Changes {
         Some(roots.into_iter().collect())
     }
 
-    /// What is kept for anybody.
+    /// All lists.
     pub fn all(&mut self) -> [&mut Pending; 3] {
         [&mut self.new, &mut self.unrefitted, &mut self.unplanned]
     }

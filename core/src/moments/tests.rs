@@ -343,3 +343,20 @@ fn flux_stays_in_its_range() {
         }
     }
 }
+
+/// The frame's unit is by the greatest of all three coordinates.
+#[test]
+fn frames_reach_as_far_as_their_sets_along_each_axis() {
+    for axis in 0..3 {
+        let mut far = [0.0; 3];
+        far[axis] = 1000.0;
+        let mut sets = [LightMoments::EMPTY; 8];
+        sets[0] = Random(21).set(1.0, 2.0);
+        sets[5] = Random(22).set(1.0, 0.5);
+        sets[5].c = Vec3::from_array(far);
+        let unit = super::merge::framed(&crate::summary::Lanes::of(&sets))
+            .frame
+            .unit_exponent;
+        assert_eq!(unit, 10, "{axis}");
+    }
+}

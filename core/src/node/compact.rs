@@ -25,7 +25,7 @@ const LINK: usize = 6;
 
 /// Units of the half extents are 2^(stored − 127), so that the stored exponent is that of an f32.
 const UNIT_BIAS: i32 = 127;
-/// Least unit that importance reckons with: its square is a normal number.
+/// Least unit that importance computes with: its square is a normal number.
 const LEAST_UNIT: f32 = pow2(-60);
 /// Least exponent of the greatest half extent: boxes below 2^-100 m are rounded up to it.
 const MIN_EXTENT_EXPONENT: i32 = -100;

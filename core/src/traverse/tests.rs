@@ -6,7 +6,7 @@ use core::cell::Cell;
 use core::marker::PhantomData;
 
 use super::*;
-use crate::importance::ImportanceModel;
+use crate::importance::{Defensive, ImportanceModel};
 use crate::instance::Instance;
 use crate::node::{FullMomentNode, kind};
 use crate::point::ShadingPoint;
@@ -152,4 +152,47 @@ fn rings_end_with_the_levels_of_a_trail() {
     let ring = tree(&below, &instances, &[0, 0], u32::MAX);
     assert_eq!(nodes_of(|| ring.sample(&POINT, number)), 1 + levels);
     assert_eq!(nodes_of(|| ring.pmf(&POINT, 0, 0)), 1 + levels);
+}
+
+/// More walks than take turns at once, each by its own number and point; what is left of a turn too.
+#[test]
+fn a_batch_has_the_words_of_single_samples() {
+    let nodes = [node(&[
+        (1.0, kind::LIGHT, 0),
+        (2.0, kind::LIGHT, 1),
+        (3.0, kind::LIGHT, 2),
+        (4.0, kind::LIGHT, 3),
+    ])];
+    let tree = tree(&nodes, &[], &[0, 0, 1, 0, 2, 0, 3, 0], 1);
+    let randoms: [Random64; 21] =
+        core::array::from_fn(|k| Random64::from((k as u32).wrapping_mul(0x9e37_79b9)));
+    let mut sampled = [SampledLight::NONE; 21];
+    NODES.set(0);
+    tree.sample_batch(&[POINT; 21], &randoms, &mut sampled);
+    for (found, random) in sampled.iter().zip(randoms) {
+        assert_eq!(*found, tree.sample(&POINT, random));
+    }
+}
+
+/// Lights of an instance times instances pass 2^32 in hostile words, and nearly in honest ones.
+#[test]
+fn uniform_probabilities_hold_for_any_counts() {
+    let nodes = [node(&[(0.0, kind::EMPTY, 0)])];
+    let instances = [Instance {
+        first: 0,
+        count: 1 << 20,
+        ..Instance::IDENTITY
+    }];
+    let tree = LightTree::<Node, Defensive<Flux, 1>, 4> {
+        nodes: &nodes,
+        root: 0,
+        instances: &instances,
+        trails: &[],
+        trail_words: 2,
+        live: 1 << 16,
+        lights: 0,
+        depth: 1,
+        importance: PhantomData,
+    };
+    assert_eq!(tree.pmf(&POINT, 5, 0), crate::exact::pow2(-37));
 }

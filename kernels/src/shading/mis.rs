@@ -1,4 +1,4 @@
-//! Multiple importance sampling: how two ways to find the same light share it.
+//! Multiple importance sampling: how two techniques that find the same light share it.
 
 use lightbvh::exact::{div, flush, pow2};
 
@@ -6,11 +6,11 @@ use lightbvh::exact::{div, flush, pow2};
 const SMALLEST_RATIO: f32 = pow2(-60);
 
 /// The power heuristic with exponent 2 (E. Veach and L. Guibas, "Optimally Combining Sampling Techniques for Monte Carlo
-/// Rendering", 1995, section 5.2; one sample by each way): the weight of a direction found with density `own`, which
-/// another way finds with density `other`. Densities are 0 or at least 2^-100, and at most 2^104.
+/// Rendering", 1995, section 5.2; one sample by each technique): the weight of a direction found with density `own`, which
+/// the other finds with density `other`. Densities are 0 or at least 2^-100, and at most 2^104.
 ///
-/// The weights of the two ways, each the other's `other`, sum to one within one rounding of each. A density of zero
-/// leaves everything to the other way, and two of them to whoever asks.
+/// The weights of the two techniques, each the other's `other`, sum to one within one rounding of each. A density of zero
+/// leaves everything to the other technique; of two of them, the one that asks has weight 1.
 #[inline]
 #[must_use]
 pub fn power_heuristic(own: f32, other: f32) -> f32 {

@@ -289,3 +289,36 @@ fn nodes_are_filled() {
         }
     }
 }
+
+/// Both sides in their order, with their boxes, by one thread and by several.
+#[test]
+fn both_sides_of_a_plane_have_the_boxes_of_their_primitives() {
+    for seed in 0..20 {
+        let all = random(3 * CHUNK as u32 + 100 * seed);
+        let extent = Extent::of(&all);
+        let plane = Measure::of(&all, &extent, &BuildParams::BALANCED)
+            .plane
+            .expect("a plane");
+        let check = || {
+            let mut to = std::vec![NOTHING; all.len()];
+            let (left, extents) = partition::partition(&all, &mut to, &plane);
+            let sides = to.split_at(left);
+            assert!(sides.0.iter().all(|p| !plane.is_right(p)) && sides.1.iter().all(|p| plane.is_right(p)));
+            for (extent, side) in extents.iter().zip([sides.0, sides.1]) {
+                let own = Extent::of(side);
+                assert_eq!((extent.low, extent.high), (own.low, own.high), "{seed}");
+            }
+            to.iter().map(|p| p.index).collect::<Vec<_>>()
+        };
+        let order = check();
+        #[cfg(feature = "rayon")]
+        for threads in 1..=2 {
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .expect("threads");
+            assert_eq!(pool.install(check), order, "{threads} threads");
+        }
+        assert_eq!(order.len(), all.len());
+    }
+}

@@ -209,3 +209,135 @@ fn small_and_far_lights_are_in_the_world_what_they_are_in_their_mesh() {
     let world = bvh.triangle(0, instance.index()).expect("there");
     world.checked().expect("in the domain");
 }
+
+#[test]
+fn what_is_gone_is_in_no_list() {
+    let (mut bvh, ids) = lamps(60);
+    // A mesh that came and went.
+    let mesh = bvh.add_mesh(std::vec![lamp(); 5]).expect("a mesh");
+    bvh.apply(std::vec![Edit::RemoveMesh(mesh)]).expect("unused");
+    // Nodes that lost children, of a top level that is no more.
+    bvh.apply(ids[9..].iter().map(|&id| Edit::RemoveInstance(id)).collect())
+        .expect("there");
+    let rebuild: Rebuild<_, 8> = bvh.rebuild(&RebuildParams::default());
+    bvh.remove_instance(ids[7]).expect("there");
+    bvh.install(rebuild.run()).expect("its own");
+    bvh.refit();
+    assert!(bvh.work().roots.is_empty() && bvh.work().bottom.nodes().is_empty());
+    let own = bvh.top.levels.nodes();
+    assert!(own.len() <= 3 && bvh.work().top.nodes().iter().all(|node| own.contains(node)));
+    bvh.validate().expect("valid");
+}
+
+/// What was built for a mesh or an instance that has gone is not for those which have its place since.
+#[test]
+fn rebuilds_are_not_for_newcomers() {
+    let (mut bvh, ids) = lamps(40);
+    let soup = |seed: u16| -> Vec<_> {
+        let at = |k: u16| f32::from((k * 37 + seed) % 101);
+        let lamps = (0..60).map(|k| {
+            let mut one = lamp();
+            one.p = one.p.map(|v| [v[0] + at(k), v[1] + at(k + 5), v[2]]);
+            one
+        });
+        lamps.collect()
+    };
+    let mesh = bvh.add_mesh(soup(0)).expect("a mesh");
+    let user = bvh.add_instance(mesh, Transform::IDENTITY).expect("one");
+    bvh.refit();
+    let all = RebuildParams {
+        top: true,
+        drift: 0.0,
+    };
+    bvh.set_triangles(mesh, soup(3)).expect("as many");
+    bvh.refit();
+    let rebuild: Rebuild<_, 8> = bvh.rebuild(&all);
+    assert_eq!(rebuild.bottoms().count(), 1);
+    let rebuilt = rebuild.run();
+    bvh.remove_instance(user).expect("there");
+    bvh.apply(std::vec![Edit::RemoveMesh(mesh)]).expect("unused");
+    let newcomer = bvh.add_mesh(soup(50)).expect("a mesh");
+    bvh.remove_instance(ids[0]).expect("there");
+    for x in [80.0, 90.0] {
+        let one = bvh
+            .add_instance(newcomer, Transform::at([x, 0.0, 0.0]))
+            .expect("one");
+        assert!([user.index(), ids[0].index()].contains(&one.index()));
+    }
+    bvh.refit();
+    let index = bvh.meshes[newcomer.index() as usize].blas as usize;
+    let own = bvh.blases[index].nodes.clone();
+    let before = bvh.nodes()[own.start as usize..own.end as usize].to_vec();
+    bvh.install(rebuilt).expect("its own");
+    assert_eq!(bvh.blases[index].nodes, own);
+    assert_eq!(
+        bytemuck::cast_slice::<_, u8>(&before),
+        bytemuck::cast_slice::<_, u8>(&bvh.nodes()[own.start as usize..own.end as usize])
+    );
+    // Beside what was rebuilt, below a new root.
+    assert_eq!(bvh.top.ranges.len(), 3);
+    bvh.refit();
+    bvh.validate().expect("valid");
+}
+
+#[test]
+fn removed_lights_wait_as_long_as_is_said() {
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(std::vec![lamp(); 1000]).expect("a mesh");
+    let add = Edit::AddInstance {
+        mesh,
+        transform: Transform::IDENTITY,
+        radiance: 1.0,
+    };
+    let ids = bvh.apply(std::vec![add; 150]).expect("instances").instances;
+    // More than 65,536, but fewer than there are.
+    let last: Vec<_> = ids.into_iter().rev().collect();
+    let (first, rest) = last.split_at(70);
+    bvh.apply(first.iter().map(|&id| Edit::RemoveInstance(id)).collect())
+        .expect("there");
+    assert_eq!(bvh.removed_lights().len(), 70);
+    // One more than are left, and then all but one.
+    bvh.apply(rest[..10].iter().map(|&id| Edit::RemoveInstance(id)).collect())
+        .expect("there");
+    assert_eq!(bvh.removed_lights()[0], 0..150_000);
+    bvh.remove_instance(rest[10]).expect("there");
+    let told = bvh.take_removed_lights();
+    assert_eq!(told[0], 0..150_000);
+    // Numbers of lights that live are not given again.
+    let new = bvh.add_instance(mesh, Transform::IDENTITY).expect("one more");
+    let new = bvh.lights_of(new).expect("there");
+    for &id in &rest[11..] {
+        let own = bvh.lights_of(id).expect("there");
+        assert!(own.end <= new.start || new.end <= own.start, "{own:?} {new:?}");
+    }
+    bvh.refit();
+    bvh.validate().expect("valid");
+}
+
+/// Trails of a shallow tree stay what they are where a deep one makes all of them wider.
+#[test]
+fn trails_become_wide_together() {
+    let (mut bvh, ids) = lamps(3);
+    let deep = (-58..38).map(|e| {
+        let mut one = lamp();
+        let size = crate::exact::pow2(e);
+        one.p = one
+            .p
+            .map(|v| [size + v[0] * size * 0.01, v[1], v[2] * size * 0.01]);
+        one
+    });
+    let more = std::vec![lamp(), lamp(), lamp()];
+    let shallow = bvh.add_mesh(more).expect("a mesh");
+    bvh.add_instance(shallow, Transform::IDENTITY).expect("one");
+    bvh.add_mesh(deep.collect()).expect("a mesh");
+    assert_eq!(bvh.trail_words, 2);
+    bvh.refit();
+    bvh.validate().expect("valid");
+    let point = crate::ShadingPoint {
+        p: [1.0, 5.0, 1.0],
+        n: [0.0, -1.0, 0.0],
+    };
+    for light in bvh.lights_of(ids[2]).expect("there") {
+        assert!(bvh.pmf(&point, light, ids[2].index()) > 1e-3);
+    }
+}

@@ -256,3 +256,13 @@ fn weights_of_packed_nodes_are_the_table_s() {
 fn weights_of_lean_nodes_are_the_table_s_without_a_box() {
     check::<LeanMomentNode<4>>(Stored::Lean, 3, 0.075);
 }
+
+/// Down to 2^-40 of the distance a frame's unit is what it is.
+#[test]
+fn small_frames_far_away_keep_their_size() {
+    for (below, kept) in [(0, 0), (20, 20), (39, 39), (40, 40), (41, 40), (90, 40)] {
+        let far = Vec3::new(exact::pow2(50), 0.0, 0.0);
+        let frame = crate::importance::frame(far, 50 - below, Vec3::ZERO);
+        assert_eq!(frame.unit, exact::pow2(-kept), "{below}");
+    }
+}
