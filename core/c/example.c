@@ -39,7 +39,8 @@ int main(void)
     lightbvh *bvh = lightbvh_create();
     lightbvh_mesh mesh;
     lightbvh_instance lamps[LAMPS];
-    lightbvh_transform place;
+    lightbvh_transform place, places[LAMPS];
+    uint32_t first, lights;
     lightbvh_triangle larger = lamp;
     lightbvh_point points[POINTS];
     lightbvh_sample samples[POINTS];
@@ -52,10 +53,12 @@ int main(void)
         return 1;
     }
     must(lightbvh_add_mesh(bvh, &lamp, 1, &mesh));
-    for (k = 0; k < LAMPS; k++) {
-        place = at((float)k, 0, 0);
-        must(lightbvh_add_instance(bvh, mesh, &place, 1, &lamps[k]));
+    for (k = 0; k < LAMPS - 1; k++) {
+        places[k] = at((float)k, 0, 0);
     }
+    must(lightbvh_add_instances(bvh, mesh, places, 1, LAMPS - 1, lamps));
+    place = at((float)k, 0, 0);
+    must(lightbvh_add_instance(bvh, mesh, &place, 1, &lamps[k]));
     must(lightbvh_refit(bvh));
 
     /* A frame later: one lamp rises, one is dimmed, one goes, and all of them grow. */
@@ -68,6 +71,8 @@ int main(void)
     must(lightbvh_refit(bvh));
     must(lightbvh_rebuild(bvh));
     must(lightbvh_light_count(bvh, &count));
+    must(lightbvh_lights_of(bvh, lamps[40], &first, &lights));
+    printf("lights %u to %u are of lamp 40\n", (unsigned)first, (unsigned)(first + lights));
     printf("%u lights\n", (unsigned)count);
 
     /* Samples of a row of points on the ground, as words. */
@@ -80,16 +85,18 @@ int main(void)
     for (k = 0; k < POINTS; k++) {
         lightbvh_sample one;
         lightbvh_triangle triangle;
+        lightbvh_light_point on;
         float pmf;
         must(lightbvh_sample_light(bvh, &points[k], randoms[k], &one));
         must(lightbvh_pmf(bvh, &points[k], one.light, one.instance, &pmf));
         must(lightbvh_triangle_of(bvh, one.light, one.instance, &triangle));
+        must(lightbvh_point_of(bvh, one.light, one.instance, 0.25f, 0.5f, &on));
         if (memcmp(&one, &samples[k], sizeof one) != 0 || bits(pmf) != bits(one.pmf)) {
             fprintf(stderr, "point %d: batch, sample and pmf differ\n", k);
             return 1;
         }
-        printf("%" PRIu32 " %" PRIu32 " %08" PRIx32 " %08" PRIx32 "\n", one.light, one.instance, bits(one.pmf),
-               bits(triangle.p[1][0]));
+        printf("%" PRIu32 " %" PRIu32 " %08" PRIx32 " %08" PRIx32 " %08" PRIx32 "\n", one.light, one.instance,
+               bits(one.pmf), bits(triangle.p[1][0]), bits(on.density));
     }
 
     /* What is wrong is refused, with a sentence. */

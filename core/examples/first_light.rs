@@ -2,7 +2,7 @@
 //!
 //! `cargo run -p lightbvh --features std --example first_light` (seconds)
 
-use lightbvh::{EmissiveTriangle, LightBvh, Random64, ShadingPoint, Transform};
+use lightbvh::{Edit, EmissiveTriangle, LightBvh, Random64, ShadingPoint, Transform};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // One triangle of 5 cm² that shines down, W/(m² sr), shared by a hundred instances along a street.
@@ -14,9 +14,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let mut bvh = LightBvh::default();
     let mesh = bvh.add_mesh(vec![lamp])?;
-    for i in 0..100 {
-        bvh.add_instance(mesh, Transform::at([i as f32, 0.0, 0.0]))?;
-    }
+    let row = (0..100_u8).map(|i| Edit::AddInstance {
+        mesh,
+        transform: Transform::at([f32::from(i), 0.0, 0.0]),
+        radiance: 1.0,
+    });
+    bvh.apply(row.collect())?;
     bvh.refit();
 
     let point = ShadingPoint {

@@ -1,11 +1,14 @@
-//! Why input is refused: what is wrong, where, and what to do about it.
+//! Why input is refused: what is wrong, where, and what to do about it; and the limits of what is accepted.
 
 #[cfg(feature = "alloc")]
 pub use crate::bvh::{EditError, EditReason, Foreign, ReadError};
-pub use crate::light::LightError;
+#[doc(inline)]
+pub use crate::light::{LightError, MAX_COORDINATE, MAX_RADIANCE, MIN_COORDINATE, MIN_RADIANCE};
 #[cfg(feature = "alloc")]
-pub use crate::lights::LightsError;
-pub use crate::point::PointError;
+#[doc(inline)]
+pub use crate::lights::{LightsError, MAX_LIGHTS};
+#[doc(inline)]
+pub use crate::point::{NORMAL_TOLERANCE, PointError};
 #[cfg(feature = "std")]
 pub use crate::rebuilder::RebuildError;
 #[cfg(feature = "alloc")]

@@ -222,7 +222,7 @@ impl Instance {
 
 /// Light `light` of instance `instance` in the world, as a [`SampledLight`](crate::SampledLight) names them: `triangles` are those
 /// of all bottom levels, in the spaces of their meshes. Without radiance where there is no such light. In a single-level tree
-/// `instance` is [`INVALID`], and its one instance is meant.
+/// `instance` is `u32::MAX`, and its one instance is meant.
 #[inline]
 #[must_use]
 pub fn world_light(

@@ -29,7 +29,7 @@
     feature = "std",
     doc = r#"
 ```
-use lightbvh::{EmissiveTriangle, LightBvh, Rebuilder, ShadingPoint, Transform};
+use lightbvh::{Edit, EmissiveTriangle, LightBvh, Rebuilder, ShadingPoint, Transform};
 
 // A lamp of one triangle that shines down: vertices in metres, radiance in W/(m² sr).
 let lamp = EmissiveTriangle {
@@ -40,13 +40,16 @@ let lamp = EmissiveTriangle {
 };
 let mut bvh = LightBvh::default();
 let mesh = bvh.add_mesh(vec![lamp])?;                                    // validated once
-let lamps = (0..100)
-    .map(|i| bvh.add_instance(mesh, Transform::at([i as f32, 0.0, 0.0])))
-    .collect::<Result<Vec<_>, _>>()?;
-let mut rebuilder = Rebuilder::default();
+let row = (0..100).map(|i| Edit::AddInstance {
+    mesh,
+    transform: Transform::at([i as f32, 0.0, 0.0]),
+    radiance: 1.0,
+});
+let lamps = bvh.apply(row.collect())?.instances;                         // a batch: all or nothing, and faster than singly
+let mut rebuilder = Rebuilder::default();                                // no frame waits for it; `Swap::Deterministic` may
 for frame in 0..3 {
-    rebuilder.begin_frame(&mut bvh)?;                                    // swaps in what was built beside the last frame
-    bvh.set_transform(lamps[7], Transform::at([7.0, frame as f32, 0.0]))?; // or many edits at once: bvh.apply(edits)
+    rebuilder.begin_frame(&mut bvh)?;                                    // swaps in what was built beside the frames before
+    bvh.set_transform(lamps[7], Transform::at([7.0, frame as f32, 0.0]))?;
     bvh.refit();                                                         // what the edits touch; or on a device, by bvh.plan()
     rebuilder.end_frame(&bvh);
 

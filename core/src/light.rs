@@ -34,13 +34,16 @@ pub struct EmissiveTriangle {
     pub radiance: [f32; 3],
     /// Index of the mesh light that owns the triangle.
     pub mesh: u32,
-    /// [`TWO_SIDED`] or 0.
+    /// [`TWO_SIDED`](Self::TWO_SIDED) or 0.
     pub flags: u32,
 }
 
 const _: () = assert!(size_of::<EmissiveTriangle>() == 56);
 
 impl EmissiveTriangle {
+    /// Bit of [`flags`](Self::flags): the triangle emits from both faces.
+    pub const TWO_SIDED: u32 = TWO_SIDED;
+
     /// Vertex `k` in 0..3.
     #[inline]
     #[must_use]
@@ -118,13 +121,13 @@ impl core::fmt::Display for LightError {
         match *self {
             Self::Coordinate { vertex, axis, value } => write!(
                 f,
-                "coordinate {} of vertex {vertex} is {value}, expected a finite number of magnitude at most 2^40; \
+                "coordinate {} of vertex {vertex} is {value:e}, expected a finite number of magnitude at most 2^40 (1.1e12); \
                  scale the scene or repair the mesh",
                 ['x', 'y', 'z'][axis]
             ),
             Self::Radiance { channel, value } => write!(
                 f,
-                "{} radiance is {value}, expected 0 or a number from 2^-100 to 2^100; repair the material's emission",
+                "{} radiance is {value:e}, expected 0 or a number from 2^-100 to 2^100 (7.9e-31 to 1.3e30); repair the material's emission",
                 ["red", "green", "blue"][channel]
             ),
         }

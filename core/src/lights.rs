@@ -142,7 +142,7 @@ impl fmt::Display for LightsError {
             ),
             Self::Changed { expected, found } => write!(
                 f,
-                "an update has {found} emissive triangles in other mesh lights than the {expected} before; build anew"
+                "an update has {found} emissive triangles where there were {expected}, or other mesh lights; build anew"
             ),
         }
     }

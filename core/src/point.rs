@@ -106,7 +106,7 @@ impl core::fmt::Display for PointError {
         match *self {
             Self::Coordinate { axis, value } => write!(
                 f,
-                "coordinate {} of a shading point is {value}, expected a finite number of magnitude at most 2^40; \
+                "coordinate {} of a shading point is {value:e}, expected a finite number of magnitude at most 2^40 (1.1e12); \
                  bring the scene nearer to its origin",
                 ['x', 'y', 'z'][axis]
             ),

@@ -1,32 +1,14 @@
 //! Rebuilds on a thread beside the frame (paper section 3.5).
 //!
-//! The paper starts a rebuild right after the top level's refit and lets the next frame wait for it if it must. So does
-//! [`Rebuilder`]: [`end_frame`](Rebuilder::end_frame) takes a copy of what is to be built and hands it to a worker thread,
+//! [`end_frame`](Rebuilder::end_frame) takes a copy of what is to be built and hands it to a worker thread,
 //! [`begin_frame`](Rebuilder::begin_frame) swaps the result in. In between the scene is free: it may be sampled, edited
-//! and refitted as ever.
-//!
-//! ```
-//! # use lightbvh::{EmissiveTriangle, LightBvh, Rebuilder, RebuilderParams, Transform};
-//! # let lamp = EmissiveTriangle { p: [[0.0, 3.0, 0.0], [0.1, 3.0, 0.0], [0.0, 3.0, 0.1]], radiance: [1.0; 3], mesh: 0, flags: 0 };
-//! let mut bvh = LightBvh::default();
-//! let mesh = bvh.add_mesh(vec![lamp])?;
-//! let mut rebuilder = Rebuilder::new(RebuilderParams::default());
-//! for frame in 0..3 {
-//!     let start = rebuilder.begin_frame(&mut bvh)?;
-//!     assert_eq!(start.swapped, frame > 0);
-//!     bvh.add_instance(mesh, Transform::at([frame as f32, 0.0, 0.0]))?;
-//!     bvh.refit();
-//!     rebuilder.end_frame(&bvh);
-//!     // Sample here, while the next top level is built.
-//! }
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
+//! and refitted as ever. The paper lets the next frame wait for the rebuild if it must; here that is a choice,
+//! [`Swap::Deterministic`].
 
 mod clock;
 mod handover;
 mod worker;
 
-use alloc::collections::BTreeSet;
 use alloc::string::String;
 use core::fmt;
 use core::time::Duration;
@@ -34,19 +16,19 @@ use core::time::Duration;
 use self::clock::Clock;
 use self::handover::Outcome;
 use self::worker::{Built, Worker, build};
-use crate::bvh::{Bvh, RebuildParams};
+use crate::bvh::{Bvh, RebuildParams, Taken};
 use crate::node::LightNode;
 
 /// When results are swapped in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Swap {
+    /// In the frame that is due or the first one after it that finds the worker done; never waits.
+    #[default]
+    WhenReady,
     /// In the very frame that is due, waiting for the worker if it is not done: trees depend on the edits alone, never on
     /// how fast the worker was, so that runs and devices can be compared word for word.
-    #[default]
     Deterministic,
-    /// In the frame that is due or the first one after it that finds the worker done; never waits.
-    WhenReady,
 }
 
 /// How a [`Rebuilder`] works.
@@ -62,11 +44,11 @@ pub struct RebuilderParams {
 }
 
 impl Default for RebuilderParams {
-    /// As the paper: due at the start of the next frame, which waits if it must.
+    /// Due at the start of the next frame; no frame waits.
     fn default() -> Self {
         Self {
             after: 1,
-            swap: Swap::Deterministic,
+            swap: Swap::WhenReady,
             rebuild: RebuildParams::default(),
         }
     }
@@ -124,10 +106,8 @@ pub struct Rebuilder<N, const W: usize> {
     params: RebuilderParams,
     worker: Option<Worker<N, W>>,
     flight: Option<Flight<N, W>>,
-    /// Bottom levels refitted since their cost was looked at last.
-    watched: BTreeSet<u32>,
-    /// Whether the scene changed since the last rebuild was taken from it.
-    changed: bool,
+    /// When the last rebuild was taken, if nothing was lost since.
+    taken: Option<Taken>,
     /// How a worker is started.
     start: fn() -> std::io::Result<Worker<N, W>>,
 }
@@ -137,8 +117,6 @@ pub struct Rebuilder<N, const W: usize> {
 struct Flight<N, const W: usize> {
     /// Frames to begin until it is due; at 1 or below, the next one.
     left: u32,
-    /// The bottom levels in it.
-    bottoms: BTreeSet<u32>,
     /// The result, where it was built at once.
     inline: Option<Built<N, W>>,
 }
@@ -157,8 +135,7 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
             params,
             worker: None,
             flight: None,
-            watched: BTreeSet::new(),
-            changed: true,
+            taken: None,
             start: Worker::start,
         }
     }
@@ -201,41 +178,34 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
         let Some(built) = built else {
             return Ok(start);
         };
-        let flight = self.flight.take();
-        match built {
-            Ok((rebuilt, time)) => {
-                scene.install(rebuilt).map_err(|_| RebuildError::Foreign)?;
-                start.swapped = true;
-                start.built = time;
-                Ok(start)
-            }
-            Err(message) => {
-                // What it would have built is still to be built, by a worker that has seen no panic.
-                self.watched
-                    .extend(flight.into_iter().flat_map(|flight| flight.bottoms));
-                self.changed = true;
-                self.worker = None;
-                Err(RebuildError::Panicked { message })
-            }
-        }
+        self.flight = None;
+        // What it would have built is still to be built.
+        let taken = self.taken.take();
+        let (rebuilt, time) = built.map_err(|message| {
+            // By a worker that has seen no panic.
+            self.worker = None;
+            RebuildError::Panicked { message }
+        })?;
+        scene.install(rebuilt).map_err(|_| RebuildError::Foreign)?;
+        self.taken = taken;
+        start.swapped = true;
+        start.built = time;
+        Ok(start)
     }
 
     /// Starts the next rebuild, unless one is under way or there is nothing to build. Comes after the frame's
-    /// [`Bvh::refit`], every frame: it also notes which bottom levels may have lost quality while one is under way.
+    /// [`Bvh::refit`]. What it copies takes time in proportion to the instances and to the meshes deformed since the last rebuild
+    /// started.
     pub fn end_frame<I>(&mut self, scene: &Bvh<N, I, W>) {
-        let work = scene.work();
-        self.changed |= work.computed() > 0;
-        self.watched.extend(&work.roots);
-        if self.flight.is_some() || !self.changed {
+        let now = scene.now();
+        if self.flight.is_some() || self.taken == Some(now) {
             return;
         }
-        let watched = core::mem::take(&mut self.watched);
-        self.changed = false;
-        let job = scene.rebuild_among(&self.params.rebuild, watched);
+        let job = scene.rebuild_since(&self.params.rebuild, self.taken);
+        self.taken = Some(now);
         if job.is_empty() {
             return;
         }
-        let bottoms = job.bottoms().collect();
         if self.worker.is_none() {
             self.worker = (self.start)().ok();
         }
@@ -245,7 +215,6 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
         };
         self.flight = Some(Flight {
             left: self.params.after,
-            bottoms,
             inline: refused.map(build),
         });
     }
@@ -274,6 +243,7 @@ mod tests {
                 .meshes[0];
             let mut rebuilder = Rebuilder::new(RebuilderParams {
                 after: 2,
+                swap: Swap::Deterministic,
                 ..RebuilderParams::default()
             });
             if !threads {
@@ -297,5 +267,71 @@ mod tests {
             frames.collect::<alloc::vec::Vec<_>>()
         };
         assert!(run(true) == run(false));
+    }
+
+    fn line(k: u16, step: f32) -> EmissiveTriangle {
+        let x = f32::from(k) * step;
+        EmissiveTriangle {
+            p: [[x, 0.0, 0.0], [x + 0.5, 0.0, 0.0], [x, 0.5, 0.1]],
+            radiance: [1.0; 3],
+            mesh: 0,
+            flags: 0,
+        }
+    }
+
+    type Own = Rebuilder<crate::MomentNode<8>, 8>;
+
+    /// A mesh, and a rebuilder that has seen it.
+    fn seen() -> (crate::LightBvh, crate::MeshId, Own) {
+        let mut bvh = crate::LightBvh::default();
+        let mesh = bvh
+            .add_mesh((0..200).map(|k| line(k, 1.0)).collect())
+            .expect("a mesh");
+        bvh.add_instance(mesh, Transform::IDENTITY).expect("one");
+        bvh.refit();
+        let mut rebuilder = Own::new(RebuilderParams {
+            swap: Swap::Deterministic,
+            rebuild: RebuildParams {
+                top: false,
+                drift: 1.5,
+            },
+            ..RebuilderParams::default()
+        });
+        rebuilder.end_frame(&bvh);
+        assert!(!rebuilder.is_busy(), "as it was built");
+        (bvh, mesh, rebuilder)
+    }
+
+    fn scrambled() -> alloc::vec::Vec<EmissiveTriangle> {
+        (0..200).map(|k| line(k * 77 % 200, 10.0)).collect()
+    }
+
+    #[test]
+    fn other_refits_and_plans_hide_nothing() {
+        let (mut bvh, mesh, mut rebuilder) = seen();
+        bvh.set_triangles(mesh, scrambled()).expect("as many");
+        bvh.refit();
+        bvh.refit();
+        bvh.plan();
+        bvh.plan();
+        rebuilder.end_frame(&bvh);
+        assert!(rebuilder.is_busy());
+        assert!(rebuilder.begin_frame(&mut bvh).expect("its own").swapped);
+    }
+
+    #[test]
+    fn what_was_built_for_another_is_built_again() {
+        let (mut bvh, mesh, mut rebuilder) = seen();
+        bvh.set_triangles(mesh, scrambled()).expect("as many");
+        bvh.refit();
+        rebuilder.end_frame(&bvh);
+        let mut other = crate::LightBvh::default();
+        assert_eq!(rebuilder.begin_frame(&mut other), Err(RebuildError::Foreign));
+        rebuilder.end_frame(&bvh);
+        assert!(rebuilder.begin_frame(&mut bvh).expect("its own").swapped);
+        // Once is enough.
+        bvh.refit();
+        rebuilder.end_frame(&bvh);
+        assert!(!rebuilder.is_busy());
     }
 }

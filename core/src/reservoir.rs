@@ -35,7 +35,7 @@ pub const MAX_COUNT: u32 = 1 << 16;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct LightSample {
-    /// Index of the emissive triangle, or [`INVALID`].
+    /// Number of the light, or [`SampledLight::INVALID`](crate::SampledLight::INVALID).
     pub light: u32,
     /// The two numbers in [0, 1) that the point on it was chosen by.
     pub uv: [f32; 2],

@@ -60,7 +60,7 @@ impl<'a, N, I, const W: usize> LightTree<'a, N, I, W> {
         }
     }
 
-    /// The path to triangle `triangle` of the bottom level of instance `instance` ([`INVALID`] in a single-level tree).
+    /// The path to triangle `triangle` of the bottom level of instance `instance` (`u32::MAX` in a single-level tree).
     /// Indices out of range give a path that leads elsewhere; no access is out of range.
     #[inline]
     #[must_use]

@@ -316,11 +316,11 @@ fn dropped_while_it_builds_it_ends() {
         let (mut scene, _) = town::<TEST>(&mut Random::new(40), 30);
         // Never used; idle after a rebuild; in the middle of one.
         drop(Rebuilder::<Slowed<TEST>, 4>::new(RebuilderParams::default()));
-        let mut idle = Rebuilder::new(RebuilderParams::default());
+        let mut idle = Rebuilder::new(params(1, Swap::Deterministic));
         idle.end_frame(&scene);
         idle.begin_frame(&mut scene).expect("no panic");
         drop(idle);
-        let mut busy = Rebuilder::new(RebuilderParams::default());
+        let mut busy = Rebuilder::new(params(1, Swap::Deterministic));
         slowed::set::<TEST>(Pace::Held);
         busy.end_frame(&scene);
         slowed::wait_until_held::<TEST>();
@@ -345,10 +345,7 @@ fn a_mesh_bent_while_a_rebuild_is_under_way_is_built_anew_by_the_next() {
     let random = &mut Random::new(50);
     let (mut scene, mut model) = town::<TEST>(random, 5);
     let mesh = *model.meshes.keys().next().expect("one");
-    let mut rebuilder = Rebuilder::new(RebuilderParams {
-        after: 4,
-        ..RebuilderParams::default()
-    });
+    let mut rebuilder = Rebuilder::new(params(4, Swap::Deterministic));
     let whole = scene_cost(&scene, &model);
     let mut cost = Vec::new();
     for frame in 0..12 {
@@ -412,7 +409,7 @@ fn rebuilds_stop_when_nothing_changes() {
     const TEST: usize = 6;
     slowed::spare();
     let (mut scene, _) = town::<TEST>(&mut Random::new(60), 30);
-    let mut rebuilder = Rebuilder::new(RebuilderParams::default());
+    let mut rebuilder = Rebuilder::new(params(1, Swap::Deterministic));
     let mut swaps = Vec::new();
     for _ in 0..6 {
         swaps.push(rebuilder.begin_frame(&mut scene).expect("no panic").swapped);

@@ -77,6 +77,16 @@ typedef struct lightbvh_sample {
     float pmf;         /* in (0, 1]; 0 with LIGHTBVH_INVALID */
 } lightbvh_sample;
 
+/* A point on a light. Seen at distance d under the cosine c of its normal, a light chosen with probability pmf has the
+ * density pmf * density * d * d / c over solid angle. */
+typedef struct lightbvh_light_point {
+    float p[3];
+    float density;     /* over the triangle's area, 1/m^2; 0 where it has none */
+    float normal[3];   /* of the front side, of length 1 */
+    uint32_t flags;    /* lightbvh_triangle.flags */
+    float radiance[3];
+} lightbvh_light_point;
+
 /* What the last function that failed on this thread had to say, in UTF-8; "" before any did. It stays until the next one
  * fails on this thread. Never null. */
 const char *lightbvh_last_error(void);
@@ -93,6 +103,10 @@ lightbvh_status lightbvh_add_mesh(lightbvh *bvh, const lightbvh_triangle *triang
 /* Puts a mesh into the world. `radiance` is a factor on that of the mesh: 0, or from 2^-60 to 2^60. */
 lightbvh_status lightbvh_add_instance(lightbvh *bvh, lightbvh_mesh mesh, const lightbvh_transform *transform,
                                       float radiance, lightbvh_instance *instance);
+/* As lightbvh_add_instance for `count` places, all or none of them. One at a time takes time in proportion to all instances
+ * there are, each time; together they take it once. */
+lightbvh_status lightbvh_add_instances(lightbvh *bvh, lightbvh_mesh mesh, const lightbvh_transform *transforms,
+                                       float radiance, size_t count, lightbvh_instance *instances);
 lightbvh_status lightbvh_set_transform(lightbvh *bvh, lightbvh_instance instance, const lightbvh_transform *transform);
 /* As the factor of lightbvh_add_instance; 0 turns the instance off. */
 lightbvh_status lightbvh_set_radiance(lightbvh *bvh, lightbvh_instance instance, float radiance);
@@ -123,6 +137,11 @@ lightbvh_status lightbvh_pmf(const lightbvh *bvh, const lightbvh_point *point, u
 /* The triangle, in the world, that a sample names. */
 lightbvh_status lightbvh_triangle_of(const lightbvh *bvh, uint32_t light, uint32_t instance,
                                      lightbvh_triangle *triangle);
+/* The numbers of an instance's lights: `count` from `first`, triangle by triangle of its mesh. */
+lightbvh_status lightbvh_lights_of(const lightbvh *bvh, lightbvh_instance instance, uint32_t *first, uint32_t *count);
+/* A point on a light, uniform over its area where the numbers u and v are over [0, 1). */
+lightbvh_status lightbvh_point_of(const lightbvh *bvh, uint32_t light, uint32_t instance, float u, float v,
+                                  lightbvh_light_point *point);
 /* How many lights there are: the triangles of all instances. */
 lightbvh_status lightbvh_light_count(const lightbvh *bvh, size_t *count);
 

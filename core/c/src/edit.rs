@@ -25,7 +25,7 @@ impl From<CTransform> for Transform {
     }
 }
 
-/// C has no batches, so the number of the edit says nothing.
+/// Of one edit, whose number says nothing.
 fn refused(error: EditError) -> Fault {
     Fault::new(Status::Refused, error.reason)
 }
@@ -77,6 +77,42 @@ pub unsafe extern "C" fn lightbvh_add_instance(
             };
             let added = bvh.apply(vec![add]).map_err(refused)?;
             instance.write(added.instances[0].into());
+            Ok(())
+        })
+    }
+}
+
+/// Many of them at once.
+///
+/// # Safety
+/// As [`lightbvh_add_mesh`], with `count` transforms and instances.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_add_instances(
+    bvh: *mut Handle,
+    mesh: CMesh,
+    transforms: *const CTransform,
+    radiance: f32,
+    count: usize,
+    instances: *mut CInstance,
+) -> Status {
+    // SAFETY: the caller's promise, here and below.
+    unsafe {
+        Handle::change(bvh, |bvh| {
+            let transforms = raw::array(transforms, count, "transforms")?;
+            let instances = raw::places(instances, count, "instances")?;
+            let mesh = mesh.id()?;
+            let add = |&transform: &CTransform| Edit::AddInstance {
+                mesh,
+                transform: transform.into(),
+                radiance,
+            };
+            let bad = |EditError { edit, reason, .. }| {
+                Fault::new(Status::Refused, format!("instance {edit}: {reason}"))
+            };
+            let added = bvh.apply(transforms.iter().map(add).collect()).map_err(bad)?;
+            for (place, instance) in instances.iter_mut().zip(added.instances) {
+                place.write(instance.into());
+            }
             Ok(())
         })
     }

@@ -9,13 +9,14 @@ mod query;
 mod raw;
 
 pub use edit::{
-    CTransform, lightbvh_add_instance, lightbvh_add_mesh, lightbvh_rebuild, lightbvh_refit,
-    lightbvh_remove_instance, lightbvh_remove_mesh, lightbvh_set_radiance, lightbvh_set_transform,
-    lightbvh_set_triangles,
+    CTransform, lightbvh_add_instance, lightbvh_add_instances, lightbvh_add_mesh, lightbvh_rebuild,
+    lightbvh_refit, lightbvh_remove_instance, lightbvh_remove_mesh, lightbvh_set_radiance,
+    lightbvh_set_transform, lightbvh_set_triangles,
 };
 pub use error::{Status, lightbvh_last_error};
 pub use handle::{Handle, lightbvh_create, lightbvh_free};
 pub use ids::{CInstance, CMesh};
 pub use query::{
-    lightbvh_light_count, lightbvh_pmf, lightbvh_sample_batch, lightbvh_sample_light, lightbvh_triangle_of,
+    lightbvh_light_count, lightbvh_lights_of, lightbvh_pmf, lightbvh_point_of, lightbvh_sample_batch,
+    lightbvh_sample_light, lightbvh_triangle_of,
 };

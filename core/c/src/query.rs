@@ -2,10 +2,12 @@
 
 use std::mem::MaybeUninit;
 
-use lightbvh::{EmissiveTriangle, PointError, Random64, SampledLight, ShadingPoint};
+use lightbvh::bvh::EditReason;
+use lightbvh::{EmissiveTriangle, LightBvh, LightPoint, PointError, Random64, SampledLight, ShadingPoint};
 
 use crate::error::{Fault, Status};
 use crate::handle::Handle;
+use crate::ids::CInstance;
 use crate::raw;
 
 /// Points that are sampled together, held on the stack.
@@ -13,6 +15,14 @@ const BATCH: usize = 64;
 
 fn bad_point(error: PointError) -> Fault {
     Fault::new(Status::BadPoint, error)
+}
+
+fn triangle(bvh: &LightBvh, light: u32, instance: u32) -> Result<EmissiveTriangle, Fault> {
+    let missing = || {
+        let message = format!("no light {light} in an instance {instance}");
+        Fault::new(Status::NoLight, message)
+    };
+    bvh.triangle(light, instance).ok_or_else(missing)
 }
 
 /// Chooses a light for a point.
@@ -132,11 +142,56 @@ pub unsafe extern "C" fn lightbvh_triangle_of(
     unsafe {
         Handle::ask(bvh, |bvh| {
             let place = raw::place(triangle, "triangle")?;
-            let found = bvh.triangle(light, instance).ok_or_else(|| {
-                let message = format!("no light {light} in an instance {instance}");
-                Fault::new(Status::NoLight, message)
-            })?;
-            place.write(found);
+            place.write(self::triangle(bvh, light, instance)?);
+            Ok(())
+        })
+    }
+}
+
+/// The numbers of an instance's lights.
+///
+/// # Safety
+/// As [`lightbvh_sample_light`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_lights_of(
+    bvh: *const Handle,
+    instance: CInstance,
+    first: *mut u32,
+    count: *mut u32,
+) -> Status {
+    // SAFETY: the caller's promise, here and below.
+    unsafe {
+        Handle::ask(bvh, |bvh| {
+            let (first, count) = (raw::place(first, "first")?, raw::place(count, "count")?);
+            let id = instance.id()?;
+            let lights = bvh
+                .lights_of(id)
+                .ok_or_else(|| Fault::new(Status::Refused, EditReason::UnknownInstance(id)))?;
+            first.write(lights.start);
+            count.write(lights.end - lights.start);
+            Ok(())
+        })
+    }
+}
+
+/// A point on the light that a sample names.
+///
+/// # Safety
+/// As [`lightbvh_sample_light`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_point_of(
+    bvh: *const Handle,
+    light: u32,
+    instance: u32,
+    u: f32,
+    v: f32,
+    point: *mut LightPoint,
+) -> Status {
+    // SAFETY: the caller's promise, here and below.
+    unsafe {
+        Handle::ask(bvh, |bvh| {
+            let place = raw::place(point, "point")?;
+            place.write(triangle(bvh, light, instance)?.point([u, v]));
             Ok(())
         })
     }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use lightbvh::bvh::RebuildParams;
-use lightbvh::{EmissiveTriangle, LightBvh, ShadingPoint, Transform};
+use lightbvh::{Edit, EmissiveTriangle, LightBvh, ShadingPoint, Transform};
 
 /// The static library that Cargo made for this test: beside the test's own program.
 fn library() -> PathBuf {
@@ -43,12 +43,14 @@ fn expected() -> String {
     };
     let mut bvh = LightBvh::default();
     let mesh = bvh.add_mesh(vec![lamp]).unwrap();
-    let lamps: Vec<_> = (0..100)
-        .map(|k| {
-            bvh.add_instance(mesh, Transform::at([k as f32, 0.0, 0.0]))
-                .unwrap()
-        })
-        .collect();
+    let at = |k: u16| Transform::at([f32::from(k), 0.0, 0.0]);
+    let add = |k| Edit::AddInstance {
+        mesh,
+        transform: at(k),
+        radiance: 1.0,
+    };
+    let mut lamps = bvh.apply((0..99).map(add).collect()).unwrap().instances;
+    lamps.push(bvh.add_instance(mesh, at(99)).unwrap());
     bvh.refit();
     bvh.set_transform(lamps[40], Transform::at([40.0, 2.0, 0.0]))
         .unwrap();
@@ -60,7 +62,9 @@ fn expected() -> String {
     let rebuilt = bvh.rebuild(&RebuildParams::default()).run();
     bvh.install(rebuilt).unwrap();
     bvh.refit();
-    let mut text = format!("{} lights\n", bvh.light_count());
+    let lights = bvh.lights_of(lamps[40]).unwrap();
+    let mut text = format!("lights {} to {} are of lamp 40\n", lights.start, lights.end);
+    writeln!(text, "{} lights", bvh.light_count()).unwrap();
     for k in 0..1000_u16 {
         let point = ShadingPoint {
             p: [0.125 * f32::from(k), 0.0, 0.5],
@@ -69,8 +73,14 @@ fn expected() -> String {
         let random = 0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(u64::from(k) + 1);
         let sample = bvh.sample(&point, random);
         let triangle = bvh.triangle(sample.light, sample.instance).unwrap();
-        let (pmf, x) = (sample.pmf.to_bits(), triangle.p[1][0].to_bits());
-        writeln!(text, "{} {} {pmf:08x} {x:08x}", sample.light, sample.instance).unwrap();
+        let density = triangle.point([0.25, 0.5]).density;
+        let [pmf, x, density] = [sample.pmf, triangle.p[1][0], density].map(f32::to_bits);
+        writeln!(
+            text,
+            "{} {} {pmf:08x} {x:08x} {density:08x}",
+            sample.light, sample.instance
+        )
+        .unwrap();
     }
     let error = bvh.remove_mesh(mesh).unwrap_err().reason;
     writeln!(text, "{error}").unwrap();

@@ -64,9 +64,12 @@ fn null_and_unaligned_pointers_are_refused() {
             lightbvh_sample_batch(bvh, &POINT, &7, 1, null_mut()),
             lightbvh_pmf(bvh, &POINT, 0, 0, null_mut()),
             lightbvh_triangle_of(bvh, 0, 0, null_mut()),
+            lightbvh_add_instances(bvh, words([0, 0, 0, 1]), null(), 1.0, 1, null_mut()),
+            lightbvh_lights_of(bvh, words([0; 4]), null_mut(), null_mut()),
+            lightbvh_point_of(bvh, 0, 0, 0.5, 0.5, null_mut()),
             lightbvh_light_count(bvh, null_mut()),
         ];
-        assert_eq!(refused, [Status::BadPointer; 17]);
+        assert_eq!(refused, [Status::BadPointer; 20]);
         // A mesh whose id could not be returned was not made.
         assert_eq!(lightbvh_light_count(bvh, &mut count), Status::Ok);
         assert_eq!(count, 0);
@@ -89,6 +92,8 @@ fn wrong_ids_points_and_lights_are_refused() {
     let mut samples = [SampledLight::NONE; 2];
     let mut triangle = LAMP;
     let place = identity();
+    let (mut count, mut first, mut lights) = (0, 0, 0);
+    let mut on = LAMP.point([0.5, 0.5]);
     // SAFETY: all pointers are good.
     unsafe {
         assert_eq!(lightbvh_add_mesh(bvh, null(), 0, &mut mesh), Status::Refused);
@@ -129,8 +134,28 @@ fn wrong_ids_points_and_lights_are_refused() {
             lightbvh_triangle_of(bvh, 0, u32::MAX, &mut triangle),
             Status::NoLight
         );
+        // The second of two places is bad, so neither is taken.
+        let mut flat = identity();
+        let far: &mut [f32; 12] = (&raw mut flat).cast::<[f32; 12]>().as_mut().unwrap();
+        far[11] = f32::NAN;
+        let mut two = [instance; 2];
+        let status = lightbvh_add_instances(bvh, mesh, [place, flat].as_ptr(), 1.0, 2, two.as_mut_ptr());
+        assert_eq!(status, Status::Refused);
+        assert!(last().starts_with("instance 1"), "{}", last());
+        assert_eq!(lightbvh_light_count(bvh, &mut count), Status::Ok);
+        assert_eq!(count, 1);
+        assert_eq!(
+            lightbvh_lights_of(bvh, instance, &mut first, &mut lights),
+            Status::Ok
+        );
+        assert_eq!((first, lights), (0, 1));
         assert_eq!(lightbvh_remove_instance(bvh, instance), Status::Ok);
         assert_eq!(lightbvh_remove_instance(bvh, instance), Status::Refused);
+        assert_eq!(
+            lightbvh_lights_of(bvh, instance, &mut first, &mut lights),
+            Status::Refused
+        );
+        assert_eq!(lightbvh_point_of(bvh, 0, 0, 0.5, 0.5, &mut on), Status::NoLight);
         assert_eq!(lightbvh_remove_mesh(bvh, mesh), Status::Ok);
         lightbvh_free(bvh);
         lightbvh_free(other);

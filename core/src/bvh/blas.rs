@@ -69,6 +69,11 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         index
     }
 
+    /// What is known of a bottom level as a whole.
+    pub(super) fn root_of(&self, blas: u32) -> N::Summary {
+        self.roots[blas as usize].summary()
+    }
+
     /// Takes a bottom level out.
     pub(super) fn remove_blas(&mut self, index: u32) {
         let blas = &mut self.blases[index as usize];
@@ -76,6 +81,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         blas.nodes = 0..0;
         blas.triangles = 0..0;
         blas.levels = Levels::default();
+        blas.changed = blas.created;
         self.changes.forget_blas(index);
         self.node_ranges.give(nodes);
         self.triangle_ranges.give(triangles);
@@ -142,10 +148,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         );
         self.roots[index as usize] = refit::root(&self.nodes, nodes.start);
         let placed = &self.nodes[nodes.start as usize..nodes.end as usize];
-        self.blases[index as usize].cost = drift(
-            placed,
-            &self.roots[index as usize].summary::<N::Summary>().bounds(),
-        );
+        self.blases[index as usize].cost = drift(placed, &self.root_of(index).bounds());
         self.changes.new.mark_built(index);
     }
 

@@ -38,17 +38,13 @@ impl Changes {
         }
     }
 
-    /// The bottom levels whose roots a refit here would compute; `None` where it has nothing to do.
-    pub fn pending_roots(&self) -> Option<Vec<u32>> {
-        if self.new.is_empty() && self.unrefitted.is_empty() {
-            return None;
-        }
+    /// The bottom levels whose roots a refit here would compute.
+    pub fn pending_roots(&self) -> BTreeSet<u32> {
         let lists = [&self.new, &self.unrefitted];
-        let roots: BTreeSet<u32> = lists
+        let roots = lists
             .into_iter()
-            .flat_map(|pending| pending.blases.union(&pending.built).copied())
-            .collect();
-        Some(roots.into_iter().collect())
+            .flat_map(|pending| pending.blases.union(&pending.built));
+        roots.copied().collect()
     }
 
     /// All lists.
@@ -70,15 +66,13 @@ pub(super) struct Pending {
     pub top_nodes: Vec<u32>,
     /// Whether the whole top level is new.
     pub whole_top: bool,
-    /// Whether all instances count as changed; they are in no list then.
-    pub all_instances: bool,
     pub written_nodes: Vec<Range<u32>>,
     pub written_triangles: Vec<Range<u32>>,
     pub written_trails: Vec<Range<u32>>,
     /// Indices of instances whose words changed; may repeat.
     pub written_instances: Vec<u32>,
-    /// How many ranges were left when they were merged last.
-    merged: usize,
+    /// How many entries were left when repeated ones were dropped last.
+    kept: usize,
 }
 
 impl Pending {
@@ -99,7 +93,6 @@ impl Pending {
             && self.instances.is_empty()
             && self.top_nodes.is_empty()
             && !self.whole_top
-            && !self.all_instances
             && self.written_nodes.is_empty()
             && self.written_triangles.is_empty()
             && self.written_trails.is_empty()
@@ -117,39 +110,44 @@ impl Pending {
         self.instances.extend(other.instances);
         self.top_nodes.extend(other.top_nodes);
         self.whole_top |= other.whole_top;
-        self.all_instances |= other.all_instances;
         self.written_nodes.extend(other.written_nodes);
         self.written_triangles.extend(other.written_triangles);
         self.written_trails.extend(other.written_trails);
         self.written_instances.extend(other.written_instances);
     }
 
-    /// Makes lists that have grown longer than the arrays of so many instances and nodes of the top level short again. It takes no
-    /// longer than the edits that made them long, together.
-    pub fn bound(&mut self, instances: usize, top_nodes: usize) {
-        if self.instances.len().max(self.written_instances.len()) > 2 * instances + 64 {
-            self.all_instances = true;
+    /// Drops repeated entries once the lists have doubled since that was done last: they get no longer than twice the arrays, however
+    /// many edits come before a refit or a plan, and it takes no longer than those edits, together, but for a logarithm.
+    pub fn bound(&mut self) {
+        if self.len() <= 2 * self.kept + 64 {
+            return;
         }
-        if self.all_instances {
-            self.instances.clear();
-            self.written_instances.clear();
+        for list in [
+            &mut self.instances,
+            &mut self.top_nodes,
+            &mut self.written_instances,
+        ] {
+            list.sort_unstable();
+            list.dedup();
         }
-        if self.top_nodes.len() > 2 * top_nodes + 64 {
-            self.top_nodes.clear();
-            self.whole_top = true;
+        for list in [
+            &mut self.written_nodes,
+            &mut self.written_triangles,
+            &mut self.written_trails,
+        ] {
+            *list = merged(core::mem::take(list));
         }
-        let ranges = self.written_nodes.len() + self.written_triangles.len() + self.written_trails.len();
-        if ranges > 2 * self.merged + 64 {
-            self.merged = 0;
-            for list in [
-                &mut self.written_nodes,
-                &mut self.written_triangles,
-                &mut self.written_trails,
-            ] {
-                *list = merged(core::mem::take(list));
-                self.merged += list.len();
-            }
-        }
+        self.kept = self.len();
+    }
+
+    /// Entries of the lists that may repeat.
+    fn len(&self) -> usize {
+        self.instances.len()
+            + self.top_nodes.len()
+            + self.written_instances.len()
+            + self.written_nodes.len()
+            + self.written_triangles.len()
+            + self.written_trails.len()
     }
 
     pub fn mark_instance(&mut self, index: u32) {
@@ -171,5 +169,7 @@ fn merged(mut ranges: Vec<Range<u32>>) -> Vec<Range<u32>> {
     out
 }
 
+#[cfg(test)]
+mod mirror;
 #[cfg(test)]
 mod tests;

@@ -189,7 +189,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         }
     }
 
-    fn mesh_len(&self, id: MeshId) -> usize {
+    pub(super) fn mesh_len(&self, id: MeshId) -> usize {
         self.blases[self.meshes[id.index as usize].blas as usize]
             .triangles
             .len()

@@ -197,22 +197,28 @@ impl fmt::Display for EditError {
 impl fmt::Display for EditReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::UnknownMesh(id) if id.place_in_batch().is_some() => write!(
+                f,
+                "MeshId::added({}), but the edits before it in the batch add fewer meshes",
+                id.index
+            ),
             Self::UnknownMesh(id) => write!(
                 f,
-                "no mesh {} of generation {}; it was removed, or belongs to another light BVH",
-                id.index, id.generation
+                "mesh {} is not there: it was removed, or the id is of another light BVH (a clone has ids of its own: `mesh_id`)",
+                id.index
             ),
             Self::UnknownInstance(id) => write!(
                 f,
-                "no instance {} of generation {}; it was removed, or belongs to another light BVH",
-                id.index, id.generation
+                "instance {} is not there: it was removed, or the id is of another light BVH (a clone has ids of its own: \
+                 `instance_id`)",
+                id.index
             ),
             Self::EmptyMesh => write!(f, "a mesh without emissive triangles; leave it out"),
             Self::Light { index, error } => write!(f, "emissive triangle {index}: {error}"),
             Self::Transform(error) => write!(f, "{error}"),
             Self::Radiance { value } => write!(
                 f,
-                "factor on radiance {value}, expected 0 or a number from 2^-60 to 2^60; put the rest into the mesh"
+                "factor on radiance {value:e}, expected 0 or a number from 2^-60 to 2^60 (8.7e-19 to 1.2e18); put the rest into the mesh"
             ),
             Self::Count { expected, found } => write!(
                 f,

@@ -91,8 +91,10 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         self.light_count
     }
 
-    /// Numbers of lights that are no more, until [`take_removed_lights`](Self::take_removed_lights): what a temporal method must
-    /// forget before it looks at the next frame. Every other light keeps its number.
+    /// Numbers of lights that are no more, until [`take_removed_lights`](Self::take_removed_lights), in the order in which they went;
+    /// ranges do not overlap but for the first of those below. Every other light keeps its number. A temporal method replaces each
+    /// [`Reservoir`](crate::reservoir::Reservoir) of such a light by its [`occluded`](crate::reservoir::Reservoir::occluded): the
+    /// light sends nothing any more, but the samples that it stands for still count; an empty reservoir in its place is biased.
     ///
     /// No new light gets such a number before it is taken. Who never takes them is not left to run out of numbers: once more
     /// than 65,536 wait, and more than there are lights, all of them are free, and the first range is that of every number there was.

@@ -4,7 +4,7 @@
 //! the top level (TLAS) lies in the world, its leaves are instances (paper section 3.2, with the instancing that it leaves
 //! out). A frame is
 //!
-//! 1. [`update`](Bvh::apply) with what changed, checked as a whole before any of it is done;
+//! 1. [`apply`](Bvh::apply) with what changed, checked as a whole before any of it is done;
 //! 2. [`refit`](Bvh::refit), which computes just the nodes that this touches (paper section 3.4), or the same on a device
 //!    by the lists of [`plan`](Bvh::plan), or both;
 //! 3. [`rebuild`](Bvh::rebuild) for the next frame: a [`Rebuild`] is self-contained work for any thread, whose result
@@ -15,7 +15,8 @@
 //! |---|---|
 //! | any affine motion, brightness | the instance's leaf and the nodes above it |
 //! | vertices or emission of a mesh | its bottom level, and the leaves of its instances |
-//! | added or removed instance | a node on top of the top level, or an emptied slot, until the next rebuild |
+//! | removed instance | its slot, empty until the next rebuild, and the nodes above it |
+//! | added instances | a tree over those of the batch and a node on top of the top level, and the trails of all instances: add many in one batch |
 
 mod apply;
 mod blas;
@@ -42,6 +43,8 @@ use core::sync::atomic::{AtomicU32, Ordering};
 
 pub use apply::Added;
 pub use edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
+#[cfg(feature = "std")]
+pub(crate) use rebuild::Taken;
 pub use rebuild::{Foreign, Rebuild, RebuildParams, Rebuilt};
 pub use refit::RefitPlan;
 pub use serial::{FORMAT, ReadError};
@@ -49,7 +52,7 @@ pub use validate::Stats;
 
 pub use crate::levels::Levels;
 #[cfg(feature = "std")]
-pub use crate::rebuilder::RebuilderParams;
+pub use crate::rebuilder::{FrameStart, RebuildError, RebuilderParams, Swap};
 
 use self::blas::Blas;
 use self::ranges::Ranges;
@@ -166,7 +169,8 @@ struct TreeId(u32);
 
 impl TreeId {
     fn next() -> Self {
-        static NEXT: AtomicU32 = AtomicU32::new(0);
+        // From 1: an id of zeros is none.
+        static NEXT: AtomicU32 = AtomicU32::new(1);
         Self(NEXT.fetch_add(1, Ordering::Relaxed))
     }
 }
@@ -352,7 +356,10 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
     /// lights none is chosen.
     #[must_use]
     pub fn sample(&self, point: &ShadingPoint, random: impl Into<Random64>) -> SampledLight {
-        debug_assert!(point.is_within_reach(), "not a shading point: {point:?}");
+        debug_assert!(
+            point.is_within_reach(),
+            "not a shading point: {point:?}; `ShadingPoint::checked` says why"
+        );
         self.tree().sample(point, random)
     }
 
@@ -365,7 +372,10 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
     /// to the bit the one that comes with the sample. 0 where there is no such light.
     #[must_use]
     pub fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {
-        debug_assert!(point.is_within_reach(), "not a shading point: {point:?}");
+        debug_assert!(
+            point.is_within_reach(),
+            "not a shading point: {point:?}; `ShadingPoint::checked` says why"
+        );
         self.tree().pmf(point, light, instance)
     }
 }

@@ -23,7 +23,7 @@ pub struct RebuildParams {
     /// Whether the top level is.
     pub top: bool,
     /// A bottom level is once its cost (paper Eq. 3, summed over its nodes) has grown by this factor since it was built;
-    /// infinite for never.
+    /// infinite for never. What only a device has refitted is not seen to lose quality.
     pub drift: f64,
 }
 
@@ -49,7 +49,7 @@ pub struct Rebuild<N, const W: usize> {
 
 /// When a copy was taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Taken {
+pub(crate) struct Taken {
     tree: u32,
     epoch: u64,
 }
@@ -105,7 +105,7 @@ impl<N: LightNode<W>, const W: usize> Rebuild<N, W> {
     }
 
     /// The bottom levels to build.
-    #[cfg(feature = "std")]
+    #[cfg(test)]
     pub(crate) fn bottoms(&self) -> impl Iterator<Item = u32> + '_ {
         self.bottoms.iter().map(|bottom| bottom.blas)
     }
@@ -147,19 +147,19 @@ fn build_top<N: LightNode<W>, const W: usize>(leaves: &TopLeaves, params: &Build
 }
 
 impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
-    /// Takes a copy of what `params` wants built anew, as it stands after a [`refit`](Self::refit).
+    /// Takes a copy of what `params` wants built anew, as it stands after a [`refit`](Self::refit). It looks for lost quality among
+    /// the bottom levels refitted since they were built, in time in proportion to their nodes; copies of the top level's leaves take
+    /// time in proportion to all instances.
     #[must_use]
     pub fn rebuild(&self, params: &RebuildParams) -> Rebuild<N, W> {
-        self.rebuild_among(params, self.work.roots.iter().copied())
+        self.rebuild_since(params, None)
     }
 
-    /// As [`rebuild`](Self::rebuild), but looks for lost quality among these bottom levels instead of those of the last
-    /// refit; one that is no more is passed over.
-    pub(crate) fn rebuild_among(
-        &self,
-        params: &RebuildParams,
-        refitted: impl IntoIterator<Item = u32>,
-    ) -> Rebuild<N, W> {
+    /// As [`rebuild`](Self::rebuild), but looks for lost quality among the bottom levels refitted since then.
+    pub(crate) fn rebuild_since(&self, params: &RebuildParams, since: Option<Taken>) -> Rebuild<N, W> {
+        let since = since
+            .filter(|since| since.tree == self.id.0)
+            .map_or(0, |since| since.epoch);
         let top = params.top.then(|| TopLeaves {
             instances: self.instances.clone(),
             roots: self.roots.clone(),
@@ -169,18 +169,13 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 .map(|(index, _)| index)
                 .collect(),
         });
-        let drifted = refitted.into_iter().filter(|&blas| {
-            let Some(own) = self.blases.get(blas as usize) else {
-                return false;
-            };
+        let drifted = (0..).zip(&self.blases).filter(|&(blas, own)| {
             let nodes = &self.nodes[own.nodes.start as usize..own.nodes.end as usize];
             params.drift.is_finite()
-                && !nodes.is_empty()
-                && drift(nodes, &self.roots[blas as usize].summary::<N::Summary>().bounds())
-                    > params.drift * own.cost
+                && own.changed > own.created.max(since)
+                && drift(nodes, &self.root_of(blas).bounds()) > params.drift * own.cost
         });
-        let bottoms = drifted.map(|blas| {
-            let own = &self.blases[blas as usize];
+        let bottoms = drifted.map(|(blas, own)| {
             let range = own.triangles.clone();
             Bottom {
                 blas,
@@ -237,7 +232,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         Ok(())
     }
 
-    fn now(&self) -> Taken {
+    pub(crate) fn now(&self) -> Taken {
         Taken {
             tree: self.id.0,
             epoch: self.epoch,

@@ -51,6 +51,9 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// Says what changed since the last call: the lists of [`work`](Self::work), for a mirror on a device that does them in its place,
     /// call by call without gaps. Whether and when the BVH is refitted here does not matter. The first call says what changed since
     /// the last [`refit`](Self::refit); a mirror takes over all arrays before it.
+    ///
+    /// Where only a device refits, nodes here stay as they were: samples taken here are of that tree, and a
+    /// [`rebuild`](Self::rebuild) sees no bottom level lose quality. A refit here, now and then, is enough for both.
     pub fn plan(&mut self) -> &RefitPlan {
         self.changes.is_planned = true;
         let new = core::mem::take(&mut self.changes.new);
@@ -94,7 +97,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             pending.join(new);
             self.gather(pending)
         };
-        self.epoch += 1;
+        self.epoch += u64::from(work.computed() > 0);
         sweep::trees(&mut self.nodes, &self.triangles, &work.trees);
         for &blas in &work.roots {
             let root = self.roots[blas as usize].node;
@@ -135,9 +138,6 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             written_instances: joined(pending.written_instances.clone()),
             ..RefitPlan::default()
         };
-        if pending.all_instances {
-            work.written_instances = alloc::vec![0..self.placed.len() as u32];
-        }
         let mut instances = pending.instances.clone();
         let mut lists = Vec::new();
         for &blas in &pending.blases {
@@ -153,7 +153,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         }
 
         let all = self.top.leaves.len();
-        if pending.whole_top || pending.all_instances || instances.len() > all * W / MOST {
+        if pending.whole_top || instances.len() > all * W / MOST {
             work.top = self.top.levels.clone();
         } else {
             self.dirty_top(&instances, &pending.top_nodes, &mut work);
@@ -163,10 +163,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
 
     /// Keeps the lists of changes as short as the arrays, however many edits come before a refit or a plan.
     pub(super) fn bound_changes(&mut self) {
-        let instances = self.placed.len();
-        let top_nodes = self.top.levels.nodes().len();
         for pending in self.changes.all() {
-            pending.bound(instances, top_nodes);
+            pending.bound();
         }
     }
 

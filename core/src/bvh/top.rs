@@ -248,8 +248,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// What is known of an instance in the world.
     fn in_world(&self, index: u32) -> N::Summary {
         let instance = &self.instances[index as usize];
-        let local = self.roots[instance.blas as usize].summary::<N::Summary>();
-        local.to_world(instance)
+        self.root_of(instance.blas).to_world(instance)
     }
 
     /// Walks the top level and notes where everything is: parents, levels, lists, and the place and trail of each instance.

@@ -25,14 +25,21 @@ pub enum TransformError {
 impl fmt::Display for TransformError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::Entry { row, column, value } => write!(
-                f,
-                "row {row}, column {column} of a transform is {value}, expected a finite number of magnitude at most \
-                 2^40; repair the animation"
-            ),
+            Self::Entry { row, column, value } => {
+                if column < 3 {
+                    write!(f, "columns[{column}][{row}]")?;
+                } else {
+                    write!(f, "translation[{row}]")?;
+                }
+                write!(
+                    f,
+                    " of a transform is {value:e}, expected a finite number of magnitude at most 2^40 (1.1e12); repair the \
+                     animation"
+                )
+            }
             Self::TooFar { metres } => write!(
                 f,
-                "a transform may move a mesh as far as {metres} m, expected at most 2^40 m; scale the scene or move its \
+                "a transform may move a mesh as far as {metres:e} m, expected at most 2^40 m (1.1e12); scale the scene or move its \
                  origin"
             ),
         }

@@ -45,7 +45,7 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> LightTree<'_, N,
     }
 
     /// The probability with which [`sample`](Self::sample) returns light `light` of instance `instance`
-    /// ([`INVALID`](crate::INVALID) in a single-level tree) at `point`: 0 if there is no such light.
+    /// ([`SampledLight::INVALID`] in a single-level tree) at `point`: 0 if there is no such light.
     #[inline(always)]
     #[must_use]
     pub fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {

@@ -16,16 +16,19 @@ use crate::tree::{INVALID, LightTree};
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct SampledLight {
-    /// Number of the light; [`INVALID`] when no light has flux. (A share of uniform choice may return a light without flux,
+    /// Number of the light; [`INVALID`](Self::INVALID) when no light has flux. (A share of uniform choice may return a light without flux,
     /// with the probability that it has.)
     pub light: u32,
-    /// Index of its instance; [`INVALID`] in a single-level tree and where there is no light.
+    /// Index of its instance; [`INVALID`](Self::INVALID) in a single-level tree and where there is no light.
     pub instance: u32,
-    /// Probability of this light at this point, in (0, 1]; 0 with [`INVALID`].
+    /// Probability of this light at this point, in (0, 1]; 0 with [`INVALID`](Self::INVALID).
     pub pmf: f32,
 }
 
 impl SampledLight {
+    /// No light, or no instance: `u32::MAX`, everywhere in this crate.
+    pub const INVALID: u32 = INVALID;
+
     /// No light has flux.
     pub const NONE: Self = Self {
         light: INVALID,

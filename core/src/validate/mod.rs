@@ -14,9 +14,9 @@ use crate::tree::INVALID;
 /// A word that is not what it must be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Violation {
-    /// Index of the node, or [`INVALID`] where it is about no node.
+    /// Index of the node, or `u32::MAX` where it is about no node.
     pub node: u32,
-    /// Slot of the child, or [`INVALID`] where it is about no child.
+    /// Slot of the child, or `u32::MAX` where it is about no child.
     pub slot: u32,
     /// What the words are.
     pub what: What,

@@ -3,6 +3,7 @@
 
 use std::time::Instant;
 
+use lightbvh::bvh::Swap;
 use lightbvh::{BuildParams, Rebuilder, RebuilderParams};
 use lightbvh_kernels::bvh::Choice;
 
@@ -23,7 +24,11 @@ impl<C: Choice<W>, const W: usize> Moving<C, W> {
     pub fn new(first: &Step<'_>, params: BuildParams) -> Result<Self, HostError> {
         let (scene, instances) =
             Instances::new(first.scene, first.frame, params).map_err(|source| first.refused(source))?;
-        let mut rebuilder = Rebuilder::new(RebuilderParams::default());
+        // Every frame the same on all backends, for which it may wait.
+        let mut rebuilder = Rebuilder::new(RebuilderParams {
+            swap: Swap::Deterministic,
+            ..RebuilderParams::default()
+        });
         rebuilder.end_frame(&scene);
         Ok(Self {
             scene,

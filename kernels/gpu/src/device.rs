@@ -10,7 +10,7 @@ pub const VULKAN: (u32, u32) = (1, 2);
 pub const REQUIRED_FEATURES: &[&str] = &["vulkanMemoryModel"];
 
 /// Storage buffers that the greediest kernel takes; `maxPerStageDescriptorStorageBuffers` must be at least that. The passes
-/// over a light BVH (refit, sample, pmf) take 6 at most.
+/// over a light BVH (refit, sample, pmf) take 5 at most.
 pub const STORAGE_BUFFERS: u32 = 12;
 
 /// Bytes of push constants that the greediest kernel takes at most: what every device has (`maxPushConstantsSize`).

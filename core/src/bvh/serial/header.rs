@@ -18,7 +18,6 @@ pub(super) const HEADER_WORDS: usize = 20;
 
 const SINGLE: u32 = 1;
 const FORGOTTEN: u32 = 2;
-const PENDING: u32 = 4;
 
 fn flag(is_set: bool, bit: u32) -> u32 {
     if is_set { bit } else { 0 }
@@ -30,8 +29,6 @@ pub(super) struct Header {
     pub params: BuildParams,
     pub single: bool,
     pub forgotten: bool,
-    /// Whether a refit is still to compute the roots.
-    pub pending: bool,
     pub bottom_depth: u32,
     /// Lengths of the arrays, places not in use included.
     pub nodes: u32,
@@ -46,7 +43,7 @@ pub(super) struct Header {
     pub top_root: u32,
     pub top_ranges: u32,
     pub top_leaves: u32,
-    /// Number of roots that the last refit computed, or the next one will.
+    /// Number of bottom levels that may have lost quality.
     pub refitted: u32,
 }
 
@@ -61,7 +58,7 @@ impl Header {
             0,
             layout(N::NAME),
             W as u32,
-            flag(self.single, SINGLE) | flag(self.forgotten, FORGOTTEN) | flag(self.pending, PENDING),
+            flag(self.single, SINGLE) | flag(self.forgotten, FORGOTTEN),
             heuristic.unwrap_or(0) as u32 | ((effort.unwrap_or(0) as u32) << 8),
             self.params.buckets,
             self.bottom_depth,
@@ -106,7 +103,7 @@ impl Header {
             return Err(ReadError::Width { expected: W, found });
         }
         let flags = words.one()?;
-        words.expect(flags & !(SINGLE | FORGOTTEN | PENDING) == 0, "flags")?;
+        words.expect(flags & !(SINGLE | FORGOTTEN) == 0, "flags")?;
         let built = words.one()?;
         let heuristic = HEURISTICS.get((built & 255) as usize);
         let effort = EFFORTS.get((built >> 8) as usize);
@@ -134,7 +131,6 @@ impl Header {
             },
             single: flags & SINGLE != 0,
             forgotten: flags & FORGOTTEN != 0,
-            pending: flags & PENDING != 0,
             bottom_depth,
             nodes,
             triangles,

@@ -34,7 +34,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         bvh.read_nodes(words, &header)?;
         bvh.read_triangles(words, &header)?;
         bvh.restore(&header, leaves)?;
-        bvh.restore_work(&header, refitted)?;
+        bvh.restore_changes(refitted)?;
         Ok(bvh)
     }
 

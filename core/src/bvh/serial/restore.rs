@@ -39,21 +39,18 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         Ok(())
     }
 
-    /// The roots that the last refit computed, whose bottom levels may have lost quality, or that the next one shall.
-    pub(super) fn restore_work(&mut self, header: &Header, roots: Vec<u32>) -> Result<(), ReadError> {
+    /// The bottom levels that may have lost quality.
+    pub(super) fn restore_changes(&mut self, refitted: Vec<u32>) -> Result<(), ReadError> {
         self.changes = Changes::default();
-        if header.pending {
-            if roots
-                .iter()
-                .any(|&blas| self.blases[blas as usize].nodes.is_empty())
-            {
+        self.epoch = 1;
+        for blas in refitted {
+            let own = &mut self.blases[blas as usize];
+            if own.nodes.is_empty() {
                 return Err(ReadError::Places {
                     what: "refitted bottom levels",
                 });
             }
-            self.changes.new.built.extend(roots);
-        } else {
-            self.work.roots = roots;
+            own.changed = self.epoch;
         }
         Ok(())
     }

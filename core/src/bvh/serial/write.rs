@@ -9,14 +9,16 @@ use crate::tree::INVALID;
 
 impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     pub(super) fn written(&self) -> Vec<u32> {
-        // A refit that is still to come computes these.
-        let pending = self.changes.pending_roots();
-        let refitted = pending.as_deref().unwrap_or(&self.work.roots);
+        // Those that a refit has changed since they were built, or will.
+        let mut refitted = self.changes.pending_roots();
+        let changed = (0..)
+            .zip(&self.blases)
+            .filter(|(_, own)| own.changed > own.created);
+        refitted.extend(changed.map(|(blas, _)| blas));
         let header = Header {
             params: self.params,
             single: self.single,
             forgotten: self.forgotten,
-            pending: pending.as_ref().is_some_and(|roots| !roots.is_empty()),
             bottom_depth: self.bottom_depth,
             nodes: self.nodes.len() as u32,
             triangles: self.triangles.len() as u32,
