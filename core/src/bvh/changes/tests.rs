@@ -79,6 +79,27 @@ fn instances_added_since_a_rebuild_cost_their_paths() {
     bvh.validate().expect("valid");
 }
 
+/// Where the top level would be too deep it is built anew, which a plan tells together with what it has not told yet.
+#[test]
+fn a_top_level_built_anew_is_told_as_a_whole() {
+    let (mut bvh, _) = lamps(1000);
+    let mesh = bvh.mesh_id(0).expect("there");
+    bvh.plan();
+    for k in 0.. {
+        bvh.add_instance(mesh, Transform::at([k as f32, 50.0, 0.0]))
+            .expect("one more");
+        if bvh.changes.new.whole_top {
+            break;
+        }
+        bvh.refit();
+        assert!(k < 100, "it gets deeper");
+    }
+    assert!(!bvh.changes.unplanned.is_empty());
+    assert_eq!(bvh.plan().top.nodes().len(), bvh.top.levels.nodes().len());
+    bvh.refit();
+    bvh.validate().expect("valid");
+}
+
 #[test]
 fn a_deformed_mesh_is_told_to_an_older_rebuild() {
     let (mut bvh, _) = lamps(100);
