@@ -46,6 +46,15 @@ impl Transform {
         }
     }
 
+    /// The map of a 3 × 4 matrix by rows, the translation in the last column, as `VkTransformMatrixKHR` and DXR's instances have it.
+    #[must_use]
+    pub const fn from_rows([x, y, z]: [[f32; 4]; 3]) -> Self {
+        Self {
+            columns: [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]],
+            translation: [x[3], y[3], z[3]],
+        }
+    }
+
     /// Whether every entry is a number within the domain, and a mesh of that extent stays within it.
     pub(crate) fn check(&self, extent: &Extent) -> Result<(), TransformError> {
         let [a, b, c] = &self.columns;

@@ -96,7 +96,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// [`Reservoir`](crate::reservoir::Reservoir) of such a light by its [`occluded`](crate::reservoir::Reservoir::occluded): the
     /// light sends nothing any more, but the samples that it stands for still count; an empty reservoir in its place is biased.
     ///
-    /// No new light gets such a number before it is taken. Who never takes them is not left to run out of numbers: once more
+    /// No new light gets such a number before it is taken. The exception keeps numbers from running out where they never are: once more
     /// than 65,536 wait, and more than there are lights, all of them are free, and the first range is that of every number there was.
     #[must_use]
     pub fn removed_lights(&self) -> &[Range<u32>] {
