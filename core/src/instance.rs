@@ -265,3 +265,6 @@ fn absolute(v: Vec3) -> Vec3 {
 fn flushed(v: Vec3) -> Vec3 {
     Vec3::new(flush(v.x, TINY), flush(v.y, TINY), flush(v.z, TINY))
 }
+
+#[cfg(all(test, feature = "alloc"))]
+mod tests;

@@ -320,6 +320,22 @@ mod tests {
     }
 
     #[test]
+    fn a_scene_at_rest_is_built_once() {
+        let (mut bvh, ..) = seen();
+        let mut rebuilder = Own::new(RebuilderParams {
+            swap: Swap::Deterministic,
+            ..RebuilderParams::default()
+        });
+        let mut swapped = 0;
+        for _ in 0..20 {
+            swapped += u32::from(rebuilder.begin_frame(&mut bvh).expect("its own").swapped);
+            bvh.refit();
+            rebuilder.end_frame(&bvh);
+        }
+        assert_eq!(swapped, 1);
+    }
+
+    #[test]
     fn what_was_built_for_another_is_built_again() {
         let (mut bvh, mesh, mut rebuilder) = seen();
         bvh.set_triangles(mesh, scrambled()).expect("as many");

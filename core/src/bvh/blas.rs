@@ -136,7 +136,6 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         blas.levels = levels;
         blas.depth = topology.depth;
         blas.created = created;
-        blas.changed = created;
         self.roots[index as usize].node = nodes.start;
 
         let range = nodes.start as usize..nodes.end as usize;

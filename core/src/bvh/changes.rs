@@ -38,13 +38,9 @@ impl Changes {
         }
     }
 
-    /// The bottom levels whose roots a refit here would compute.
-    pub fn pending_roots(&self) -> BTreeSet<u32> {
-        let lists = [&self.new, &self.unrefitted];
-        let roots = lists
-            .into_iter()
-            .flat_map(|pending| pending.blases.union(&pending.built));
-        roots.copied().collect()
+    /// The bottom levels whose nodes a refit here would compute.
+    pub fn deformed(&self) -> BTreeSet<u32> {
+        self.new.blases.union(&self.unrefitted.blases).copied().collect()
     }
 
     /// All lists.
@@ -169,6 +165,8 @@ fn merged(mut ranges: Vec<Range<u32>>) -> Vec<Range<u32>> {
     out
 }
 
+#[cfg(test)]
+mod costs;
 #[cfg(test)]
 mod mirror;
 #[cfg(test)]

@@ -223,7 +223,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             // Its words are those of the copy.
             for (index, placed) in (0..).zip(&self.placed).filter(|(_, placed)| placed.live) {
                 let blas = &self.blases[self.meshes[placed.mesh as usize].blas as usize];
-                if placed.changed.max(blas.changed) > rebuilt.taken.epoch {
+                if placed.changed.max(blas.changed).max(blas.created) > rebuilt.taken.epoch {
                     self.changes.new.instances.push(index);
                 }
             }

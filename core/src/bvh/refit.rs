@@ -91,18 +91,21 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             self.changes.unplanned.join(new.clone());
         }
         self.bound_changes();
+        pending.join(new);
+        let deformed = pending.blases.clone();
         let work = if is_listed {
             core::mem::take(&mut self.work)
         } else {
-            pending.join(new);
             self.gather(pending)
         };
         self.epoch += u64::from(work.computed() > 0);
+        for blas in deformed {
+            self.blases[blas as usize].changed = self.epoch;
+        }
         sweep::trees(&mut self.nodes, &self.triangles, &work.trees);
         for &blas in &work.roots {
             let root = self.roots[blas as usize].node;
             self.roots[blas as usize] = refit::root(&self.nodes, root);
-            self.blases[blas as usize].changed = self.epoch;
         }
         for range in work.top.ranges() {
             sweep::top(

@@ -84,3 +84,15 @@ fn top(half: Wide, n: Wide) -> f64 {
     };
     (0..8).map(corner).fold(f64::NEG_INFINITY, f64::max)
 }
+
+/// Down to 2^-60 of the greatest exponent as they are, and no weight is less than that.
+#[test]
+fn scales_span_sixty_powers_of_two() {
+    for (below, kept) in [(0, 0), (21, 21), (59, 59), (60, 60), (61, 60), (700, 60)] {
+        let weights = super::on_one_scale(&[300, 300 - below].map(|exponent| super::Scaled {
+            significand: 1.5,
+            exponent,
+        }));
+        assert_eq!(weights, [1.5, 1.5 * pow2(-kept)], "{below}");
+    }
+}

@@ -106,6 +106,30 @@ mod tests {
     }
 
     #[test]
+    fn slivers_have_the_density_of_their_area() {
+        for e in [-90, -60, -40, -20] {
+            let light = triangle([[0.0; 3], [1.0, 0.0, 0.0], [1.0, exact::pow2(e), 0.0]]);
+            let at = light.point([0.25, 0.5]);
+            let expected = 2.0_f64.powi(1 - e);
+            assert!(
+                (f64::from(at.density) / expected - 1.0).abs() < 1e-6,
+                "2^{e}: {at:?}"
+            );
+            assert_eq!(at.normal, [0.0, 0.0, 1.0]);
+        }
+    }
+
+    /// Where the numbers sum to more than one, the point is folded back.
+    #[test]
+    fn points_are_in_the_triangle() {
+        let light = triangle([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+        for uv in [[0.75, 0.5], [0.5, 0.625], [0.875, 0.875], [0.25, 0.25]] {
+            let [x, y, _] = light.point(uv).p;
+            assert!(x + y <= 1.0, "{uv:?}: {x} {y}");
+        }
+    }
+
+    #[test]
     fn a_triangle_without_area_has_no_density() {
         for p in [
             [[1.0; 3]; 3],

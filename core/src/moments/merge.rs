@@ -40,7 +40,7 @@ pub(crate) struct Frame {
 
 /// Sets in a frame. Their lengths and mean normals are in units of 2^-31 of the frame's unit and of 1, as the words of packed
 /// nodes give them. No length is above 2^6 of the frame's units; of those with flux the brightest has 1/2 to 2 units of it,
-/// and the least 2^-64.
+/// and the least 2^-40.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Framed<const W: usize> {
     pub frame: Frame,

@@ -360,3 +360,34 @@ fn frames_reach_as_far_as_their_sets_along_each_axis() {
         assert_eq!(unit, 10, "{axis}");
     }
 }
+
+/// A frame is as wide as a centre's offset and an extent can be together, and a little flux stays some beside the brightest.
+#[test]
+fn sets_fit_into_their_frame() {
+    let mut random = Random(23);
+    for _ in 0..2000 {
+        let sets = [0; 8].map(|_| random.set(1.0, 1.0));
+        let rows = super::merge::framed(&crate::summary::Lanes::of(&sets)).sets.0;
+        for i in 0..8 {
+            for k in 0..3 {
+                let reach = rows[super::row::C + k][i].abs() + rows[super::row::H + k][i];
+                assert!(reach <= pow2(31), "{reach:e}");
+            }
+        }
+    }
+    for (ratio, kept) in [(-39, -39), (-40, -40), (-41, -40), (-200, -40)] {
+        let mut sets = [LightMoments::EMPTY; 8];
+        sets[2] = LightMoments {
+            phi: pow2(100),
+            ..random.set(1.0, 1.0)
+        };
+        sets[6] = LightMoments {
+            phi: pow2(100 + ratio),
+            ..random.set(1.0, 1.0)
+        };
+        let rows = super::merge::framed(&crate::summary::Lanes::of(&sets)).sets.0;
+        assert_eq!(rows[super::row::PHI][6], pow2(kept), "{ratio}");
+        assert_eq!(rows[super::row::PHI][0], 0.0);
+        assert!(node::<MomentNode<8>>(&sets).summary(6).phi > 0.0, "{ratio}");
+    }
+}

@@ -196,3 +196,27 @@ fn uniform_probabilities_hold_for_any_counts() {
     };
     assert_eq!(tree.pmf(&POINT, 5, 0), crate::exact::pow2(-37));
 }
+
+/// Lights of a single level are of no instance.
+#[test]
+fn a_single_level_has_no_instances() {
+    let nodes = [node(&[(1.0, kind::LIGHT, 0), (3.0, kind::LIGHT, 1)])];
+    let tree = tree(&nodes, &[], &[0, 0, 1, 0], 1);
+    assert!(tree.pmf(&POINT, 1, INVALID) > 0.7);
+    for instance in [0, 1, INVALID - 1] {
+        assert_eq!(tree.pmf(&POINT, 1, instance), 0.0, "{instance}");
+    }
+}
+
+/// Hostile words: a mesh within a mesh is not entered.
+#[test]
+fn meshes_are_entered_from_the_top_level_alone() {
+    let nodes = [node(&[(1.0, kind::MESH, 0)]), node(&[(1.0, kind::MESH, 0)])];
+    let instances = [Instance {
+        root: 1,
+        ..Instance::IDENTITY
+    }];
+    let ring = tree(&nodes, &instances, &[0, 0], u32::MAX);
+    assert_eq!(nodes_of(|| ring.sample(&POINT, Random64::from(0u32))), 2);
+    assert!(nodes_of(|| ring.pmf(&POINT, 0, 0)) <= max_levels(4) + 1);
+}

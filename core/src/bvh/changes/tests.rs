@@ -344,6 +344,8 @@ fn removed_lights_wait_as_long_as_is_said() {
     bvh.apply(rest[..10].iter().map(|&id| Edit::RemoveInstance(id)).collect())
         .expect("there");
     assert_eq!(bvh.removed_lights()[0], 0..150_000);
+    let read = LightBvh::from_words(&bvh.to_words()).expect("its words");
+    assert_eq!(read.removed_lights(), bvh.removed_lights());
     bvh.remove_instance(rest[10]).expect("there");
     let told = bvh.take_removed_lights();
     assert_eq!(told[0], 0..150_000);
@@ -383,5 +385,35 @@ fn trails_become_wide_together() {
     };
     for light in bvh.lights_of(ids[2]).expect("there") {
         assert!(bvh.pmf(&point, light, ids[2].index()) > 1e-3);
+    }
+}
+
+/// As if nearly all numbers were in use.
+#[test]
+fn removed_lights_wait_less_where_numbers_run_out() {
+    let (mut bvh, _) = lamps(1);
+    bvh.light_count = MAX_LIGHTS - 180_000;
+    bvh.waiting_lights = 89_000;
+    bvh.retire_lights(0..1);
+    assert_eq!(bvh.removed_lights(), [0..1]);
+    bvh.waiting_lights = 91_000;
+    bvh.retire_lights(0..0);
+    assert_eq!(bvh.removed_lights()[0], 0..bvh.light_end());
+}
+
+#[test]
+fn removed_lights_that_were_taken_wait_no_more() {
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(std::vec![lamp(); 1000]).expect("a mesh");
+    let add = Edit::AddInstance {
+        mesh,
+        transform: Transform::IDENTITY,
+        radiance: 1.0,
+    };
+    let ids = bvh.apply(std::vec![add; 250]).expect("instances").instances;
+    for few in ids.chunks(60).take(3) {
+        bvh.apply(few.iter().map(|&id| Edit::RemoveInstance(id)).collect())
+            .expect("there");
+        assert_eq!(bvh.take_removed_lights().len(), 60);
     }
 }

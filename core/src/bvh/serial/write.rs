@@ -10,7 +10,7 @@ use crate::tree::INVALID;
 impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     pub(super) fn written(&self) -> Vec<u32> {
         // Those that a refit has changed since they were built, or will.
-        let mut refitted = self.changes.pending_roots();
+        let mut refitted = self.changes.deformed();
         let changed = (0..)
             .zip(&self.blases)
             .filter(|(_, own)| own.changed > own.created);

@@ -128,3 +128,61 @@ fn random_words_are_refused() {
         harmless::<MomentNode<8>, Moments, 8>(&words, k);
     }
 }
+
+/// Numbers and lists that no tree has, written as they are.
+#[test]
+fn lists_that_are_not_those_of_the_tree_are_refused() {
+    type Small = Bvh<MomentNode<8>, Moments, 8>;
+    let wrong: [fn(&mut Small); 4] = [
+        |bvh| bvh.bottom_depth = 0,
+        |bvh| {
+            bvh.top.leaves.pop();
+        },
+        |bvh| bvh.top.leaves.clear(),
+        |bvh| bvh.top.leaves = [&*bvh.top.leaves; 9].concat(),
+    ];
+    for (k, wrong) in wrong.into_iter().enumerate() {
+        let mut bvh: Small = small();
+        bvh.bottom_depth = bvh.bottom_depth.max(1);
+        assert!(Small::from_words(&bvh.to_words()).is_ok());
+        wrong(&mut bvh);
+        assert!(Small::from_words(&bvh.to_words()).is_err(), "{k}");
+    }
+}
+
+/// A node of a bottom level comes before those below it, and what is below one is together.
+#[test]
+fn nodes_in_another_order_are_refused() {
+    type Deep = Bvh<CompactNode<2>, Eq4, 2>;
+    let lights = super::lights(1, 6);
+    let bvh = Deep::single_level(&lights, &crate::BuildParams::default());
+    let count = bvh.nodes().len();
+    assert!(count >= 5);
+    let mut refused = 0;
+    for i in 1..count {
+        for j in i + 1..count {
+            let mut other = bvh.clone();
+            other.nodes.swap(i, j);
+            for node in &mut other.nodes {
+                for slot in 0..2 {
+                    if node.kind(slot) == crate::node::kind::INNER {
+                        let link = node.link(slot) as usize;
+                        let link = if link == i {
+                            j
+                        } else if link == j {
+                            i
+                        } else {
+                            link
+                        };
+                        node.relink(slot, link as u32);
+                    }
+                }
+            }
+            match Deep::from_words(&other.to_words()) {
+                Ok(read) => assert!(read.validate().is_ok()),
+                Err(_) => refused += 1,
+            }
+        }
+    }
+    assert!(refused > 0);
+}

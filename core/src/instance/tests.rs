@@ -1,0 +1,236 @@
+//! What instances say of their meshes in the world against the same in `f64`.
+
+extern crate std;
+
+use glam::Vec3;
+
+use super::Instance;
+use crate::Transform;
+use crate::bounds::LightBounds;
+use crate::exact::{hash, pow2, unit_f32};
+use crate::moments::LightMoments;
+use crate::point::ShadingPoint;
+
+type Wide = [f64; 3];
+
+struct Random(u32);
+
+impl Random {
+    fn unit(&mut self) -> f32 {
+        self.0 = self.0.wrapping_add(1);
+        unit_f32(hash(self.0))
+    }
+
+    fn signed(&mut self) -> f32 {
+        2.0 * self.unit() - 1.0
+    }
+
+    fn vector(&mut self) -> Vec3 {
+        Vec3::new(self.signed(), self.signed(), self.signed())
+    }
+}
+
+fn dot(a: Wide, b: Wide) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: Wide, b: Wide) -> Wide {
+    [0, 1, 2].map(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3])
+}
+
+fn wide(v: Vec3) -> Wide {
+    v.to_array().map(f64::from)
+}
+
+fn scaled(v: Wide, s: f64) -> Wide {
+    v.map(|x| x * s)
+}
+
+fn unit(v: Wide) -> Wide {
+    scaled(v, 1.0 / dot(v, v).sqrt())
+}
+
+/// The columns of a map, and those of its inverse transposed.
+struct Map {
+    columns: [Wide; 3],
+    normals: [Wide; 3],
+}
+
+impl Map {
+    fn of(columns: [Vec3; 3]) -> Self {
+        let columns = columns.map(wide);
+        let [a, b, c] = columns;
+        let cofactors = [cross(b, c), cross(c, a), cross(a, b)];
+        let determinant = dot(a, cofactors[0]);
+        Self {
+            columns,
+            normals: cofactors.map(|column| scaled(column, 1.0 / determinant)),
+        }
+    }
+
+    fn determinant(&self) -> f64 {
+        dot(self.columns[0], cross(self.columns[1], self.columns[2]))
+    }
+
+    fn by(columns: &[Wide; 3], v: Wide) -> Wide {
+        [0, 1, 2].map(|k| columns[0][k] * v[0] + columns[1][k] * v[1] + columns[2][k] * v[2])
+    }
+
+    /// The map of normals of about unit length.
+    fn normal(&self, v: Wide) -> Wide {
+        let norm: f64 = self.normals.iter().map(|&column| dot(column, column)).sum();
+        scaled(Self::by(&self.normals, v), (3.0 / norm).sqrt())
+    }
+}
+
+/// A map that stretches each axis by up to `stretch`.
+fn map(random: &mut Random, stretch: f32) -> ([Vec3; 3], Map) {
+    loop {
+        let columns = [(); 3].map(|()| random.vector() * (1.0 + random.unit() * stretch));
+        let map = Map::of(columns);
+        if map.determinant().abs() > 0.05 {
+            return (columns, map);
+        }
+    }
+}
+
+fn placed(columns: [Vec3; 3], translation: Vec3, radiance: f32) -> Instance {
+    Transform {
+        columns: columns.map(|column| column.to_array()),
+        translation: translation.to_array(),
+    }
+    .instance(radiance)
+}
+
+#[track_caller]
+fn near(found: f32, expected: f64, size: f64, what: &str) {
+    let off = (f64::from(found) - expected).abs();
+    assert!(off <= 2e-5 * size, "{what}: {found:e}, expected {expected:e}");
+}
+
+/// Σ = va (1 − aaᵀ) + vn aaᵀ becomes AΣAᵀ; the mean normal, the factor on areas and the box are mapped.
+#[test]
+fn moments_in_the_world() {
+    let mut random = Random(1);
+    let mut squashed = 0;
+    for turn in 0..4000 {
+        let size = pow2((turn % 41) - 20);
+        let (columns, map) = map(&mut random, if turn % 3 == 0 { 20.0 } else { 1.0 });
+        let translation = random.vector() * size;
+        let radiance = 0.5 + random.unit();
+        let instance = placed(columns, translation, radiance);
+        let axis = unit(wide(random.vector()));
+        let length = 0.05 + 0.95 * random.unit();
+        let local = LightMoments {
+            phi: 1.0 + random.unit(),
+            c: random.vector() * size,
+            across: random.unit() * size,
+            along: random.unit() * size,
+            m: Vec3::from_array(axis.map(|x| x as f32)) * length,
+            h: Vec3::new(random.unit(), random.unit(), random.unit()) * size,
+        };
+        let found = instance.moments_to_world(&local);
+
+        let greatest = map
+            .columns
+            .iter()
+            .flatten()
+            .fold(0.0, |most: f64, x| most.max(x.abs()));
+        let reach = 4.0 * greatest * f64::from(size);
+        let (va, vn) = (f64::from(local.across).powi(2), f64::from(local.along).powi(2));
+        let mapped = map.normal(axis);
+        let world_axis = unit(mapped);
+        let norm: f64 = map.columns.iter().map(|&column| dot(column, column)).sum();
+        let stretched = Map::by(&map.columns, axis);
+        let total = va * norm + (vn - va) * dot(stretched, stretched);
+        let back = map.columns.map(|column| dot(column, world_axis));
+        let along = va * dot(back, back) + (vn - va) * dot(back, axis).powi(2);
+        // Roots of differences: as exact as the squares are.
+        let squares = reach * reach / 8.0;
+        near(found.along * found.along, along, squares, "along");
+        near(
+            found.across * found.across,
+            0.5 * (total - along),
+            squares,
+            "across",
+        );
+        let m_squared = f64::from(length).powi(2);
+        let area = 1.0 + m_squared * (dot(mapped, mapped).sqrt() - 1.0);
+        squashed += i32::from(area < 0.5);
+        let phi = f64::from(local.phi) * f64::from(instance.flux) * area;
+        near(found.phi, phi, phi, "flux");
+        let center = Map::by(&map.columns, wide(local.c));
+        let box_of = |k: usize| -> f64 {
+            (0..3)
+                .map(|j| map.columns[j][k].abs() * f64::from(local.h[j]))
+                .sum()
+        };
+        for k in 0..3 {
+            near(found.c[k], center[k] + f64::from(translation[k]), reach, "centre");
+            near(found.m[k], world_axis[k] * f64::from(length), 4.0, "normal");
+            near(found.h[k], box_of(k), reach, "half extent");
+        }
+    }
+    assert!(squashed > 100, "{squashed}");
+}
+
+/// A cone stays where the map leaves its axis about as long as it was, to a hundredth of the square; else it is all directions.
+#[test]
+fn cones_stay_where_lengths_stay() {
+    let mut random = Random(7);
+    let (mut kept, mut opened) = (0, 0);
+    for turn in 0..2000 {
+        let (columns, map) = if turn % 2 == 0 {
+            map(&mut random, 1.0)
+        } else {
+            let x = unit(wide(random.vector()));
+            let y = unit(cross(x, wide(random.vector())));
+            let columns = [x, y, cross(x, y)].map(|v| Vec3::from_array(v.map(|x| 3.0 * x as f32)));
+            (columns, Map::of(columns))
+        };
+        let instance = placed(columns, Vec3::new(0.0, 0.0, 0.0), 1.0);
+        let axis = unit(wide(random.vector()));
+        let local = LightBounds {
+            min: Vec3::new(-1.0, -1.0, -1.0),
+            max: Vec3::new(1.0, 1.0, 1.0),
+            axis: Vec3::from_array(axis.map(|x| x as f32)),
+            cos_theta_o: 0.75,
+            cos_theta_e: 0.0,
+            phi: 1.0,
+        };
+        let found = instance.bounds_to_world(&local);
+        let mapped = map.normal(axis);
+        let squared = dot(mapped, mapped);
+        if (squared - 1.0).abs() < 0.0099 {
+            kept += 1;
+            assert_eq!(found.cos_theta_o, 0.75, "{squared}");
+        } else if (squared - 1.0).abs() > 0.0101 {
+            opened += 1;
+            assert_eq!(found.cos_theta_o, -1.0, "{squared}");
+        }
+        for k in 0..3 {
+            near(found.axis[k], unit(mapped)[k], 4.0, "axis");
+        }
+    }
+    assert!(kept > 1000 && opened > 900, "{kept} {opened}");
+}
+
+/// Normals of the mesh's space are of unit length whatever the map's size, down to where its entries count as zero.
+#[test]
+fn normals_come_back_at_unit_length() {
+    let mut random = Random(13);
+    for exponent in [-42, -40, -20, -11, -3, 0, 2, 20, 38] {
+        let (columns, map) = map(&mut random, 1.0);
+        let instance = placed(columns.map(|c| c * pow2(exponent)), Vec3::new(0.0, 0.0, 0.0), 1.0);
+        let n = unit(wide(random.vector()));
+        let point = ShadingPoint {
+            p: [0.0; 3],
+            n: n.map(|x| x as f32),
+        };
+        let expected = unit(map.columns.map(|column| dot(column, n)));
+        let found = instance.to_local(&point).n;
+        for k in 0..3 {
+            near(found[k], expected[k], 1.0, "normal");
+        }
+    }
+}
