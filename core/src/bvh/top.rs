@@ -226,6 +226,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         for node in new.clone().rev().chain([root.start]) {
             self.nodes[node as usize] = refit::top(&self.nodes, &self.instances, &self.roots, node);
         }
+        self.changes.new.instances.extend(added);
         self.top.root = root.start;
         self.top.ranges.extend([new, root]);
         self.index_top();

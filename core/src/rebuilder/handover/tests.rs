@@ -1,7 +1,7 @@
 //! Every interleaving of a frame and its worker, by loom: no job and no result is lost or dropped twice, and nobody waits
 //! for ever (loom reports a deadlock when all threads wait). Jobs and results are counted while they live.
 //!
-//! `RUSTFLAGS="--cfg loom" cargo test -p lightbvh --features std --release --lib handover --target-dir target/loom`
+//! `RUSTFLAGS="--cfg loom" cargo test -p lightbvh --features std --profile quick --lib handover --target-dir target/loom`
 
 extern crate std;
 

@@ -180,7 +180,10 @@ fn nodes_in_another_order_are_refused() {
             }
             match Deep::from_words(&other.to_words()) {
                 Ok(read) => assert!(read.validate().is_ok()),
-                Err(_) => refused += 1,
+                Err(error) => {
+                    assert_eq!(error, ReadError::Places { what: "nodes" });
+                    refused += 1;
+                }
             }
         }
     }
