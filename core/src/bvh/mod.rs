@@ -26,8 +26,10 @@ mod construct;
 mod edit;
 mod lights;
 mod one;
+mod query;
 mod ranges;
 mod rebuild;
+mod records;
 mod refit;
 mod serial;
 #[cfg(test)]
@@ -36,10 +38,8 @@ mod top;
 mod validate;
 
 use alloc::vec::Vec;
-use core::fmt;
 use core::marker::PhantomData;
 use core::ops::Range;
-use core::sync::atomic::{AtomicU32, Ordering};
 
 pub use apply::Added;
 pub use edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
@@ -56,16 +56,14 @@ pub use crate::rebuilder::{FrameStart, RebuildError, RebuilderParams, Swap};
 
 use self::blas::Blas;
 use self::ranges::Ranges;
+use self::records::{InstanceState, Mesh, TreeId};
 use self::top::Top;
 use crate::build::BuildParams;
-use crate::importance::{Defensive, ImportanceModel, Moments};
+use crate::importance::{Defensive, Moments};
 use crate::instance::Instance;
 use crate::light::EmissiveTriangle;
 use crate::node::{LightNode, MomentNode};
-use crate::point::ShadingPoint;
 use crate::refit::BlasRoot;
-use crate::transform::Transform;
-use crate::traverse::{Random64, SampledLight};
 use crate::tree::LightTree;
 
 /// A light BVH that owns its arrays: two levels over instances of emissive meshes, with nodes of layout `N` and width `W`, whose
@@ -131,62 +129,6 @@ pub struct Parts<'a, N> {
 
 /// The light BVH with what measured best for its time: moments on packed nodes of 8 children, 1/64 of uniform choice.
 pub type LightBvh = Bvh<MomentNode<8>, Defensive<Moments, 6>, 8>;
-
-/// A mesh: the bottom level that its instances share.
-#[derive(Clone, Debug)]
-struct Mesh {
-    live: bool,
-    generation: u32,
-    blas: u32,
-    /// Indices of its instances.
-    users: Vec<u32>,
-}
-
-/// An instance as the CPU knows it.
-#[derive(Clone, Debug)]
-struct InstanceState {
-    live: bool,
-    generation: u32,
-    mesh: u32,
-    /// Its place in the mesh's list of users.
-    user: u32,
-    transform: Transform,
-    radiance: f32,
-    /// Its place in the list of instances in use.
-    listed: u32,
-    lights: Range<u32>,
-    /// Where in the top level it is a leaf.
-    node: u32,
-    slot: u32,
-    /// When it came into the scene.
-    created: u64,
-    /// When its words changed last.
-    changed: u64,
-}
-
-/// The number by which a BVH tells its own ids and rebuilds from another's. A copy has another.
-struct TreeId(u32);
-
-impl TreeId {
-    fn next() -> Self {
-        // From 1: an id of zeros is none.
-        static NEXT: AtomicU32 = AtomicU32::new(1);
-        Self(NEXT.fetch_add(1, Ordering::Relaxed))
-    }
-}
-
-impl Clone for TreeId {
-    fn clone(&self) -> Self {
-        Self::next()
-    }
-}
-
-/// Equal BVHs read alike, whatever their numbers are.
-impl fmt::Debug for TreeId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("TreeId")
-    }
-}
 
 impl<N: LightNode<W>, I, const W: usize> Default for Bvh<N, I, W> {
     fn default() -> Self {
@@ -348,34 +290,5 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     #[must_use]
     pub fn summary(&self) -> N::Summary {
         self.nodes[self.tree().root as usize].merged()
-    }
-}
-
-impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
-    /// Chooses a light for `point`, which is within the domain of [`ShadingPoint::checked`]; see [`LightTree::sample`]. Without
-    /// lights none is chosen.
-    #[must_use]
-    pub fn sample(&self, point: &ShadingPoint, random: impl Into<Random64>) -> SampledLight {
-        debug_assert!(
-            point.is_within_reach(),
-            "not a shading point: {point:?}; `ShadingPoint::checked` says why"
-        );
-        self.tree().sample(point, random)
-    }
-
-    /// Chooses a light for each of `points`, points as for [`sample`](Self::sample); see [`LightTree::sample_batch`].
-    pub fn sample_batch(&self, points: &[ShadingPoint], randoms: &[Random64], sampled: &mut [SampledLight]) {
-        self.tree().sample_batch(points, randoms, sampled);
-    }
-
-    /// Probability with which [`sample`](Self::sample) returns `light` of `instance`, as a [`SampledLight`] names them, at `point`:
-    /// to the bit the one that comes with the sample. 0 where there is no such light.
-    #[must_use]
-    pub fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {
-        debug_assert!(
-            point.is_within_reach(),
-            "not a shading point: {point:?}; `ShadingPoint::checked` says why"
-        );
-        self.tree().pmf(point, light, instance)
     }
 }

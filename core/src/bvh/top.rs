@@ -1,8 +1,12 @@
 //! The top level: a tree over instances that edits patch and rebuilds replace.
 
+mod tree;
+
 use alloc::vec::Vec;
 use core::ops::Range;
 
+pub(super) use self::tree::TopTree;
+use self::tree::{Place, without_children};
 use super::Bvh;
 use crate::build::{Topology, build_top};
 use crate::levels::Levels;
@@ -29,83 +33,6 @@ pub(super) struct Top {
     /// By node: the last search that came by.
     pub marks: Vec<u32>,
     pub mark: u32,
-}
-
-/// A top level with all that [`Top`] wants to know of it, made beside the frame. Nodes count from the first, the root.
-#[derive(Debug)]
-pub(super) struct TopTree<N> {
-    nodes: Vec<N>,
-    node_levels: Vec<u32>,
-    levels: Levels,
-    leaves: Vec<u32>,
-    depth: u32,
-    /// In the order of instances, so that putting them in place goes through memory in order.
-    places: Vec<Place>,
-}
-
-/// Where an instance is a leaf.
-#[derive(Clone, Copy, Debug)]
-struct Place {
-    instance: u32,
-    node: u32,
-    slot: u32,
-    trail: BitTrail,
-}
-
-impl<N> TopTree<N> {
-    /// The tree of `topology`, whose leaves link to instances.
-    pub fn new<const W: usize>(topology: Topology<N>, levels: Levels) -> Self
-    where
-        N: LightNode<W>,
-    {
-        let trails = topology.trails.iter();
-        let mut places: Vec<Place> = trails
-            .map(|&(instance, trail)| Place {
-                instance,
-                node: INVALID,
-                slot: 0,
-                trail,
-            })
-            .collect();
-        places.sort_unstable_by_key(|place| place.instance);
-        let mut leaves = Vec::new();
-        for (index, node) in (0..).zip(&topology.nodes) {
-            let mut leaf = false;
-            for slot in (0..W).filter(|&slot| node.kind(slot) == kind::MESH) {
-                leaf = true;
-                if let Ok(at) = places.binary_search_by_key(&node.link(slot), |place| place.instance) {
-                    places[at].node = index;
-                    places[at].slot = slot as u32;
-                }
-            }
-            if leaf {
-                leaves.push(index);
-            }
-        }
-        Self {
-            nodes: topology.nodes,
-            node_levels: topology.levels,
-            levels,
-            leaves,
-            depth: topology.depth,
-            places,
-        }
-    }
-
-    /// A tree without instances.
-    pub fn empty<const W: usize>() -> Self
-    where
-        N: LightNode<W>,
-    {
-        Self {
-            nodes: alloc::vec![without_children::<N, W>()],
-            node_levels: alloc::vec![0],
-            levels: Levels::gather(alloc::vec![(0, 0)]),
-            leaves: Vec::new(),
-            depth: 1,
-            places: Vec::new(),
-        }
-    }
 }
 
 impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
@@ -297,64 +224,5 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     }
 }
 
-/// A node without children, as refit leaves it.
-fn without_children<N: LightNode<W>, const W: usize>() -> N {
-    let mut node = N::EMPTY;
-    node.set_summaries(&[N::Summary::EMPTY; W]);
-    node
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::bvh::RebuildParams;
-    use crate::{CompactNode, Edit, EmissiveTriangle, Transform};
-    use alloc::vec;
-
-    /// What a rebuild knows of its tree is what walking it finds.
-    #[test]
-    fn rebuilt_trees_are_noted_as_walked_ones() {
-        let triangle = EmissiveTriangle {
-            p: [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-            radiance: [1.0; 3],
-            mesh: 0,
-            flags: 0,
-        };
-        let mut scene = Bvh::<CompactNode<4>, crate::Eq4, 4>::default();
-        let triangles = vec![triangle];
-        let mesh = scene
-            .apply(vec![Edit::AddMesh { triangles }])
-            .expect("a mesh")
-            .meshes[0];
-        for count in [0u16, 1, 2, 3, 50, 300] {
-            let add = (0..count).map(|k| Edit::AddInstance {
-                mesh,
-                transform: Transform::at([f32::from(k * 37 % 97), f32::from(k % 7), f32::from(k)]),
-                radiance: 1.0,
-            });
-            let added = scene.apply(add.collect()).expect("instances").instances;
-            // Gaps among the indices.
-            let gone = added
-                .iter()
-                .skip(1)
-                .step_by(3)
-                .map(|&id| Edit::RemoveInstance(id));
-            scene.apply(gone.collect()).expect("they are there");
-            scene.refit();
-            let rebuilt = scene.rebuild(&RebuildParams::default()).run();
-            scene.install(rebuilt).expect("its own");
-            let (noted, instances) = (
-                alloc::format!("{:?}{:?}", scene.top, scene.placed),
-                scene.instances.clone(),
-            );
-            scene.index_top();
-            assert!(
-                noted == alloc::format!("{:?}{:?}", scene.top, scene.placed),
-                "{count}"
-            );
-            assert_eq!(instances, scene.instances, "{count}");
-            scene.refit();
-            scene.validate().expect("valid");
-        }
-    }
-}
+mod tests;

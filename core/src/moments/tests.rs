@@ -370,7 +370,7 @@ fn sets_fit_into_their_frame() {
         let rows = super::merge::framed(&crate::summary::Lanes::of(&sets)).sets.0;
         for i in 0..8 {
             for k in 0..3 {
-                let reach = rows[super::row::C + k][i].abs() + rows[super::row::H + k][i];
+                let reach = exact::abs(rows[super::row::C + k][i]) + rows[super::row::H + k][i];
                 assert!(reach <= pow2(31), "{reach:e}");
             }
         }

@@ -3,6 +3,7 @@
 use alloc::vec;
 
 use super::*;
+use crate::trail::max_levels;
 use crate::{CompactNode, Edit, EmissiveTriangle, Transform};
 
 type Tree = Bvh<CompactNode<2>, crate::Eq4, 2>;

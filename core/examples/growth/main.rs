@@ -1,0 +1,248 @@
+//! How every call of a BVH grows: time (median, and 99.9 %), bytes allocated, and bytes that a device's mirror copies, from 10³ to 10⁶
+//! instances or triangles.
+//!
+//! `cargo run --release -p lightbvh --example growth [-- LARGEST]` (4 min; 1 min up to 100000)
+
+mod any;
+mod measure;
+
+use lightbvh::bvh::RebuildParams;
+use lightbvh::{Edit, EmissiveTriangle};
+
+use any::{queries, wholes};
+use measure::{Scene, at, gone, lamp, nothing, row};
+
+/// Frames in which one of many instances changes.
+fn instances(size: u32) {
+    println!(
+        "\n| one of many instances | instances | calls | µs | 99.9 % | bytes allocated | 99.9 % | bytes for a mirror | 99.9 % |\n|---|---|---|---|---|---|---|---|---|"
+    );
+    let scene = &mut Scene::new(size, 2);
+    queries(scene, size);
+    row(
+        scene,
+        "set_transform",
+        size,
+        |scene| (scene.some(), at(scene.turn)),
+        |scene, (id, to)| scene.bvh.set_transform(id, to),
+    );
+    row(scene, "set_radiance", size, Scene::some, |scene, id| {
+        scene.bvh.set_radiance(id, 2.0)
+    });
+    scene.bvh.refit();
+    let moved = |scene: &mut Scene| {
+        scene.bvh.refit();
+        scene.bvh.plan();
+        let id = scene.some();
+        scene.bvh.set_transform(id, at(scene.turn)).expect("its own");
+    };
+    row(scene, "refit after one moved", size, moved, |scene, ()| {
+        scene.bvh.refit()
+    });
+    row(scene, "plan after one moved", size, moved, |scene, ()| {
+        scene.bvh.plan().computed()
+    });
+    row(scene, "remove_instance", size, Scene::one_more, |scene, ()| {
+        let id = scene.one_less();
+        scene.bvh.remove_instance(id)
+    });
+    let removed = |scene: &mut Scene| {
+        let id = scene.one_less();
+        scene.bvh.remove_instance(id).expect("its own");
+    };
+    row(scene, "take_removed_lights", size, nothing, |scene, ()| {
+        scene.bvh.take_removed_lights()
+    });
+    row(scene, "add_instance", size, removed, |scene, ()| scene.one_more());
+    let refitted = |scene: &mut Scene| {
+        removed(scene);
+        scene.bvh.refit();
+    };
+    row(
+        scene,
+        "add_instance after a refit",
+        size,
+        refitted,
+        |scene, ()| scene.one_more(),
+    );
+    row(
+        scene,
+        "refit after one came and one went",
+        size,
+        |scene| {
+            refitted(scene);
+            scene.one_more();
+        },
+        |scene, ()| scene.bvh.refit(),
+    );
+    let other = |scene: &mut Scene| scene.last = scene.bvh.add_mesh(vec![lamp(7, 0)]).ok();
+    row(scene, "add_mesh, of one triangle", size, gone, |scene, ()| {
+        other(scene)
+    });
+    row(
+        scene,
+        "set_triangles, of one",
+        size,
+        |_| vec![lamp(8, 0)],
+        |scene, triangles| {
+            let mesh = scene.last.expect("added");
+            scene.bvh.set_triangles(mesh, triangles)
+        },
+    );
+    row(scene, "remove_mesh, of one triangle", size, other, |scene, ()| {
+        gone(scene)
+    });
+    let scene = &mut Scene::new(size, 2);
+    wholes(scene, size);
+    let all = |scene: &mut Scene| -> Vec<Edit> {
+        let turn = scene.random();
+        let ids = scene.instances.iter().copied().zip(turn % 1000..);
+        ids.map(|(instance, k)| Edit::SetTransform {
+            instance,
+            transform: at(k),
+        })
+        .collect()
+    };
+    row(scene, "apply, all move", size, all, |scene, edits| {
+        scene.bvh.apply(edits).expect("its own")
+    });
+    row(
+        scene,
+        "refit after all moved",
+        size,
+        |scene| {
+            let edits = all(scene);
+            scene.bvh.apply(edits).expect("its own");
+        },
+        |scene, ()| scene.bvh.refit(),
+    );
+    let top = RebuildParams {
+        top: true,
+        drift: f64::INFINITY,
+    };
+    row(scene, "rebuild: its copy", size, nothing, |scene, ()| {
+        scene.bvh.rebuild(&top)
+    });
+    row(
+        scene,
+        "rebuild: run",
+        size,
+        |scene| scene.bvh.rebuild(&top),
+        |_, job| job.run(),
+    );
+    row(
+        scene,
+        "install",
+        size,
+        |scene| {
+            scene.bvh.refit();
+            scene.bvh.rebuild(&top).run()
+        },
+        |scene, rebuilt| scene.bvh.install(rebuilt).expect("its own"),
+    );
+    row(
+        scene,
+        "refit after install",
+        size,
+        |scene| {
+            let rebuilt = scene.bvh.rebuild(&top).run();
+            scene.bvh.install(rebuilt).expect("its own");
+        },
+        |scene, ()| scene.bvh.refit(),
+    );
+    row(
+        scene,
+        "begin_frame, refit, end_frame; one moves",
+        size,
+        |scene| (scene.some(), at(scene.turn)),
+        |scene, (id, to)| {
+            scene.rebuilder.begin_frame(&mut scene.bvh).expect("no panic");
+            scene.bvh.set_transform(id, to).expect("its own");
+            scene.bvh.refit();
+            scene.rebuilder.end_frame(&scene.bvh);
+        },
+    );
+}
+
+/// Frames in which one mesh deforms.
+fn triangles(size: u32) {
+    println!(
+        "\n| one mesh | triangles | calls | µs | 99.9 % | bytes allocated | 99.9 % | bytes for a mirror | 99.9 % |\n|---|---|---|---|---|---|---|---|---|"
+    );
+    let scene = &mut Scene::new(1, size);
+    queries(scene, size);
+    wholes(scene, size);
+    let deformed = |scene: &mut Scene| -> Vec<EmissiveTriangle> {
+        let shift = scene.random();
+        (0..scene.triangles.len() as u32)
+            .map(|k| lamp(k, shift % 16))
+            .collect()
+    };
+    row(scene, "set_triangles", size, deformed, |scene, triangles| {
+        scene.bvh.set_triangles(scene.mesh, triangles)
+    });
+    let set = |scene: &mut Scene| {
+        scene.bvh.refit();
+        scene.bvh.plan();
+        let triangles = deformed(scene);
+        scene.bvh.set_triangles(scene.mesh, triangles).expect("as many");
+    };
+    row(scene, "refit after it deformed", size, set, |scene, ()| {
+        scene.bvh.refit()
+    });
+    row(scene, "plan after it deformed", size, set, |scene, ()| {
+        scene.bvh.plan().computed()
+    });
+    row(
+        scene,
+        "add_mesh",
+        size,
+        |scene| {
+            gone(scene);
+            scene.triangles.clone()
+        },
+        |scene, triangles| scene.last = scene.bvh.add_mesh(triangles).ok(),
+    );
+    row(
+        scene,
+        "remove_mesh",
+        size,
+        |scene| {
+            gone(scene);
+            scene.last = scene.bvh.add_mesh(scene.triangles.clone()).ok();
+        },
+        |scene, ()| gone(scene),
+    );
+    row(
+        scene,
+        "install of the mesh built anew",
+        size,
+        |scene| {
+            scene.bvh.refit();
+            let triangles = deformed(scene);
+            scene.bvh.set_triangles(scene.mesh, triangles).expect("as many");
+            scene.bvh.refit();
+            scene
+                .bvh
+                .rebuild(&RebuildParams {
+                    top: false,
+                    drift: 0.0,
+                })
+                .run()
+        },
+        |scene, rebuilt| scene.bvh.install(rebuilt).expect("its own"),
+    );
+}
+
+fn main() {
+    let largest = std::env::args()
+        .nth(1)
+        .map_or(1_000_000, |text| text.parse().expect("a number"));
+    for size in [1000, 10_000, 100_000, 1_000_000]
+        .into_iter()
+        .filter(|&size| size <= largest)
+    {
+        instances(size);
+        triangles(size);
+    }
+}

@@ -1,0 +1,38 @@
+//! Samples and their probabilities.
+
+use super::Bvh;
+use crate::importance::ImportanceModel;
+use crate::node::LightNode;
+use crate::point::ShadingPoint;
+use crate::traverse::{Random64, SampledLight};
+#[cfg(doc)]
+use crate::tree::LightTree;
+
+impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
+    /// Chooses a light for `point`, which is within the domain of [`ShadingPoint::checked`]; see [`LightTree::sample`]. Without
+    /// lights none is chosen.
+    #[must_use]
+    pub fn sample(&self, point: &ShadingPoint, random: impl Into<Random64>) -> SampledLight {
+        debug_assert!(
+            point.is_within_reach(),
+            "not a shading point: {point:?}; `ShadingPoint::checked` says why"
+        );
+        self.tree().sample(point, random)
+    }
+
+    /// Chooses a light for each of `points`, points as for [`sample`](Self::sample); see [`LightTree::sample_batch`].
+    pub fn sample_batch(&self, points: &[ShadingPoint], randoms: &[Random64], sampled: &mut [SampledLight]) {
+        self.tree().sample_batch(points, randoms, sampled);
+    }
+
+    /// Probability with which [`sample`](Self::sample) returns `light` of `instance`, as a [`SampledLight`] names them, at `point`:
+    /// to the bit the one that comes with the sample. 0 where there is no such light.
+    #[must_use]
+    pub fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {
+        debug_assert!(
+            point.is_within_reach(),
+            "not a shading point: {point:?}; `ShadingPoint::checked` says why"
+        );
+        self.tree().pmf(point, light, instance)
+    }
+}

@@ -1,0 +1,64 @@
+//! Meshes and instances as the CPU knows them.
+
+use alloc::vec::Vec;
+use core::fmt;
+use core::ops::Range;
+use core::sync::atomic::{AtomicU32, Ordering};
+
+use crate::transform::Transform;
+
+/// A mesh: the bottom level that its instances share.
+#[derive(Clone, Debug)]
+pub(super) struct Mesh {
+    pub live: bool,
+    pub generation: u32,
+    pub blas: u32,
+    /// Indices of its instances.
+    pub users: Vec<u32>,
+}
+
+/// An instance as the CPU knows it.
+#[derive(Clone, Debug)]
+pub(super) struct InstanceState {
+    pub live: bool,
+    pub generation: u32,
+    pub mesh: u32,
+    /// Its place in the mesh's list of users.
+    pub user: u32,
+    pub transform: Transform,
+    pub radiance: f32,
+    /// Its place in the list of instances in use.
+    pub listed: u32,
+    pub lights: Range<u32>,
+    /// Where in the top level it is a leaf.
+    pub node: u32,
+    pub slot: u32,
+    /// When it came into the scene.
+    pub created: u64,
+    /// When its words changed last.
+    pub changed: u64,
+}
+
+/// The number by which a BVH tells its own ids and rebuilds from another's. A copy has another.
+pub(super) struct TreeId(pub u32);
+
+impl TreeId {
+    pub fn next() -> Self {
+        // From 1: an id of zeros is none.
+        static NEXT: AtomicU32 = AtomicU32::new(1);
+        Self(NEXT.fetch_add(1, Ordering::Relaxed))
+    }
+}
+
+impl Clone for TreeId {
+    fn clone(&self) -> Self {
+        Self::next()
+    }
+}
+
+/// Equal BVHs read alike, whatever their numbers are.
+impl fmt::Debug for TreeId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("TreeId")
+    }
+}

@@ -1,0 +1,130 @@
+//! Rebuilds beside the frame.
+
+use super::*;
+use crate::{CompactNode, Edit, EmissiveTriangle, Transform};
+use alloc::vec;
+
+#[test]
+fn without_threads_the_same_trees_come_at_the_same_frames() {
+    let triangle = EmissiveTriangle {
+        p: [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        radiance: [1.0; 3],
+        mesh: 0,
+        flags: 0,
+    };
+    let run = |threads: bool| {
+        let mut scene = Bvh::<CompactNode<4>, crate::Eq4, 4>::default();
+        let triangles = vec![triangle];
+        let mesh = scene
+            .apply(vec![Edit::AddMesh { triangles }])
+            .expect("a mesh")
+            .meshes[0];
+        let mut rebuilder = Rebuilder::new(RebuilderParams {
+            after: 2,
+            swap: Swap::Deterministic,
+            ..RebuilderParams::default()
+        });
+        if !threads {
+            rebuilder.start = || Err(std::io::Error::other("no more threads"));
+        }
+        let frames = (0..20u16).map(|frame| {
+            let start = rebuilder.begin_frame(&mut scene).expect("no panic");
+            assert_eq!(start.swapped, frame >= 2 && frame % 2 == 0);
+            assert_eq!(start.inline, start.swapped && !threads);
+            let add = |k: u16| Edit::AddInstance {
+                mesh,
+                transform: Transform::at([f32::from(frame * k % 7), f32::from(k), f32::from(frame)]),
+                radiance: 1.0,
+            };
+            scene.apply((0..5).map(add).collect()).expect("instances");
+            scene.refit();
+            scene.validate().expect("valid");
+            rebuilder.end_frame(&scene);
+            scene.nodes().to_vec()
+        });
+        frames.collect::<alloc::vec::Vec<_>>()
+    };
+    assert!(run(true) == run(false));
+}
+
+fn line(k: u16, step: f32) -> EmissiveTriangle {
+    let x = f32::from(k) * step;
+    EmissiveTriangle {
+        p: [[x, 0.0, 0.0], [x + 0.5, 0.0, 0.0], [x, 0.5, 0.1]],
+        radiance: [1.0; 3],
+        mesh: 0,
+        flags: 0,
+    }
+}
+
+type Own = Rebuilder<crate::MomentNode<8>, 8>;
+
+/// A mesh, and a rebuilder that has seen it.
+fn seen() -> (crate::LightBvh, crate::MeshId, Own) {
+    let mut bvh = crate::LightBvh::default();
+    let mesh = bvh
+        .add_mesh((0..200).map(|k| line(k, 1.0)).collect())
+        .expect("a mesh");
+    bvh.add_instance(mesh, Transform::IDENTITY).expect("one");
+    bvh.refit();
+    let mut rebuilder = Own::new(RebuilderParams {
+        swap: Swap::Deterministic,
+        rebuild: RebuildParams {
+            top: false,
+            drift: 1.5,
+        },
+        ..RebuilderParams::default()
+    });
+    rebuilder.end_frame(&bvh);
+    assert!(!rebuilder.is_busy(), "as it was built");
+    (bvh, mesh, rebuilder)
+}
+
+fn scrambled() -> alloc::vec::Vec<EmissiveTriangle> {
+    (0..200).map(|k| line(k * 77 % 200, 10.0)).collect()
+}
+
+#[test]
+fn other_refits_and_plans_hide_nothing() {
+    let (mut bvh, mesh, mut rebuilder) = seen();
+    bvh.set_triangles(mesh, scrambled()).expect("as many");
+    bvh.refit();
+    bvh.refit();
+    bvh.plan();
+    bvh.plan();
+    rebuilder.end_frame(&bvh);
+    assert!(rebuilder.is_busy());
+    assert!(rebuilder.begin_frame(&mut bvh).expect("its own").swapped);
+}
+
+#[test]
+fn a_scene_at_rest_is_built_once() {
+    let (mut bvh, ..) = seen();
+    let mut rebuilder = Own::new(RebuilderParams {
+        swap: Swap::Deterministic,
+        ..RebuilderParams::default()
+    });
+    let mut swapped = 0;
+    for _ in 0..20 {
+        swapped += u32::from(rebuilder.begin_frame(&mut bvh).expect("its own").swapped);
+        bvh.refit();
+        rebuilder.end_frame(&bvh);
+    }
+    assert_eq!(swapped, 1);
+}
+
+#[test]
+fn what_was_built_for_another_is_built_again() {
+    let (mut bvh, mesh, mut rebuilder) = seen();
+    bvh.set_triangles(mesh, scrambled()).expect("as many");
+    bvh.refit();
+    rebuilder.end_frame(&bvh);
+    let mut other = crate::LightBvh::default();
+    assert_eq!(rebuilder.begin_frame(&mut other), Err(RebuildError::Foreign));
+    rebuilder.end_frame(&bvh);
+    assert!(rebuilder.begin_frame(&mut bvh).expect("its own").swapped);
+    // Once is enough.
+    bvh.refit();
+    rebuilder.end_frame(&bvh);
+    assert!(!rebuilder.is_busy());
+}
