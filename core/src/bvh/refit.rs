@@ -92,16 +92,16 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         }
         self.bound_changes();
         pending.join(new);
-        let deformed = pending.blases.clone();
+        // Any of them is computed, so the epoch is one later below.
+        for &blas in &pending.blases {
+            self.blases[blas as usize].changed = self.epoch + 1;
+        }
         let work = if is_listed {
             core::mem::take(&mut self.work)
         } else {
             self.gather(pending)
         };
         self.epoch += u64::from(work.computed() > 0);
-        for blas in deformed {
-            self.blases[blas as usize].changed = self.epoch;
-        }
         sweep::trees(&mut self.nodes, &self.triangles, &work.trees);
         for &blas in &work.roots {
             let root = self.roots[blas as usize].node;
