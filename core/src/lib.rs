@@ -138,6 +138,8 @@ pub mod transform;
 pub mod validate;
 
 mod halves;
+#[cfg(test)]
+mod kit;
 mod prefetch;
 #[cfg(feature = "alloc")]
 mod widest;

@@ -6,44 +6,17 @@ use std::vec::Vec;
 
 use super::Bvh;
 use crate::build::{BuildParams, Heuristic};
-use crate::exact::{hash, unit_f32};
 use crate::importance::{Eq4, ImportanceModel, Moments};
+use crate::kit::{Random, cross, dot, minus};
 use crate::node::{CompactNode, LightNode, MomentNode};
 use crate::{EmissiveTriangle, INVALID, Lights, ShadingPoint};
-
-struct Random(u32);
-
-impl Random {
-    fn signed(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(1);
-        2.0 * unit_f32(hash(self.0)) - 1.0
-    }
-
-    fn vector(&mut self) -> [f32; 3] {
-        [self.signed(), self.signed(), self.signed()]
-    }
-}
-
-type Wide = [f64; 3];
-
-fn minus(a: Wide, b: Wide) -> Wide {
-    [0, 1, 2].map(|k| a[k] - b[k])
-}
-
-fn dot(a: Wide, b: Wide) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Wide, b: Wide) -> Wide {
-    [0, 1, 2].map(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3])
-}
 
 /// 300 triangles of up to half a metre in a room of 10 m, 20 points among them with normals of any direction.
 fn scene() -> (Lights, Vec<ShadingPoint>) {
     let random = &mut Random(1);
     let triangle = |_| {
-        let at = random.vector().map(|x| 5.0 * x);
-        let [b, c] = [0; 2].map(|_| random.vector().map(|x| 0.5 * x));
+        let at = random.vector().to_array().map(|x| 5.0 * x);
+        let [b, c] = [0; 2].map(|_| random.vector().to_array().map(|x| 0.5 * x));
         EmissiveTriangle {
             p: [
                 at,
@@ -57,11 +30,11 @@ fn scene() -> (Lights, Vec<ShadingPoint>) {
     };
     let lights = Lights::new((0..300).map(triangle).collect()).expect("within the domain");
     let point = |_| {
-        let n = random.vector();
+        let n = random.vector().to_array();
         let wide = n.map(f64::from);
         let length = dot(wide, wide).sqrt();
         ShadingPoint {
-            p: random.vector().map(|x| 5.0 * x),
+            p: random.vector().to_array().map(|x| 5.0 * x),
             n: wide.map(|x| (x / length) as f32),
         }
     };

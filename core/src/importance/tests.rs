@@ -9,23 +9,12 @@ mod moments;
 
 use glam::Vec3;
 
-use crate::exact::{hash, pow2, unit_f32};
-
-struct Random(u32);
+use crate::exact::pow2;
+use crate::kit::{Random, Wide, dot, minus, narrow, normalize, times, wide};
 
 impl Random {
-    fn unit(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(1);
-        unit_f32(hash(self.0))
-    }
-
     fn below(&mut self, count: u32) -> u32 {
         (self.unit() * count as f32) as u32
-    }
-
-    fn vector(&mut self) -> Vec3 {
-        let mut signed = || 2.0 * self.unit() - 1.0;
-        Vec3::new(signed(), signed(), signed())
     }
 
     /// Half extents of about `size`.
@@ -47,33 +36,6 @@ impl Random {
         let octave = low + self.below((high - low) as u32) as i32;
         pow2(octave) * (1.0 + self.unit())
     }
-}
-
-/// A vector in `f64`.
-type Wide = [f64; 3];
-
-fn wide(v: Vec3) -> Wide {
-    v.to_array().map(f64::from)
-}
-
-fn narrow(v: Wide) -> Vec3 {
-    Vec3::from_array(v.map(|x| x as f32))
-}
-
-fn dot(a: Wide, b: Wide) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn minus(a: Wide, b: Wide) -> Wide {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn times(a: Wide, by: f64) -> Wide {
-    a.map(|x| x * by)
-}
-
-fn normalize(v: Wide) -> Wide {
-    times(v, 1.0 / dot(v, v).sqrt())
 }
 
 /// How far a box of these half extents reaches along `n`: the highest of its corners.

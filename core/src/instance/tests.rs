@@ -7,48 +7,10 @@ use glam::Vec3;
 use super::Instance;
 use crate::Transform;
 use crate::bounds::LightBounds;
-use crate::exact::{hash, pow2, unit_f32};
+use crate::exact::pow2;
+use crate::kit::{Random, Wide, cross, dot, normalize, times, wide};
 use crate::moments::LightMoments;
 use crate::point::ShadingPoint;
-
-type Wide = [f64; 3];
-
-struct Random(u32);
-
-impl Random {
-    fn unit(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(1);
-        unit_f32(hash(self.0))
-    }
-
-    fn signed(&mut self) -> f32 {
-        2.0 * self.unit() - 1.0
-    }
-
-    fn vector(&mut self) -> Vec3 {
-        Vec3::new(self.signed(), self.signed(), self.signed())
-    }
-}
-
-fn dot(a: Wide, b: Wide) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Wide, b: Wide) -> Wide {
-    [0, 1, 2].map(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3])
-}
-
-fn wide(v: Vec3) -> Wide {
-    v.to_array().map(f64::from)
-}
-
-fn scaled(v: Wide, s: f64) -> Wide {
-    v.map(|x| x * s)
-}
-
-fn unit(v: Wide) -> Wide {
-    scaled(v, 1.0 / dot(v, v).sqrt())
-}
 
 /// The columns of a map, and those of its inverse transposed.
 struct Map {
@@ -64,7 +26,7 @@ impl Map {
         let determinant = dot(a, cofactors[0]);
         Self {
             columns,
-            normals: cofactors.map(|column| scaled(column, 1.0 / determinant)),
+            normals: cofactors.map(|column| times(column, 1.0 / determinant)),
         }
     }
 
@@ -79,7 +41,7 @@ impl Map {
     /// The map of normals of about unit length.
     fn normal(&self, v: Wide) -> Wide {
         let norm: f64 = self.normals.iter().map(|&column| dot(column, column)).sum();
-        scaled(Self::by(&self.normals, v), (3.0 / norm).sqrt())
+        times(Self::by(&self.normals, v), (3.0 / norm).sqrt())
     }
 }
 
@@ -119,7 +81,7 @@ fn moments_in_the_world() {
         let translation = random.vector() * size;
         let radiance = 0.5 + random.unit();
         let instance = placed(columns, translation, radiance);
-        let axis = unit(wide(random.vector()));
+        let axis = normalize(wide(random.vector()));
         let length = 0.05 + 0.95 * random.unit();
         let local = LightMoments {
             phi: 1.0 + random.unit(),
@@ -139,7 +101,7 @@ fn moments_in_the_world() {
         let reach = 4.0 * greatest * f64::from(size);
         let (va, vn) = (f64::from(local.across).powi(2), f64::from(local.along).powi(2));
         let mapped = map.normal(axis);
-        let world_axis = unit(mapped);
+        let world_axis = normalize(mapped);
         let norm: f64 = map.columns.iter().map(|&column| dot(column, column)).sum();
         let stretched = Map::by(&map.columns, axis);
         let total = va * norm + (vn - va) * dot(stretched, stretched);
@@ -183,13 +145,13 @@ fn cones_stay_where_lengths_stay() {
         let (columns, map) = if turn % 2 == 0 {
             map(&mut random, 1.0)
         } else {
-            let x = unit(wide(random.vector()));
-            let y = unit(cross(x, wide(random.vector())));
+            let x = normalize(wide(random.vector()));
+            let y = normalize(cross(x, wide(random.vector())));
             let columns = [x, y, cross(x, y)].map(|v| Vec3::from_array(v.map(|x| 3.0 * x as f32)));
             (columns, Map::of(columns))
         };
         let instance = placed(columns, Vec3::new(0.0, 0.0, 0.0), 1.0);
-        let axis = unit(wide(random.vector()));
+        let axis = normalize(wide(random.vector()));
         let local = LightBounds {
             min: Vec3::new(-1.0, -1.0, -1.0),
             max: Vec3::new(1.0, 1.0, 1.0),
@@ -209,7 +171,7 @@ fn cones_stay_where_lengths_stay() {
             assert_eq!(found.cos_theta_o, -1.0, "{squared}");
         }
         for k in 0..3 {
-            near(found.axis[k], unit(mapped)[k], 4.0, "axis");
+            near(found.axis[k], normalize(mapped)[k], 4.0, "axis");
         }
     }
     assert!(kept > 1000 && opened > 900, "{kept} {opened}");
@@ -222,12 +184,12 @@ fn normals_come_back_at_unit_length() {
     for exponent in [-42, -40, -20, -11, -3, 0, 2, 20, 38] {
         let (columns, map) = map(&mut random, 1.0);
         let instance = placed(columns.map(|c| c * pow2(exponent)), Vec3::new(0.0, 0.0, 0.0), 1.0);
-        let n = unit(wide(random.vector()));
+        let n = normalize(wide(random.vector()));
         let point = ShadingPoint {
             p: [0.0; 3],
             n: n.map(|x| x as f32),
         };
-        let expected = unit(map.columns.map(|column| dot(column, n)));
+        let expected = normalize(map.columns.map(|column| dot(column, n)));
         let found = instance.to_local(&point).n;
         for k in 0..3 {
             near(found[k], expected[k], 1.0, "normal");

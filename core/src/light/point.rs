@@ -79,15 +79,7 @@ pub fn uniform_point(p0: Vec3, e1: Vec3, e2: Vec3, u: f32, v: f32) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn triangle(p: [[f32; 3]; 3]) -> EmissiveTriangle {
-        EmissiveTriangle {
-            p,
-            radiance: [1.0; 3],
-            mesh: 0,
-            flags: 0,
-        }
-    }
+    use crate::kit::triangle;
 
     #[test]
     fn density_is_the_inverse_of_the_area_at_every_size() {

@@ -7,28 +7,14 @@ use glam::Vec3;
 use reference::{Exact, Wide, merged};
 
 use super::LightMoments;
-use crate::exact::{self, hash, pow2, unit_f32};
+use crate::exact::{self, pow2};
+use crate::kit::Random;
 use crate::light::{EmissiveTriangle, TWO_SIDED};
 use crate::node::{FullMomentNode, LightNode, MomentNode, kind};
 use crate::summary::Summary;
 use crate::vector::{max3, min3};
 
-struct Random(u32);
-
 impl Random {
-    fn unit(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(1);
-        unit_f32(hash(self.0))
-    }
-
-    fn signed(&mut self) -> f32 {
-        2.0 * self.unit() - 1.0
-    }
-
-    fn vector(&mut self) -> Vec3 {
-        Vec3::new(self.signed(), self.signed(), self.signed())
-    }
-
     /// A set with flux, of lengths of about `scale`.
     fn set(&mut self, scale: f32, flux: f32) -> LightMoments {
         let m = self.vector() * if self.unit() < 0.2 { 0.02 } else { 0.57 };

@@ -1,17 +1,13 @@
 //! Rebuilds beside the frame.
 
 use super::*;
+use crate::kit::{line, triangle};
 use crate::{CompactNode, Edit, EmissiveTriangle, Transform};
 use alloc::vec;
 
 #[test]
 fn without_threads_the_same_trees_come_at_the_same_frames() {
-    let triangle = EmissiveTriangle {
-        p: [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-        radiance: [1.0; 3],
-        mesh: 0,
-        flags: 0,
-    };
+    let triangle = triangle([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
     let run = |threads: bool| {
         let mut scene = Bvh::<CompactNode<4>, crate::Eq4, 4>::default();
         let triangles = vec![triangle];
@@ -45,16 +41,6 @@ fn without_threads_the_same_trees_come_at_the_same_frames() {
         frames.collect::<alloc::vec::Vec<_>>()
     };
     assert!(run(true) == run(false));
-}
-
-fn line(k: u16, step: f32) -> EmissiveTriangle {
-    let x = f32::from(k) * step;
-    EmissiveTriangle {
-        p: [[x, 0.0, 0.0], [x + 0.5, 0.0, 0.0], [x, 0.5, 0.1]],
-        radiance: [1.0; 3],
-        mesh: 0,
-        flags: 0,
-    }
 }
 
 type Own = Rebuilder<crate::MomentNode<8>, 8>;

@@ -3,17 +3,8 @@
 extern crate std;
 
 use crate::bvh::{Rebuild, RebuildParams};
-use crate::{Edit, EmissiveTriangle, LightBvh, MeshId, Transform};
-
-fn line(k: u16, step: f32) -> EmissiveTriangle {
-    let x = f32::from(k) * step;
-    EmissiveTriangle {
-        p: [[x, 0.0, 0.0], [x + 0.5, 0.0, 0.0], [x, 0.5, 0.1]],
-        radiance: [1.0; 3],
-        mesh: 0,
-        flags: 0,
-    }
-}
+use crate::kit::line;
+use crate::{Edit, LightBvh, MeshId, Transform};
 
 /// So many instances of a mesh of 200 triangles in a line.
 fn lines(count: u16) -> (LightBvh, MeshId) {

@@ -2,18 +2,14 @@
 
 use super::*;
 use crate::bvh::RebuildParams;
-use crate::{CompactNode, Edit, EmissiveTriangle, Transform};
+use crate::kit::triangle;
+use crate::{CompactNode, Edit, Transform};
 use alloc::vec;
 
 /// What a rebuild knows of its tree is what walking it finds.
 #[test]
 fn rebuilt_trees_are_noted_as_walked_ones() {
-    let triangle = EmissiveTriangle {
-        p: [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-        radiance: [1.0; 3],
-        mesh: 0,
-        flags: 0,
-    };
+    let triangle = triangle([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
     let mut scene = Bvh::<CompactNode<4>, crate::Eq4, 4>::default();
     let triangles = vec![triangle];
     let mesh = scene
