@@ -31,12 +31,14 @@ pub const MAX_WEIGHT: f32 = pow2(60);
 /// Counts of samples stop growing here, so that every product of one with a target and a weight is finite.
 pub const MAX_COUNT: u32 = 1 << 16;
 
-/// A point on a light.
+/// A point on a light; 16 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct LightSample {
     /// Number of the light, or [`SampledLight::INVALID`](crate::SampledLight::INVALID).
     pub light: u32,
+    /// Its instance, as a [`SampledLight`](crate::SampledLight) names it.
+    pub instance: u32,
     /// The two numbers in [0, 1) that the point on it was chosen by.
     pub uv: [f32; 2],
 }
@@ -45,11 +47,12 @@ impl LightSample {
     /// No sample.
     pub const NONE: Self = Self {
         light: INVALID,
+        instance: INVALID,
         uv: [0.0; 2],
     };
 }
 
-/// What remains of a stream of samples: one of them, and what it stands for; 20 bytes.
+/// What remains of a stream of samples: one of them, and what it stands for; 24 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Reservoir {
@@ -62,7 +65,7 @@ pub struct Reservoir {
     pub count: u32,
 }
 
-const _: () = assert!(size_of::<Reservoir>() == 20);
+const _: () = assert!(size_of::<Reservoir>() == 24);
 
 impl Reservoir {
     /// Of no samples.

@@ -130,8 +130,8 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> PickLight for Li
     }
 
     #[inline]
-    fn pmf(&self, point: &ShadingPoint, light: u32, mesh: u32) -> f32 {
-        let instance = if self.live > 0 { mesh } else { INVALID };
+    fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {
+        let instance = if self.live > 0 { instance } else { INVALID };
         LightTree::pmf(self, point, light, instance)
     }
 }

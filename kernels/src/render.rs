@@ -83,16 +83,16 @@ macro_rules! render_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] camera: &[Camera],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] nodes: &[NodeOf<$choice>],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] nodes: &[NodeOf<$choice>],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] trails: &[u32],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] results: &mut [[f32; 3]],
         ) {
             let i = invocation(id);
             if i < push.count {
-                let scene = Scene::new(ray_nodes, surfaces, materials, lights);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
                 let picker: TreeOf<'_, $choice, _> = push.tree.tree(nodes, instances, trails);
                 results[i as usize] = render_pixel(
                     &scene,
@@ -117,14 +117,15 @@ pub fn render_power(
     #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] camera: &[Camera],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] thresholds: &[u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] results: &mut [[f32; 3]],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] thresholds: &[u32],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] results: &mut [[f32; 3]],
 ) {
     let i = invocation(id);
     if i < push.count {
-        let scene = Scene::new(ray_nodes, surfaces, materials, lights);
+        let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
         let picker = Power { thresholds };
         results[i as usize] = render_pixel(
             &scene,
@@ -144,15 +145,16 @@ pub fn render_uniform(
     #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] camera: &[Camera],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] results: &mut [[f32; 3]],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] results: &mut [[f32; 3]],
 ) {
     let i = invocation(id);
     if i < push.count {
-        let scene = Scene::new(ray_nodes, surfaces, materials, lights);
+        let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
         let picker = Uniform {
-            count: lights.len() as u32,
+            count: triangles.len() as u32,
         };
         results[i as usize] = render_pixel(
             &scene,

@@ -19,6 +19,7 @@ use spirv_std::spirv;
 use crate::bvh::{NodeOf, Paper, Standard, TreeOf, TreePush};
 use crate::invocation;
 use crate::shading::camera::Camera;
+use crate::shading::emitters::Emitters;
 use crate::shading::material::Material;
 use crate::shading::pick::Power;
 use crate::shading::pixel::Scene;
@@ -55,16 +56,17 @@ pub fn restir_initial_power(
     #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] camera: &[Camera],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] thresholds: &[u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] gbuffer: &mut [Surface],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] reservoirs: &mut [PixelReservoir],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] thresholds: &[u32],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] gbuffer: &mut [Surface],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] reservoirs: &mut [PixelReservoir],
 ) {
     let i = invocation(id);
     let pixel = push.first.wrapping_add(i);
     if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-        let scene = Scene::new(ray_nodes, surfaces, materials, lights);
+        let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
         let surface = first_surface(&scene, &camera[0], &push.params, pixel);
         let picker = Power { thresholds };
         gbuffer[pixel as usize] = surface;
@@ -83,10 +85,10 @@ macro_rules! initial_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] camera: &[Camera],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] nodes: &[NodeOf<$choice>],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] nodes: &[NodeOf<$choice>],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] trails: &[u32],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] gbuffer: &mut [Surface],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 9)] reservoirs: &mut [PixelReservoir],
@@ -94,7 +96,7 @@ macro_rules! initial_pass {
             let i = invocation(id);
             let pixel = push.first.wrapping_add(i);
             if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-                let scene = Scene::new(ray_nodes, surfaces, materials, lights);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
                 let surface = first_surface(&scene, &camera[0], &push.params, pixel);
                 let picker: TreeOf<'_, $choice, _> = push.tree.tree(nodes, instances, trails);
                 gbuffer[pixel as usize] = surface;
@@ -114,26 +116,32 @@ pub fn restir_temporal_unbiased(
     #[spirv(push_constant)] push: &RestirPush,
     #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] before_ray_nodes: &[RayNode],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] before_surfaces: &[SurfaceTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] before_lights: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] to_previous: &[u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] lights: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] before_camera: &[Camera],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] before_gbuffer: &[Surface],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] before_reservoirs: &[PixelReservoir],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 9)] to_current: &[u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 10)] gbuffer: &[Surface],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 11)] reservoirs: &mut [PixelReservoir],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] before_triangles: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] before_instances: &[Instance],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] to_previous: &[[u32; 2]],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] materials: &[Material],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] triangles: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] instances: &[Instance],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] before_camera: &[Camera],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 9)] before_gbuffer: &[Surface],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 10)] before_reservoirs: &[PixelReservoir],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 11)] to_current: &[[u32; 2]],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 12)] gbuffer: &[Surface],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 13)] reservoirs: &mut [PixelReservoir],
 ) {
     let i = invocation(id);
     let pixel = push.first.wrapping_add(i);
     if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
+        let emitters = Emitters { triangles, instances };
         let combine = Unbiased {
             surfaces: Surfaces {
                 nodes: before_ray_nodes,
                 triangles: before_surfaces,
             },
-            lights: before_lights,
+            emitters: Emitters {
+                triangles: before_triangles,
+                instances: before_instances,
+            },
         };
         let before = Before {
             camera: &before_camera[0],
@@ -146,7 +154,7 @@ pub fn restir_temporal_unbiased(
         reservoirs[pixel as usize] = temporal(
             &combine,
             materials,
-            lights,
+            &emitters,
             &before,
             to_previous,
             &push.params,
@@ -163,17 +171,19 @@ pub fn restir_temporal_biased(
     #[spirv(global_invocation_id)] id: UVec3,
     #[spirv(push_constant)] push: &RestirPush,
     #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] lights: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] before_camera: &[Camera],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] before_gbuffer: &[Surface],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] before_reservoirs: &[PixelReservoir],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] to_current: &[u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] gbuffer: &[Surface],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] reservoirs: &mut [PixelReservoir],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] triangles: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] instances: &[Instance],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] before_camera: &[Camera],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] before_gbuffer: &[Surface],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] before_reservoirs: &[PixelReservoir],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] to_current: &[[u32; 2]],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] gbuffer: &[Surface],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] reservoirs: &mut [PixelReservoir],
 ) {
     let i = invocation(id);
     let pixel = push.first.wrapping_add(i);
     if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
+        let emitters = Emitters { triangles, instances };
         let before = Before {
             camera: &before_camera[0],
             gbuffer: before_gbuffer,
@@ -185,7 +195,7 @@ pub fn restir_temporal_biased(
         reservoirs[pixel as usize] = temporal(
             &Biased,
             materials,
-            lights,
+            &emitters,
             &before,
             to_current,
             &push.params,
@@ -204,25 +214,27 @@ pub fn restir_spatial_unbiased(
     #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] gbuffer: &[Surface],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] reservoirs: &[PixelReservoir],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] results: &mut [PixelReservoir],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] gbuffer: &[Surface],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] reservoirs: &[PixelReservoir],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] results: &mut [PixelReservoir],
 ) {
     let i = invocation(id);
     let pixel = push.first.wrapping_add(i);
     if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
+        let emitters = Emitters { triangles, instances };
         let combine = Unbiased {
             surfaces: Surfaces {
                 nodes: ray_nodes,
                 triangles: surfaces,
             },
-            lights,
+            emitters,
         };
         results[pixel as usize] = spatial(
             &combine,
             materials,
-            lights,
+            &emitters,
             gbuffer,
             reservoirs,
             &push.params,
@@ -237,18 +249,20 @@ pub fn restir_spatial_biased(
     #[spirv(global_invocation_id)] id: UVec3,
     #[spirv(push_constant)] push: &RestirPush,
     #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] lights: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] gbuffer: &[Surface],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] reservoirs: &[PixelReservoir],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] results: &mut [PixelReservoir],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] triangles: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] instances: &[Instance],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] gbuffer: &[Surface],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] reservoirs: &[PixelReservoir],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] results: &mut [PixelReservoir],
 ) {
     let i = invocation(id);
     let pixel = push.first.wrapping_add(i);
     if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
+        let emitters = Emitters { triangles, instances };
         results[pixel as usize] = spatial(
             &Biased,
             materials,
-            lights,
+            &emitters,
             gbuffer,
             reservoirs,
             &push.params,
@@ -265,15 +279,16 @@ pub fn restir_shade(
     #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] lights: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] gbuffer: &[Surface],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] reservoirs: &mut [PixelReservoir],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] results: &mut [Shaded],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] gbuffer: &[Surface],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] reservoirs: &mut [PixelReservoir],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] results: &mut [Shaded],
 ) {
     let i = invocation(id);
     let pixel = push.first.wrapping_add(i);
     if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-        let scene = Scene::new(ray_nodes, surfaces, materials, lights);
+        let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
         let surface = gbuffer[pixel as usize];
         let last = reservoirs[pixel as usize];
         let (shaded, kept) = shade(&scene, &push.params, &surface, &last);

@@ -23,6 +23,7 @@ pub fn soup(random: &mut Random, count: usize, size: f32, edge: f32, grid: bool)
                 p,
                 material: 0,
                 light: NONE,
+                instance: NONE,
             }
         })
         .collect()

@@ -15,6 +15,7 @@ mod gltf_hostile;
 mod hostile;
 mod importance;
 mod instance;
+mod instanced;
 mod known_answers;
 mod known_words;
 mod light_points;

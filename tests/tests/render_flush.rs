@@ -7,6 +7,7 @@ use lightbvh_host::render::{RayBvh, View, camera, power_thresholds};
 use lightbvh_kernels::path::path_pixel;
 use lightbvh_kernels::render::{RenderParams, render_pixel};
 use lightbvh_kernels::shading::camera::Camera;
+use lightbvh_kernels::shading::emitters::{Emitters, listed};
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pick::Power;
 use lightbvh_kernels::shading::pixel::Scene;
@@ -86,7 +87,9 @@ proptest! {
             specular: if specular { 0.5 } else { 0.0 },
             exponent_log2: seed % 17,
         };
-        let scene = Scene { surfaces: bvh.surfaces(), materials: &[material], lights: &lights };
+        let instances = listed(lights.len() as u32);
+        let emitters = Emitters { triangles: &lights, instances: &instances };
+        let scene = Scene { surfaces: bvh.surfaces(), materials: &[material], emitters };
         let view = View {
             eye: [0.0, 0.0, 2.0 * size], right: [1.0, 0.0, 0.0], up: [0.0, 1.0, 0.0], forward: [0.0, 0.0, -1.0], yfov: 1.0,
         };

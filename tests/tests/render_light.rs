@@ -2,10 +2,11 @@
 
 use glam::{DVec3, Vec3};
 use lightbvh::light::uniform_point;
-use lightbvh::{EmissiveTriangle, ShadingPoint};
+use lightbvh::{EmissiveTriangle, Instance, ShadingPoint};
 use lightbvh_host::render::{RayBvh, View, camera, power_thresholds, render};
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::area::{connect, offset_distance};
+use lightbvh_kernels::shading::emitters::{Emitters, listed};
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pick::{Power, Uniform};
 use lightbvh_kernels::shading::pixel::{Scene, see};
@@ -139,6 +140,7 @@ fn no_light_comes_from_behind_below_or_nowhere() {
 struct Room {
     bvh: RayBvh,
     lights: Vec<EmissiveTriangle>,
+    instances: [Instance; 1],
 }
 
 impl Room {
@@ -158,15 +160,18 @@ impl Room {
                 p,
                 material: 0,
                 light: NONE,
+                instance: NONE,
             })
             .collect();
         surfaces.extend(lights.iter().zip(0..).map(|(l, light)| SurfaceTriangle {
             p: l.p,
             material: 0,
             light,
+            instance: 0,
         }));
         Self {
             bvh: RayBvh::build(&surfaces).unwrap(),
+            instances: listed(lights.len() as u32),
             lights,
         }
     }
@@ -175,7 +180,10 @@ impl Room {
         Scene {
             surfaces: self.bvh.surfaces(),
             materials: &[WHITE],
-            lights: &self.lights,
+            emitters: Emitters {
+                triangles: &self.lights,
+                instances: &self.instances,
+            },
         }
     }
 }
@@ -321,12 +329,16 @@ fn surfaces_do_not_shadow_themselves() {
             p,
             material: 0,
             light: NONE,
+            instance: NONE,
         }])
         .unwrap();
         let scene = Scene {
             surfaces: bvh.surfaces(),
             materials: &[WHITE],
-            lights: &[],
+            emitters: Emitters {
+                triangles: &[],
+                instances: &[],
+            },
         };
         let corner = bvh.triangles[0].p.map(Vec3::from);
         let aim = uniform_point(

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bytemuck::cast_slice;
 use lightbvh::{BuildParams, LightBvh, Lights};
 use lightbvh_host::backend::{
-    Bvh, Combination, CpuRestir, DeviceRestir, LightRemap, PIXEL_RECORD, RESERVOIR_RECORD, Restir,
+    Backend, Bvh, Combination, CpuBackend, DeviceBackend, LightRemap, PIXEL_RECORD, RESERVOIR_RECORD, Restir,
     RestirFrame, RestirOptions, SURFACE_RECORD, Sampler, SceneArrays,
 };
 use lightbvh_host::render::RayBvh;
@@ -13,6 +13,7 @@ use lightbvh_host::scene::Scene;
 use lightbvh_host::vulkan::{Device, Options};
 use lightbvh_host::words::compare_words;
 use lightbvh_host::workload::arrays_at;
+use lightbvh_kernels::bvh::Standard;
 use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::restir::combine::Unbiased;
 use lightbvh_kernels::shading::restir::shade::shade;
@@ -45,10 +46,19 @@ impl Shot {
         }
     }
 
+    /// Renders it as the next frame of `restir`.
+    fn render(&self, restir: &mut Restir, width: u32, seed: u32) -> Vec<[f32; 3]> {
+        let frame = self.frame(width, HEIGHT, seed);
+        self.cpu().restir(restir, &frame).expect("a frame").value
+    }
+
+    fn cpu(&self) -> CpuBackend {
+        CpuBackend::new(self.bvh.clone())
+    }
+
     fn frame(&self, width: u32, height: u32, seed: u32) -> RestirFrame<'_> {
         RestirFrame {
             scene: &self.arrays,
-            bvh: self.bvh.tree(),
             width,
             height,
             seed,
@@ -81,14 +91,17 @@ fn assert_equal(what: &str, record: &lightbvh_host::words::Record, cpu: &[u32], 
 
 /// Renders all shots on both and compares pixels, G-buffers and reservoirs.
 fn compare(device: &Device, what: &str, options: RestirOptions, shots: &[Shot], size: (u32, u32)) {
-    let mut cpu = CpuRestir::new(options);
-    let mut other = DeviceRestir::new(device, options);
+    let mut cpu = Restir::new(options);
+    let mut other = Restir::new(options);
     let pixels = u64::from(size.0) * u64::from(size.1);
     for (number, shot) in (0..).zip(shots) {
         let what = format!("{} {what} {options:?} frame {number}", device.name());
         let frame = shot.frame(size.0, size.1, 77 + 31 * number);
-        let expected = cpu.frame(&frame).expect("a frame on the CPU").value;
-        let found = other.frame(&frame).expect("a frame on the device").value;
+        let expected = shot.cpu().restir(&mut cpu, &frame);
+        let expected = expected.expect("a frame on the CPU").value;
+        let mut backend = DeviceBackend::<Standard, 8>::new(device, &shot.bvh).expect("an upload");
+        let found = backend.restir(&mut other, &frame);
+        let found = found.expect("a frame on the device").value;
         assert!(
             expected.iter().flatten().all(|x| x.is_finite() && *x >= 0.0),
             "{what}"
@@ -155,6 +168,7 @@ fn reordered(arrays: &SceneArrays, kept: &[u32]) -> SceneArrays {
     for triangle in &mut rays.triangles {
         let now = kept.iter().position(|&i| i == triangle.light);
         triangle.light = now.map_or(NONE, |i| i as u32);
+        triangle.instance = triangle.light;
     }
     let lights = Lights::new(triangles).expect("lights");
     SceneArrays::new(rays, arrays.materials.clone(), lights, arrays.camera)
@@ -173,19 +187,25 @@ fn lights_that_come_go_and_change_their_index_are_followed() {
     let mut before: Option<&Vec<u32>> = None;
     for kept in orders {
         let remap = before.map(|before| {
-            let to_current: Vec<u32> = before
-                .iter()
-                .map(|i| kept.iter().position(|k| k == i).map_or(NONE, |k| k as u32))
-                .collect();
-            LightRemap::new(&to_current, kept.len())
+            // Each light is an instance of its own.
+            let now = |i: &u32| kept.iter().position(|k| k == i).map_or(NONE, |k| k as u32);
+            let names = (0..).zip(before).map(|(then, i)| ([then; 2], [now(i); 2]));
+            LightRemap::new(before.len(), kept.len(), names)
         });
         shots.push(Shot::new(reordered(&arrays, kept), remap));
         before = Some(kept);
     }
     on_each_device(Options::default(), |device| {
         for combination in COMBINATIONS {
-            let options = small(Sampler::Power, combination);
-            compare(device, "remapped", options, &shots, (WIDTH, HEIGHT));
+            for source in SOURCES {
+                compare(
+                    device,
+                    "remapped",
+                    small(source, combination),
+                    &shots,
+                    (WIDTH, HEIGHT),
+                );
+            }
         }
     });
 
@@ -195,9 +215,9 @@ fn lights_that_come_go_and_change_their_index_are_followed() {
         ..small(Sampler::Power, Combination::Unbiased)
     };
     let render = |shots: &[Shot]| {
-        let mut cpu = CpuRestir::new(options);
+        let mut cpu = Restir::new(options);
         for (number, shot) in (0..).zip(shots) {
-            cpu.frame(&shot.frame(WIDTH, HEIGHT, number)).expect("a frame");
+            shot.render(&mut cpu, WIDTH, number);
         }
         cpu.state().expect("a state").1
     };
@@ -270,25 +290,22 @@ fn a_history_that_cannot_be_used_is_dropped() {
     let scene = Scene::open("street").expect("a built-in scene");
     let shot = Shot::new(arrays_at(&scene, 0, WIDTH, HEIGHT).expect("a frame"), None);
     let options = small(Sampler::TwoLevel, Combination::Unbiased);
-    let first = |shot: &Shot, width| {
-        let mut fresh = CpuRestir::new(options);
-        fresh.frame(&shot.frame(width, HEIGHT, 9)).expect("a frame").value
-    };
+    let first = |shot: &Shot, width| shot.render(&mut Restir::new(options), width, 9);
     let mut repainted = (*shot.arrays).clone();
     repainted.materials[0].albedo[0] *= 0.5;
     let repainted = Shot::new(repainted, None);
     for (next, width) in [(&shot, WIDTH / 2), (&repainted, WIDTH)] {
-        let mut cpu = CpuRestir::new(options);
-        cpu.frame(&shot.frame(WIDTH, HEIGHT, 1)).expect("a frame");
-        let after = cpu.frame(&next.frame(width, HEIGHT, 9)).expect("a frame").value;
+        let mut cpu = Restir::new(options);
+        shot.render(&mut cpu, WIDTH, 1);
+        let after = next.render(&mut cpu, width, 9);
         assert!(after == first(next, width));
     }
-    let mut cpu = CpuRestir::new(options);
-    cpu.frame(&shot.frame(WIDTH, HEIGHT, 1)).expect("a frame");
-    let continued = cpu.frame(&shot.frame(WIDTH, HEIGHT, 9)).expect("a frame").value;
+    let mut cpu = Restir::new(options);
+    shot.render(&mut cpu, WIDTH, 1);
+    let continued = shot.render(&mut cpu, WIDTH, 9);
     assert!(continued != first(&shot, WIDTH), "the history is not used");
     cpu.reset();
-    let after_reset = cpu.frame(&shot.frame(WIDTH, HEIGHT, 9)).expect("a frame").value;
+    let after_reset = shot.render(&mut cpu, WIDTH, 9);
     assert!(after_reset == first(&shot, WIDTH));
 }
 
@@ -310,10 +327,10 @@ fn hostile_words_end_in_bounded_steps() {
             .map(|_| bytemuck::cast::<[u32; 14], Surface>(std::array::from_fn(|_| word())))
             .collect();
         let reservoirs: Vec<PixelReservoir> = (0..64)
-            .map(|_| bytemuck::cast::<[u32; 6], PixelReservoir>(std::array::from_fn(|_| word())))
+            .map(|_| bytemuck::cast::<[u32; 7], PixelReservoir>(std::array::from_fn(|_| word())))
             .collect();
         let camera: Camera = bytemuck::cast::<[u32; 12], Camera>(std::array::from_fn(|_| word()));
-        let map: Vec<u32> = (0..8).map(|_| word()).collect();
+        let map: Vec<[u32; 2]> = (0..8).map(|_| [word(), word()]).collect();
         let params = RestirParams {
             width: [0, 8, 16_777_216][round % 3],
             height: [8, 0, 64][round % 3],
@@ -330,7 +347,7 @@ fn hostile_words_end_in_bounded_steps() {
         };
         let combine = Unbiased {
             surfaces: view.surfaces,
-            lights: view.lights,
+            emitters: view.emitters,
         };
         let before = Before {
             camera: &camera,
@@ -343,7 +360,7 @@ fn hostile_words_end_in_bounded_steps() {
             let merged = temporal(
                 &combine,
                 view.materials,
-                view.lights,
+                &view.emitters,
                 &before,
                 &map,
                 &params,
@@ -354,7 +371,7 @@ fn hostile_words_end_in_bounded_steps() {
             let spread = spatial(
                 &combine,
                 view.materials,
-                view.lights,
+                &view.emitters,
                 &surfaces,
                 &reservoirs,
                 &params,

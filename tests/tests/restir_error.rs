@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use lightbvh::{BuildParams, LightBvh};
 use lightbvh_host::backend::{
-    Backend, Bvh, Combination, CpuBackend, CpuRestir, Integrator, Restir, RestirFrame, RestirOptions,
-    Sampler, SceneArrays,
+    Backend, Bvh, Combination, CpuBackend, Integrator, Restir, RestirFrame, RestirOptions, Sampler,
+    SceneArrays,
 };
 use lightbvh_host::render::Film;
 use lightbvh_host::scene::Scene;
@@ -41,12 +41,11 @@ fn independent(case: &Case, sampler: Sampler, samples: u32, seed: u32) -> Vec<[f
 }
 
 fn restir(case: &Case, options: RestirOptions, seed: u32) -> (Vec<[f32; 3]>, f64) {
-    let mut restir = CpuRestir::<Standard, WIDE>::new(options);
+    let mut restir = Restir::new(options);
     let mut image = Vec::new();
     for (number, (scene, bvh)) in (0..).zip(&case.frames) {
         let frame = RestirFrame {
             scene,
-            bvh: bvh.tree(),
             width: WIDTH,
             height: HEIGHT,
             seed: seed * 1000 + number,
@@ -54,7 +53,8 @@ fn restir(case: &Case, options: RestirOptions, seed: u32) -> (Vec<[f32; 3]>, f64
             background: case.background,
             remap: None,
         };
-        image = restir.frame(&frame).expect("a frame").value;
+        let mut cpu = CpuBackend::<Standard, WIDE>::new(bvh.clone());
+        image = cpu.restir(&mut restir, &frame).expect("a frame").value;
     }
     let rays = restir.shadow_rays() as f64 / f64::from(WIDTH * HEIGHT);
     (image, rays)

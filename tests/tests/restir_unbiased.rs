@@ -6,9 +6,11 @@ use std::sync::Arc;
 use glam::Vec3;
 use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, exact};
 use lightbvh_host::backend::{
-    Bvh, Combination, CpuRestir, LightRemap, Restir, RestirFrame, RestirOptions, Sampler, SceneArrays,
+    Backend, Bvh, Combination, CpuBackend, LightRemap, Restir, RestirFrame, RestirOptions, Sampler,
+    SceneArrays,
 };
 use lightbvh_host::render::{RayBvh, View, camera};
+use lightbvh_kernels::bvh::Standard;
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 use lightbvh_tests::direct::{Reference, brute_force};
@@ -95,6 +97,7 @@ impl World {
             p,
             material: 0,
             light,
+            instance: light,
         };
         let mut surfaces: Vec<_> = self.walls.iter().map(|&p| surface(p, NONE)).collect();
         surfaces.extend(lights.iter().zip(0..).map(|(t, i)| surface(t.p, i)));
@@ -116,8 +119,9 @@ impl World {
             bvh: LightBvh::two_level(&arrays.lights, &BuildParams::default()),
             arrays: Arc::new(arrays),
             remap: before.map(|before| {
-                let to_current: Vec<u32> = before.iter().map(|&k| position(k)).collect();
-                LightRemap::new(&to_current, order.len())
+                // Each light is an instance of its own.
+                let kept = (0..).zip(before).map(|(i, &k)| ([i; 2], [position(k); 2]));
+                LightRemap::new(before.len(), order.len(), kept)
             }),
         }
     }
@@ -147,7 +151,6 @@ fn moving() -> Vec<Shot> {
 fn frame(shot: &Shot, seed: u32) -> RestirFrame<'_> {
     RestirFrame {
         scene: &shot.arrays,
-        bvh: shot.bvh.tree(),
         width: WIDTH,
         height: HEIGHT,
         seed,
@@ -157,12 +160,18 @@ fn frame(shot: &Shot, seed: u32) -> RestirFrame<'_> {
     }
 }
 
+/// The next frame of `restir`.
+fn render(restir: &mut Restir, shot: &Shot, seed: u32) -> Vec<[f32; 3]> {
+    let mut backend = CpuBackend::<Standard, 8>::new(shot.bvh.clone());
+    backend.restir(restir, &frame(shot, seed)).expect("a frame").value
+}
+
 /// Direct light of every pixel of the last frame by brute force.
 fn references(shots: &[Shot], time: f32) -> Vec<Reference> {
     let last = &shots[FRAMES - 1];
     let options = RestirOptions::new(Sampler::Power, Combination::Unbiased);
-    let mut restir = CpuRestir::new(options);
-    restir.frame(&frame(last, 0)).expect("a frame");
+    let mut restir = Restir::new(options);
+    render(&mut restir, last, 0);
     let surfaces = restir.state().expect("a state").0;
     let world = World::new(time);
     let random = &mut Random::new(5);
@@ -186,11 +195,11 @@ fn measure(options: RestirOptions, shots: &[Shot], references: &[Reference]) -> 
             let found = &found;
             scope.spawn(move || {
                 for history in (worker..HISTORIES).step_by(workers as usize) {
-                    let mut restir = CpuRestir::new(options);
+                    let mut restir = Restir::new(options);
                     let mut image = Vec::new();
                     for (number, shot) in (0..).zip(shots) {
                         let seed = exact::hash(history * FRAMES as u32 + number);
-                        image = restir.frame(&frame(shot, seed)).expect("a frame").value;
+                        image = render(&mut restir, shot, seed);
                     }
                     found.lock().expect("no worker panics").push((history, image));
                 }

@@ -41,8 +41,18 @@ fn digest(frame: &Frame) -> u64 {
         frame.camera.up,
         frame.camera.forward,
     ];
+    // Instances follow from the lights' meshes.
+    let triangles: Vec<_> = frame
+        .triangles
+        .iter()
+        .map(|t| (t.p, [t.material, t.light]))
+        .collect();
+    let triangles: Vec<u32> = triangles
+        .iter()
+        .flat_map(|(p, words)| p.as_flattened().iter().map(|x| x.to_bits()).chain(*words))
+        .collect();
     let bytes: [&[u8]; 3] = [
-        bytemuck::cast_slice(&frame.triangles),
+        bytemuck::cast_slice(&triangles),
         bytemuck::cast_slice(&frame.emissive),
         bytemuck::cast_slice(&camera),
     ];

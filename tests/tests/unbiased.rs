@@ -4,6 +4,7 @@ use glam::Vec3;
 use lightbvh::light::uniform_point;
 use lightbvh::{BuildParams, EmissiveTriangle, Heuristic, LightBvh, Lights, ShadingPoint, exact};
 use lightbvh_host::render::{RayBvh, power_thresholds};
+use lightbvh_kernels::shading::emitters::{Emitters, listed};
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use lightbvh_kernels::shading::pixel::{Scene, Seen, reflected};
@@ -154,6 +155,7 @@ fn surfaces_converge(seed: u32, walls: bool) {
         p,
         material: 0,
         light,
+        instance: light,
     };
     let mut surfaces: Vec<_> = occluders.iter().map(|&p| surface(p, NONE)).collect();
     surfaces.extend(lights.triangles().iter().zip(0..).map(|(t, i)| surface(t.p, i)));
@@ -161,7 +163,10 @@ fn surfaces_converge(seed: u32, walls: bool) {
     let scene = Scene {
         surfaces: bvh.surfaces(),
         materials: &[WHITE],
-        lights: lights.triangles(),
+        emitters: Emitters {
+            triangles: lights.triangles(),
+            instances: &listed(lights.triangles().len() as u32),
+        },
     };
 
     let mut lit = 0;

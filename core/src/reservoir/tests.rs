@@ -3,6 +3,7 @@ use super::*;
 fn sample(light: u32) -> LightSample {
     LightSample {
         light,
+        instance: light / 2,
         uv: [0.25, 0.75],
     }
 }

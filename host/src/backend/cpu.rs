@@ -5,11 +5,18 @@ use lightbvh::{Lights, SampledLight};
 use lightbvh_kernels::bvh::{Choice, Standard, TreeOf, WIDTH};
 use lightbvh_kernels::query::{Query, pmf_query, sample_query};
 use lightbvh_kernels::render::RenderParams;
+use lightbvh_kernels::shading::camera::Camera;
+use lightbvh_kernels::shading::emitters::Emitters;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
+use lightbvh_kernels::shading::pixel::Scene;
 use rayon::prelude::*;
 
 use super::batches::in_batches;
-use super::{Backend, BackendError, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, node_record};
+use super::restir::cpu::resample;
+use super::{
+    Backend, BackendError, Bvh, Follow, Integrator, Restir, RestirFrame, Sampler, SceneArrays, Timed,
+    node_record,
+};
 use crate::render::{render, render_path};
 use crate::words::Record;
 
@@ -61,34 +68,66 @@ impl<C: Choice<W>, const W: usize> Backend for CpuBackend<C, W> {
         sampler: Sampler,
         integrator: Integrator,
     ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
+        let view = self.view(scene, sampler);
         in_batches(params, integrator.samples_per_invocation(), |params| {
+            let image = Image {
+                scene: &view,
+                camera: &scene.camera,
+                params,
+                integrator,
+            };
             Ok(Timed::of(|| match sampler {
-                Sampler::Uniform => {
-                    let count = scene.lights.triangles().len() as u32;
-                    image(scene, params, integrator, &Uniform { count })
-                }
-                Sampler::Power => {
-                    let thresholds = &scene.thresholds;
-                    image(scene, params, integrator, &Power { thresholds })
-                }
-                Sampler::SingleLevel | Sampler::TwoLevel => {
-                    image(scene, params, integrator, &self.bvh.tree())
-                }
+                Sampler::Uniform => image.by(&uniform(scene)),
+                Sampler::Power => image.by(&power(scene)),
+                Sampler::SingleLevel | Sampler::TwoLevel => image.by(&self.bvh.tree()),
             }))
         })
     }
+
+    fn restir(
+        &mut self,
+        restir: &mut Restir,
+        frame: &RestirFrame<'_>,
+    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
+        let source = restir.options().source;
+        let view = self.view(frame.scene, source);
+        Ok(Timed::of(|| match source {
+            Sampler::Uniform => resample(restir, frame, &view, &uniform(frame.scene)),
+            Sampler::Power => resample(restir, frame, &view, &power(frame.scene)),
+            Sampler::SingleLevel | Sampler::TwoLevel => resample(restir, frame, &view, &self.bvh.tree()),
+        }))
+    }
 }
 
-/// The image by `integrator` with lights from `picker`.
-fn image<P: PickLight + Sync>(
-    scene: &SceneArrays,
-    params: &RenderParams,
+fn uniform(scene: &SceneArrays) -> Uniform {
+    Uniform {
+        count: scene.lights.triangles().len() as u32,
+    }
+}
+
+fn power(scene: &SceneArrays) -> Power<'_> {
+    Power {
+        thresholds: &scene.thresholds,
+    }
+}
+
+/// An image, but for how its lights are chosen.
+struct Image<'a> {
+    scene: &'a Scene<'a>,
+    camera: &'a Camera,
+    params: &'a RenderParams,
     integrator: Integrator,
-    picker: &P,
-) -> Vec<[f32; 3]> {
-    match integrator {
-        Integrator::Direct => render(&scene.view(), &scene.camera, params, picker),
-        Integrator::Path { bounces } => render_path(&scene.view(), &scene.camera, params, bounces, picker),
+}
+
+impl Image<'_> {
+    /// The image with lights from `picker`.
+    fn by<P: PickLight + Sync>(&self, picker: &P) -> Vec<[f32; 3]> {
+        match self.integrator {
+            Integrator::Direct => render(self.scene, self.camera, self.params, picker),
+            Integrator::Path { bounces } => {
+                render_path(self.scene, self.camera, self.params, bounces, picker)
+            }
+        }
     }
 }
 
@@ -102,6 +141,17 @@ impl<C: Choice<W>, const W: usize> Follow<C, W> for CpuBackend<C, W> {
 }
 
 impl<C: Choice<W>, const W: usize> CpuBackend<C, W> {
+    /// A scene with the lights that `sampler` chooses among: a light BVH knows where its own are.
+    fn view<'a>(&'a self, scene: &'a SceneArrays, sampler: Sampler) -> Scene<'a> {
+        scene.lit_by(match sampler.needs_bvh() {
+            true => Emitters {
+                triangles: self.bvh.triangles(),
+                instances: self.bvh.tree().instances,
+            },
+            false => scene.emitters(),
+        })
+    }
+
     /// The words of all nodes.
     fn words(&self) -> Vec<u32> {
         cast_slice(self.bvh.tree().nodes).to_vec()

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use bytemuck::bytes_of;
 use lightbvh::refit::BlasRoot;
-use lightbvh::{EmissiveTriangle, Lights, SampledLight};
+use lightbvh::{Lights, SampledLight};
 use lightbvh_gpu::{Buffer as Array, Mirror, Refit};
 use lightbvh_kernels::WORKGROUP;
 use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
@@ -15,8 +15,12 @@ use lightbvh_kernels::render::{RenderParams, RenderPush};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
 use super::batches::in_batches;
-use super::device_arrays::{DeviceScene, DeviceTree, device_time, kernel_name};
-use super::{Backend, BackendError, Bvh, Integrator, Sampler, SceneArrays, Timed, node_record};
+use super::device_arrays::{DeviceEmitters, DeviceScene, DeviceTree, device_time, kernel_name};
+use super::follow::own;
+use super::restir::device::resample;
+use super::{
+    Backend, BackendError, Bvh, Integrator, Restir, RestirFrame, Sampler, SceneArrays, Timed, node_record,
+};
 use crate::vulkan::{Binding, Buffer, Device, Kernel, Pass};
 use crate::words::Record;
 
@@ -32,8 +36,6 @@ pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     pub(super) device: &'d Device,
     pub(super) tree: DeviceTree<C::Node>,
     pub(super) roots: Buffer<BlasRoot>,
-    /// The triangles of the bottom levels, in the spaces of their meshes.
-    pub(super) triangles: Buffer<EmissiveTriangle>,
     /// The refit of everything.
     refit: Refit,
     /// By which edits are followed.
@@ -52,8 +54,7 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
         let plan = bvh.plan_of_everything();
         Ok(Self {
             device,
-            tree: DeviceTree::upload::<C, W>(device, &bvh.tree())?,
-            triangles: device.upload(bvh.triangles())?,
+            tree: DeviceTree::upload::<C, W>(device, &bvh.tree(), bvh.triangles())?,
             roots: device.upload(bvh.roots())?,
             refit: Refit::new(&plan),
             mirror,
@@ -66,6 +67,11 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     /// [`BackendError`] from the device.
     pub fn write_nodes(&mut self, nodes: &[C::Node]) -> Result<(), BackendError> {
         Ok(self.tree.nodes.write(nodes)?)
+    }
+
+    /// The lights that `sampler` chooses among, where they are the light BVH's.
+    pub(super) fn emitters(&self, sampler: Sampler) -> Option<DeviceEmitters> {
+        sampler.needs_bvh().then(|| self.tree.emitters.clone())
     }
 
     /// The kernel of this choice.
@@ -96,8 +102,8 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     fn buffers<'a>(&'a self, kernel: &Kernel, list: &'a Buffer<u32>) -> Vec<Binding<'a>> {
         let bind = |name| match Array::named(name) {
             Some(Array::Nodes) => self.tree.nodes.bind(),
-            Some(Array::Triangles) => self.triangles.bind(),
-            Some(Array::Instances) => self.tree.instances.bind(),
+            Some(Array::Triangles) => self.tree.emitters.triangles.bind(),
+            Some(Array::Instances) => self.tree.emitters.instances.bind(),
             Some(Array::Roots) => self.roots.bind(),
             Some(Array::Trails) => self.tree.trails.bind(),
             None => list.bind(),
@@ -141,7 +147,7 @@ impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
     }
 
     fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, BackendError> {
-        self.triangles.write(lights.triangles())?;
+        own(&mut self.tree.emitters.triangles)?.write(lights.triangles())?;
         let time = self.refit_by(&self.refit)?;
         Ok(Timed {
             value: self.tree.nodes.read_words()?,
@@ -181,8 +187,8 @@ impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
         };
         let per_pass = per_pass.max(WORKGROUP as usize);
         let kernel = device.kernel(&kernel_name::<C, W>(pass, sampler))?;
-        let scene = DeviceScene::upload(device, scene)?;
-        let inputs = scene.with_lights(sampler, Some(&self.tree));
+        let scene = DeviceScene::upload(device, scene, self.emitters(sampler))?;
+        let inputs = scene.with_lights(sampler, &self.tree);
         let pixels = params.width as usize * params.height as usize;
         in_batches(params, most, |&params| {
             let mut all = Timed {
@@ -218,5 +224,13 @@ impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
             }
             Ok(all)
         })
+    }
+
+    fn restir(
+        &mut self,
+        restir: &mut Restir,
+        frame: &RestirFrame<'_>,
+    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
+        resample::<C, W>(restir, frame, self)
     }
 }

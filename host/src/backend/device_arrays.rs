@@ -1,5 +1,6 @@
 //! A frame of a scene, and what its lights are chosen by, on a device.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use bytemuck::Pod;
@@ -12,52 +13,79 @@ use lightbvh_kernels::shading::trace::{RayNode, SurfaceTriangle};
 use super::{Sampler, SceneArrays};
 use crate::vulkan::{Binding, Buffer, Device, Timings, VulkanError};
 
+/// Lights on the device: triangles in the spaces of their meshes, and where the meshes stand. Who shares them reads them as they
+/// were when it took them.
+#[derive(Clone)]
+pub(super) struct DeviceEmitters {
+    pub triangles: Arc<Buffer<EmissiveTriangle>>,
+    pub instances: Arc<Buffer<Instance>>,
+}
+
+impl DeviceEmitters {
+    pub fn upload(
+        device: &Device,
+        triangles: &[EmissiveTriangle],
+        instances: &[Instance],
+    ) -> Result<Self, VulkanError> {
+        Ok(Self {
+            triangles: Arc::new(device.upload(triangles)?),
+            instances: Arc::new(device.upload(instances)?),
+        })
+    }
+}
+
 /// A frame's arrays on the device.
 pub(super) struct DeviceScene {
     pub ray_nodes: Buffer<RayNode>,
     pub surfaces: Buffer<SurfaceTriangle>,
     pub materials: Buffer<Material>,
-    pub lights: Buffer<EmissiveTriangle>,
+    pub emitters: DeviceEmitters,
     pub camera: Buffer<Camera>,
     pub thresholds: Buffer<u32>,
 }
 
 impl DeviceScene {
-    pub fn upload(device: &Device, scene: &SceneArrays) -> Result<Self, VulkanError> {
+    /// Uploads a frame, lit by `emitters` or, without, by the lights that it lists.
+    pub fn upload(
+        device: &Device,
+        scene: &SceneArrays,
+        emitters: Option<DeviceEmitters>,
+    ) -> Result<Self, VulkanError> {
+        let listed = scene.emitters();
         Ok(Self {
             ray_nodes: device.upload(&scene.rays.nodes)?,
             surfaces: device.upload(&scene.rays.triangles)?,
             materials: device.upload(&scene.materials)?,
-            lights: device.upload(scene.lights.triangles())?,
+            emitters: match emitters {
+                Some(emitters) => emitters,
+                None => DeviceEmitters::upload(device, listed.triangles, listed.instances)?,
+            },
             camera: device.upload(&[scene.camera])?,
             thresholds: device.upload(&scene.thresholds)?,
         })
     }
 
-    /// The four buffers that a [`Scene`](lightbvh_kernels::shading::pixel::Scene) is made of.
-    pub fn view(&self) -> [Binding<'_>; 4] {
+    /// The buffers that a [`Scene`](lightbvh_kernels::shading::pixel::Scene) is made of.
+    pub fn view(&self) -> [Binding<'_>; 5] {
         [
             self.ray_nodes.bind(),
             self.surfaces.bind(),
             self.materials.bind(),
-            self.lights.bind(),
+            self.emitters.triangles.bind(),
+            self.emitters.instances.bind(),
         ]
     }
 
     /// What a kernel that chooses lights by `sampler` takes from the scene on: the scene, who looks, and what lights are
     /// chosen by.
-    pub fn with_lights<'a, N: Pod>(
-        &'a self,
-        sampler: Sampler,
-        tree: Option<&'a DeviceTree<N>>,
-    ) -> Vec<Binding<'a>> {
+    pub fn with_lights<'a, N: Pod>(&'a self, sampler: Sampler, tree: &'a DeviceTree<N>) -> Vec<Binding<'a>> {
         let mut bindings = self.view().to_vec();
         bindings.push(self.camera.bind());
         match sampler {
             Sampler::Uniform => {}
             Sampler::Power => bindings.push(self.thresholds.bind()),
             Sampler::SingleLevel | Sampler::TwoLevel => {
-                bindings.extend(tree.iter().flat_map(|tree| tree.bindings()));
+                bindings.extend([tree.nodes.bind(), tree.trails.bind()]);
             }
         }
         bindings
@@ -67,7 +95,7 @@ impl DeviceScene {
 /// The arrays of a light BVH on the device.
 pub(super) struct DeviceTree<N> {
     pub nodes: Buffer<N>,
-    pub instances: Buffer<Instance>,
+    pub emitters: DeviceEmitters,
     pub trails: Buffer<u32>,
     pub push: TreePush,
 }
@@ -76,17 +104,23 @@ impl<N: Pod> DeviceTree<N> {
     pub fn upload<C: Choice<W, Node = N>, const W: usize>(
         device: &Device,
         tree: &TreeOf<'_, C, W>,
+        triangles: &[EmissiveTriangle],
     ) -> Result<Self, VulkanError> {
         Ok(Self {
             nodes: device.upload(tree.nodes)?,
-            instances: device.upload(tree.instances)?,
+            emitters: DeviceEmitters::upload(device, triangles, tree.instances)?,
             trails: device.upload(tree.trails)?,
             push: TreePush::of(tree),
         })
     }
 
+    /// What the passes of queries take.
     pub fn bindings(&self) -> [Binding<'_>; 3] {
-        [self.nodes.bind(), self.instances.bind(), self.trails.bind()]
+        [
+            self.nodes.bind(),
+            self.emitters.instances.bind(),
+            self.trails.bind(),
+        ]
     }
 }
 

@@ -1,5 +1,7 @@
 //! A BVH and its edits on a device: what changed is copied, the rest is computed there.
 
+use std::sync::Arc;
+
 use bytemuck::Pod;
 use lightbvh_gpu::{Buffer as Array, Frame};
 use lightbvh_kernels::bvh::{Choice, TreePush};
@@ -22,18 +24,18 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
     fn copy_changes(&mut self, bvh: &Bvh<C, W>, frame: &Frame) -> Result<(), BackendError> {
         let (device, tree) = (self.device, bvh.tree());
         renew(device, &mut self.tree.nodes, tree.nodes, frame, Array::Nodes)?;
-        renew(
+        renew_shared(
             device,
-            &mut self.tree.instances,
+            &mut self.tree.emitters.instances,
             tree.instances,
             frame,
             Array::Instances,
         )?;
         renew(device, &mut self.tree.trails, tree.trails, frame, Array::Trails)?;
         renew(device, &mut self.roots, bvh.roots(), frame, Array::Roots)?;
-        renew(
+        renew_shared(
             device,
-            &mut self.triangles,
+            &mut self.tree.emitters.triangles,
             bvh.triangles(),
             frame,
             Array::Triangles,
@@ -61,4 +63,29 @@ fn renew<T: Pod>(
         buffer.write_from(first, &data[first..element(copy.bytes.end)])?;
     }
     Ok(())
+}
+
+/// [`renew`] of an array that the frame before may still be read from.
+fn renew_shared<T: Pod>(
+    device: &Device,
+    buffer: &mut Arc<Buffer<T>>,
+    data: &[T],
+    frame: &Frame,
+    array: Array,
+) -> Result<(), VulkanError> {
+    let touched = frame.copies.iter().any(|copy| copy.buffer == array);
+    if frame.resizes.iter().any(|(resized, _)| *resized == array) {
+        *buffer = Arc::new(device.upload(data)?);
+    } else if touched {
+        renew(device, own(buffer)?, data, frame, array)?;
+    }
+    Ok(())
+}
+
+/// The buffer to be written: a copy on the device where something else reads it as it is.
+pub(super) fn own<T: Pod>(buffer: &mut Arc<Buffer<T>>) -> Result<&mut Buffer<T>, VulkanError> {
+    if Arc::get_mut(buffer).is_none() {
+        *buffer = Arc::new(buffer.duplicate()?);
+    }
+    Ok(Arc::get_mut(buffer).expect("no one else has the copy"))
 }

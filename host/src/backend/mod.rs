@@ -18,8 +18,7 @@ pub use device::DeviceBackend;
 pub use error::BackendError;
 pub use record::{PIXEL_RECORD, PMF_RECORD, SAMPLED_RECORD, node_record};
 pub use restir::{
-    Combination, CpuRestir, DeviceRestir, History, LightRemap, RESERVOIR_RECORD, Restir, RestirFrame,
-    RestirOptions, SURFACE_RECORD,
+    Combination, History, LightRemap, RESERVOIR_RECORD, Restir, RestirFrame, RestirOptions, SURFACE_RECORD,
 };
 pub use scene::{Sampler, SceneArrays};
 
@@ -97,6 +96,17 @@ pub trait Backend {
         params: &RenderParams,
         sampler: Sampler,
         integrator: Integrator,
+    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError>;
+
+    /// Renders the next frame of `restir`: direct lighting, W/(m² sr), by rows from the upper left. Candidates from a light BVH come
+    /// from this backend's, and so do the lights then.
+    ///
+    /// # Errors
+    /// [`BackendError`] from a device.
+    fn restir(
+        &mut self,
+        restir: &mut Restir,
+        frame: &RestirFrame<'_>,
     ) -> Result<Timed<Vec<[f32; 3]>>, BackendError>;
 }
 

@@ -1,7 +1,8 @@
 //! A frame of a scene as the render pass reads it.
 
-use lightbvh::Lights;
+use lightbvh::{Instance, Lights};
 use lightbvh_kernels::shading::camera::Camera;
+use lightbvh_kernels::shading::emitters::{Emitters, listed};
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pixel::Scene as SceneView;
 
@@ -18,7 +19,7 @@ pub enum Sampler {
     Power,
     /// A light BVH over all triangles.
     SingleLevel,
-    /// A light BVH over mesh lights over one over the triangles of each.
+    /// A light BVH over instances over one over the triangles of each mesh.
     TwoLevel,
 }
 
@@ -44,8 +45,10 @@ pub struct SceneArrays {
     pub rays: RayBvh,
     /// How it reflects.
     pub materials: Vec<Material>,
-    /// What of it emits.
+    /// What of it emits, in the world.
     pub lights: Lights,
+    /// The one instance that all lights are of where they are read from here.
+    identity: [Instance; 1],
     /// Table of the power sampler; empty when there are more lights than it can tell apart, or none has flux.
     pub thresholds: Vec<u32>,
     /// Who looks.
@@ -56,21 +59,36 @@ impl SceneArrays {
     /// Gathers a frame; the power table is made here.
     pub fn new(rays: RayBvh, materials: Vec<Material>, lights: Lights, camera: Camera) -> Self {
         let thresholds = power_thresholds(lights.triangles()).unwrap_or_default();
+        let identity = listed(lights.triangles().len() as u32);
         Self {
             rays,
             materials,
             lights,
+            identity,
             thresholds,
             camera,
         }
     }
 
-    /// The arrays as the kernels' functions take them.
+    /// The arrays as the kernels' functions take them, the lights as they are listed here.
     pub fn view(&self) -> SceneView<'_> {
+        self.lit_by(self.emitters())
+    }
+
+    /// The arrays as the kernels' functions take them, with lights from elsewhere: those of a light BVH.
+    pub fn lit_by<'a>(&'a self, emitters: Emitters<'a>) -> SceneView<'a> {
         SceneView {
             surfaces: self.rays.surfaces(),
             materials: &self.materials,
-            lights: self.lights.triangles(),
+            emitters,
+        }
+    }
+
+    /// The lights as they are listed here.
+    pub fn emitters(&self) -> Emitters<'_> {
+        Emitters {
+            triangles: self.lights.triangles(),
+            instances: &self.identity,
         }
     }
 }

@@ -19,8 +19,7 @@ use lightbvh_kernels::bvh::{Choice, Paper, Standard, WIDTH};
 use self::independent::Independent;
 use self::restir::Reservoirs;
 use crate::backend::{
-    Backend, BackendError, Bvh, CpuBackend, CpuRestir, DeviceBackend, DeviceRestir, Follow, History, Restir,
-    RestirOptions, Sampler, SceneArrays, Timed,
+    Backend, BackendError, Bvh, CpuBackend, DeviceBackend, Follow, History, Sampler, SceneArrays, Timed,
 };
 use crate::error::HostError;
 use crate::render::power_thresholds;
@@ -164,17 +163,6 @@ impl<'d> Target<'d> {
             Self::Cpu => Box::new(CpuBackend::<C, W>::new(bvh)),
             Self::Device(device) => Box::new(DeviceBackend::<C, W>::new(device, &bvh)?),
         })
-    }
-
-    /// ReSTIR before its first frame.
-    pub(crate) fn restir<C: Choice<W>, const W: usize>(
-        &self,
-        options: RestirOptions,
-    ) -> Box<dyn Restir<C, W> + 'd> {
-        match *self {
-            Self::Cpu => Box::new(CpuRestir::<C, W>::new(options)),
-            Self::Device(device) => Box::new(DeviceRestir::<C, W>::new(device, options)),
-        }
     }
 }
 

@@ -8,7 +8,7 @@ use lightbvh_kernels::bvh::Choice;
 
 use super::moving::Moving;
 use super::{Recipe, Runner, SampleBudget, SequenceId, Step, Target, UpdateTimes, mean_of, time_power_table};
-use crate::backend::{History, Restir, RestirFrame, RestirOptions, SceneArrays, Timed};
+use crate::backend::{Follow, History, Restir, RestirFrame, RestirOptions, SceneArrays, Timed};
 use crate::error::HostError;
 use crate::workload::RenderSettings;
 
@@ -19,9 +19,9 @@ const HISTORY: u32 = 8;
 pub(super) struct Reservoirs<'d, C: Choice<W>, const W: usize> {
     recipe: Recipe,
     options: RestirOptions,
-    target: Target<'d>,
+    backend: Box<dyn Follow<C, W> + 'd>,
     moving: Moving<C, W>,
-    sequences: BTreeMap<SequenceId, Vec<Box<dyn Restir<C, W> + 'd>>>,
+    sequences: BTreeMap<SequenceId, Vec<Restir>>,
 }
 
 impl<'d, C: Choice<W>, const W: usize> Reservoirs<'d, C, W> {
@@ -32,11 +32,12 @@ impl<'d, C: Choice<W>, const W: usize> Reservoirs<'d, C, W> {
         first: &Step<'_>,
         target: Target<'d>,
     ) -> Result<Self, HostError> {
+        let moving = Moving::<C, W>::new(first, recipe.builder.params())?;
         Ok(Self {
             recipe,
             options,
-            target,
-            moving: Moving::new(first, recipe.builder.params())?,
+            backend: target.backend::<C, W>(moving.scene().clone())?,
+            moving,
             sequences: BTreeMap::new(),
         })
     }
@@ -45,7 +46,7 @@ impl<'d, C: Choice<W>, const W: usize> Reservoirs<'d, C, W> {
 impl<C: Choice<W>, const W: usize> Runner for Reservoirs<'_, C, W> {
     fn advance(&mut self, step: &Step<'_>) -> Result<UpdateTimes, HostError> {
         if self.recipe.lights.needs_bvh() {
-            self.moving.advance(step, None)
+            self.moving.advance(step, Some(&mut *self.backend))
         } else {
             Ok(time_power_table(step))
         }
@@ -58,19 +59,18 @@ impl<C: Choice<W>, const W: usize> Runner for Reservoirs<'_, C, W> {
         settings: &RenderSettings,
         sequence: SequenceId,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
-        let (options, budget, target) = (self.options, self.recipe.budget, self.target);
+        let (options, budget) = (self.options, self.recipe.budget);
         self.recipe.require_power_table(step, arrays)?;
         let histories = self.sequences.entry(sequence).or_insert_with(|| {
             let count = match budget {
                 SampleBudget::ShadowRays => (settings.samples / options.most_shadow_rays()).max(1),
                 SampleBudget::CameraRays => settings.samples,
             };
-            (0..count).map(|_| target.restir::<C, W>(options)).collect()
+            (0..count).map(|_| Restir::new(options)).collect()
         });
         mean_of(histories.len() as u32, settings, |number| {
-            Ok(histories[number as usize].frame(&RestirFrame {
+            let frame = RestirFrame {
                 scene: arrays,
-                bvh: self.moving.scene().tree(),
                 width: settings.width,
                 height: settings.height,
                 seed: hash(hash(settings.seed).wrapping_add(number)).wrapping_add(step.frame),
@@ -80,7 +80,8 @@ impl<C: Choice<W>, const W: usize> Runner for Reservoirs<'_, C, W> {
                 },
                 background: step.scene.data().background,
                 remap: None,
-            })?)
+            };
+            Ok(self.backend.restir(&mut histories[number as usize], &frame)?)
         })
     }
 

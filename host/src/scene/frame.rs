@@ -102,6 +102,7 @@ pub(super) fn place_meshes(data: &SceneData, world: &[Affine], out: &mut Frame) 
                     p,
                     material: primitive.material,
                     light,
+                    instance: mesh_light,
                 });
             }
 

@@ -127,6 +127,16 @@ impl<T: Pod> Buffer<T> {
             .write_at(first * Self::ELEMENT_BYTES, bytemuck::cast_slice(data))
     }
 
+    /// A buffer of the same elements, copied by the device.
+    ///
+    /// # Errors
+    /// As [`Device::upload`].
+    pub fn duplicate(&self) -> Result<Self, VulkanError> {
+        let copy = Self::new(&self.memory.shared, self.len)?;
+        self.memory.copy_to(&copy.memory, 0, 0, self.memory.bytes)?;
+        Ok(copy)
+    }
+
     /// Sets every word to [`UNWRITTEN`] again.
     ///
     /// # Errors

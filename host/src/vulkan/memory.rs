@@ -146,7 +146,7 @@ impl Memory {
     }
 
     /// Copies between two buffers of the device.
-    fn copy_to(&self, target: &Self, from: u64, to: u64, bytes: u64) -> Result<(), VulkanError> {
+    pub(crate) fn copy_to(&self, target: &Self, from: u64, to: u64, bytes: u64) -> Result<(), VulkanError> {
         let regions = [vk::BufferCopy {
             src_offset: from,
             dst_offset: to,
@@ -155,7 +155,7 @@ impl Memory {
         let (source, target) = (self.buffer, target.buffer);
         let work = || format!("copying {bytes} bytes");
         let done = self.shared.submit(work, |device, commands| {
-            // SAFETY: both buffers belong to this device, were made for transfers, hold the regions (`chunks`), and
+            // SAFETY: both buffers belong to this device, were made for transfers, hold the regions (`chunks`, `Buffer::duplicate`), and
             // outlive the submission (`drop`).
             unsafe { device.cmd_copy_buffer(commands, source, target, &regions) };
         });

@@ -6,6 +6,7 @@
 //! | [`grid`] | the grid that coordinates lie on, so that no product of lengths is subnormal |
 //! | [`ray`], [`trace`] | a ray against a box and a triangle; the walk through the ray BVH |
 //! | [`camera`], [`material`] | where rays start; how surfaces reflect |
+//! | [`emitters`] | the lights, read through their instances |
 //! | [`area`] | a point on the chosen light, and what it contributes |
 //! | [`pick`] | the choice of a light: the trait, uniform and by power |
 //! | [`pixel`] | all of it together, for one pixel |
@@ -19,6 +20,7 @@
 
 pub mod area;
 pub mod camera;
+pub mod emitters;
 pub mod grid;
 pub mod lobe;
 pub mod material;

@@ -10,9 +10,9 @@ use super::area::{connect, light_density};
 use super::grid::{STEP, TINY, bounded_product, flush_vector};
 use super::mis::power_heuristic;
 use super::pick::PickLight;
-use super::pixel::{Scene, encounter, load_light, load_material};
+use super::pixel::{Scene, encounter, load_material};
 use super::ray::{FAR, Ray};
-use super::trace::any_hit;
+use super::trace::{NONE, any_hit};
 
 /// Most surfaces that a path may be reflected by.
 pub const MAX_BOUNCES: u32 = 64;
@@ -64,9 +64,9 @@ pub fn path_radiance<P: PickLight>(
         let seen = met.seen;
 
         let mut weight = 1.0;
-        if met.light < scene.lights.len() as u32 && density > 0.0 {
-            let light = load_light(scene.lights, met.light);
-            let pmf = picker.pmf(&from, met.light, light.mesh);
+        if met.light != NONE && density > 0.0 {
+            let light = scene.emitters.light(met.light, met.instance);
+            let pmf = picker.pmf(&from, met.light, met.instance);
             weight = power_heuristic(density, light_density(ray.direction * met.distance, &light, pmf));
         }
         radiance += bounded(throughput, seen.direct * weight);
@@ -76,8 +76,8 @@ pub fn path_radiance<P: PickLight>(
         if alive {
             let material = load_material(scene.materials, seen.material);
             let picked = picker.pick(&seen.point, hash(random.wrapping_add(RANDOM_LIGHT)));
-            if picked.light < scene.lights.len() as u32 {
-                let light = load_light(scene.lights, picked.light);
+            if picked.pmf > 0.0 {
+                let light = scene.emitters.light(picked.light, picked.instance);
                 let uv = [draw(random, RANDOM_LIGHT + 1), draw(random, RANDOM_LIGHT + 2)];
                 let connection = connect(&seen.point, seen.wo, &material, &light, picked.pmf, uv);
                 if connection.contribution.x + connection.contribution.y + connection.contribution.z > 0.0 {

@@ -11,9 +11,9 @@ pub trait PickLight {
     fn pick(&self, point: &ShadingPoint, random: u32) -> SampledLight;
 
     /// The probability with which [`pick`](Self::pick) returns `light` for `point`: to the bit the pmf that comes with the
-    /// light when it is picked, 0 where it never is. `mesh` is the light's [`mesh`](lightbvh::EmissiveTriangle::mesh);
-    /// only a picker over mesh lights looks at it.
-    fn pmf(&self, point: &ShadingPoint, light: u32, mesh: u32) -> f32;
+    /// light when it is picked, 0 where it never is. `instance` is the light's;
+    /// only a picker over instances looks at it.
+    fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32;
 }
 
 /// Random numbers count in 2^-24 here: the number of those that lead to a light then fits an `f32` exactly, and so does
@@ -57,7 +57,7 @@ impl PickLight for Uniform {
     /// Light `i` is chosen by `ceil((i+1) 2^24 / n) - ceil(i 2^24 / n)` of the `2^24` random numbers, which differs
     /// between lights by one, and the pmf says so.
     #[inline]
-    fn pmf(&self, _point: &ShadingPoint, light: u32, _mesh: u32) -> f32 {
+    fn pmf(&self, _point: &ShadingPoint, light: u32, _instance: u32) -> f32 {
         let count = self.pickable();
         // A light beyond the last is asked about as the first, whose arithmetic is in range.
         let known = light < count;
@@ -131,7 +131,7 @@ impl PickLight for Power<'_> {
     }
 
     #[inline]
-    fn pmf(&self, _point: &ShadingPoint, light: u32, _mesh: u32) -> f32 {
+    fn pmf(&self, _point: &ShadingPoint, light: u32, _instance: u32) -> f32 {
         let entries = self.thresholds.len() as u32;
         let mut pmf = 0.0;
         if entries > 1 && light < entries - 1 {

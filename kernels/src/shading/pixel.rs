@@ -3,9 +3,10 @@
 use glam::Vec3;
 use lightbvh::exact::{div, hash, recip, sqrt, unit_f32};
 use lightbvh::vector::{cross, dot, length_squared};
-use lightbvh::{EmissiveTriangle, ShadingPoint};
+use lightbvh::{EmissiveTriangle, Instance, ShadingPoint};
 
 use super::area::{connect, offset_distance};
+use super::emitters::Emitters;
 use super::grid::{TINY, TINY_AREA, flush_vector};
 use super::material::Material;
 use super::pick::PickLight;
@@ -22,8 +23,8 @@ pub struct Scene<'a> {
     pub surfaces: Surfaces<'a>,
     /// How it reflects; indexed by the triangles.
     pub materials: &'a [Material],
-    /// What of it emits; indexed by the triangles.
-    pub lights: &'a [EmissiveTriangle],
+    /// What of it emits.
+    pub emitters: Emitters<'a>,
 }
 
 impl<'a> Scene<'a> {
@@ -32,14 +33,18 @@ impl<'a> Scene<'a> {
     #[must_use]
     pub fn new(
         nodes: &'a [RayNode],
-        triangles: &'a [SurfaceTriangle],
+        surfaces: &'a [SurfaceTriangle],
         materials: &'a [Material],
-        lights: &'a [EmissiveTriangle],
+        triangles: &'a [EmissiveTriangle],
+        instances: &'a [Instance],
     ) -> Self {
         Self {
-            surfaces: Surfaces { nodes, triangles },
+            surfaces: Surfaces {
+                nodes,
+                triangles: surfaces,
+            },
             materials,
-            lights,
+            emitters: Emitters { triangles, instances },
         }
     }
 }
@@ -63,8 +68,10 @@ pub struct Seen {
 pub struct Encounter {
     /// What it sees.
     pub seen: Seen,
-    /// Index of the emissive triangle that it met, or [`NONE`].
+    /// The light that it met, or [`NONE`].
     pub light: u32,
+    /// The instance of that light.
+    pub instance: u32,
     /// Distance in multiples of the ray's direction; the ray's end if it met nothing.
     pub distance: f32,
 }
@@ -92,6 +99,7 @@ pub fn encounter(scene: &Scene<'_>, ray: &Ray, background: Vec3) -> Encounter {
         direct: background,
     };
     let mut light = NONE;
+    let mut instance = NONE;
     if hit.triangle < triangles.len() as u32 {
         let p0 = vertex(triangles, hit.triangle, 0);
         let p1 = vertex(triangles, hit.triangle, 1);
@@ -113,11 +121,13 @@ pub fn encounter(scene: &Scene<'_>, ray: &Ray, background: Vec3) -> Encounter {
         }
         seen.material = triangles[hit.triangle as usize].material;
         light = triangles[hit.triangle as usize].light;
-        seen.direct = emitted(scene.lights, light, front);
+        instance = triangles[hit.triangle as usize].instance;
+        seen.direct = emitted(&scene.emitters, light, instance, front);
     }
     Encounter {
         seen,
         light,
+        instance,
         distance: hit.t,
     }
 }
@@ -134,18 +144,14 @@ fn hit_point(ray: &Ray, p0: Vec3, e1: Vec3, e2: Vec3) -> Vec3 {
     (p0 + e1 * (dot(s, pv) * scale)) + e2 * (dot(ray.direction, qv) * scale)
 }
 
-/// The radiance of light `index` seen from its front or back.
+/// The radiance of a light seen from its front or back; none where there is no such light.
 #[inline]
-fn emitted(lights: &[EmissiveTriangle], index: u32, front: bool) -> Vec3 {
+fn emitted(emitters: &Emitters<'_>, light: u32, instance: u32, front: bool) -> Vec3 {
     let mut radiance = Vec3::ZERO;
-    if index < lights.len() as u32 {
-        let i = index as usize;
-        if front || lights[i].is_two_sided() {
-            radiance = Vec3::new(
-                lights[i].radiance[0],
-                lights[i].radiance[1],
-                lights[i].radiance[2],
-            );
+    if light != NONE {
+        let light = emitters.light(light, instance);
+        if front || light.is_two_sided() {
+            radiance = Vec3::new(light.radiance[0], light.radiance[1], light.radiance[2]);
         }
     }
     radiance
@@ -163,8 +169,8 @@ pub fn reflected<P: PickLight>(scene: &Scene<'_>, seen: &Seen, picker: &P, sampl
         for sample in 0..samples {
             let random = seed.wrapping_add(sample.wrapping_mul(RANDOM_PER_SAMPLE));
             let picked = picker.pick(&seen.point, hash(random));
-            if picked.light < scene.lights.len() as u32 {
-                let light = load_light(scene.lights, picked.light);
+            if picked.pmf > 0.0 {
+                let light = scene.emitters.light(picked.light, picked.instance);
                 let uv = [
                     unit_f32(hash(random.wrapping_add(1))),
                     unit_f32(hash(random.wrapping_add(2))),
@@ -195,30 +201,5 @@ pub(super) fn load_material(materials: &[Material], index: u32) -> Material {
         ],
         specular: materials[i].specular,
         exponent_log2: materials[i].exponent_log2,
-    }
-}
-
-/// A function, not a closure: one that captures `lights` becomes a structure of pointers, which SPIR-V forbids.
-#[inline]
-fn light_vertex(lights: &[EmissiveTriangle], i: usize, k: usize) -> [f32; 3] {
-    [lights[i].p[k][0], lights[i].p[k][1], lights[i].p[k][2]]
-}
-
-#[inline]
-pub(super) fn load_light(lights: &[EmissiveTriangle], index: u32) -> EmissiveTriangle {
-    let i = index as usize;
-    EmissiveTriangle {
-        p: [
-            light_vertex(lights, i, 0),
-            light_vertex(lights, i, 1),
-            light_vertex(lights, i, 2),
-        ],
-        radiance: [
-            lights[i].radiance[0],
-            lights[i].radiance[1],
-            lights[i].radiance[2],
-        ],
-        mesh: lights[i].mesh,
-        flags: lights[i].flags,
     }
 }

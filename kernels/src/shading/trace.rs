@@ -41,7 +41,7 @@ impl RayNode {
     }
 }
 
-/// A triangle of the scene, in the order of the ray BVH's leaves; 44 bytes.
+/// A triangle of the scene, in the order of the ray BVH's leaves; 48 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct SurfaceTriangle {
@@ -49,11 +49,13 @@ pub struct SurfaceTriangle {
     pub p: [[f32; 3]; 3],
     /// Index of the material.
     pub material: u32,
-    /// Index among the emissive triangles, or [`NONE`].
+    /// The light that it is, as a [`SampledLight`](lightbvh::SampledLight) numbers it, or [`NONE`].
     pub light: u32,
+    /// That light's instance; not read where all lights are of one instance.
+    pub instance: u32,
 }
 
-const _: () = assert!(size_of::<SurfaceTriangle>() == 44);
+const _: () = assert!(size_of::<SurfaceTriangle>() == 48);
 
 /// The scene as rays see it.
 #[derive(Clone, Copy)]

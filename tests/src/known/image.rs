@@ -24,7 +24,7 @@ fn push(file: &File) -> RenderPush {
 pub fn answer(file: &File) -> Vec<Answer> {
     let push = push(file);
     let (ray_nodes, surfaces) = (file.records("ray_nodes"), file.records("surfaces"));
-    let (materials, lights) = (file.records("materials"), file.records("lights"));
+    let (materials, triangles) = (file.records("materials"), file.records("triangles"));
     let (camera, nodes) = (file.records("camera"), file.records("nodes"));
     let (instances, trails) = (file.records("instances"), file.records::<u32>("trails"));
     let mut pixels = vec![[0.0; 3]; push.count as usize];
@@ -35,10 +35,10 @@ pub fn answer(file: &File) -> Vec<Answer> {
             &ray_nodes,
             &surfaces,
             &materials,
-            &lights,
+            &triangles,
+            &instances,
             &camera,
             &nodes,
-            &instances,
             &trails,
             &mut pixels,
         );
@@ -69,7 +69,7 @@ pub fn answer_on(device: &Device, file: &File) -> Vec<Answer> {
     let ray_nodes = upload::<RayNode>(device, file, "ray_nodes");
     let surfaces = upload::<SurfaceTriangle>(device, file, "surfaces");
     let materials = upload::<Material>(device, file, "materials");
-    let lights = upload::<EmissiveTriangle>(device, file, "lights");
+    let triangles = upload::<EmissiveTriangle>(device, file, "triangles");
     let camera = upload::<Camera>(device, file, "camera");
     let nodes = upload::<Node>(device, file, "nodes");
     let instances = upload::<Instance>(device, file, "instances");
@@ -79,10 +79,10 @@ pub fn answer_on(device: &Device, file: &File) -> Vec<Answer> {
         ray_nodes.bind(),
         surfaces.bind(),
         materials.bind(),
-        lights.bind(),
+        triangles.bind(),
+        instances.bind(),
         camera.bind(),
         nodes.bind(),
-        instances.bind(),
         trails.bind(),
         pixels.bind(),
     ];

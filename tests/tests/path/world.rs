@@ -1,8 +1,11 @@
 //! Small worlds, paths in them by every way of finding lights, and comparisons of their means.
 
 use glam::Vec3;
-use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, SampledLight, ShadingPoint, exact};
+use lightbvh::{
+    BuildParams, EmissiveTriangle, Instance, LightBvh, Lights, SampledLight, ShadingPoint, exact,
+};
 use lightbvh_host::render::{RayBvh, power_thresholds};
+use lightbvh_kernels::shading::emitters::{Emitters, listed};
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::path::path_radiance;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
@@ -29,7 +32,7 @@ impl PickLight for Nothing {
         }
     }
 
-    fn pmf(&self, _point: &ShadingPoint, _light: u32, _mesh: u32) -> f32 {
+    fn pmf(&self, _point: &ShadingPoint, _light: u32, _instance: u32) -> f32 {
         0.0
     }
 }
@@ -54,6 +57,7 @@ pub fn glossy(albedo: f32, specular: f32, exponent_log2: u32) -> Material {
 pub struct World {
     pub bvh: RayBvh,
     pub lights: Vec<EmissiveTriangle>,
+    instances: [Instance; 1],
     pub materials: Vec<Material>,
 }
 
@@ -66,15 +70,18 @@ impl World {
                 p: l.p,
                 material: 0,
                 light,
+                instance: l.mesh,
             })
             .collect();
         surfaces.extend(others.iter().map(|&p| SurfaceTriangle {
             p,
             material: 0,
             light: NONE,
+            instance: NONE,
         }));
         Self {
             bvh: RayBvh::build(&surfaces).expect("a ray BVH"),
+            instances: listed(lights.len() as u32),
             lights,
             materials: vec![material],
         }
@@ -84,7 +91,10 @@ impl World {
         Scene {
             surfaces: self.bvh.surfaces(),
             materials: &self.materials,
-            lights: &self.lights,
+            emitters: Emitters {
+                triangles: &self.lights,
+                instances: &self.instances,
+            },
         }
     }
 

@@ -1,11 +1,9 @@
 //! ReSTIR on the CPU: the kernels' functions for each pixel, over all cores of the current rayon pool.
 
-use std::marker::PhantomData;
-use std::sync::Arc;
-use std::time::Instant;
-
-use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
-use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
+use lightbvh::{EmissiveTriangle, Instance};
+use lightbvh_kernels::shading::camera::Camera;
+use lightbvh_kernels::shading::emitters::Emitters;
+use lightbvh_kernels::shading::pick::PickLight;
 use lightbvh_kernels::shading::pixel::Scene;
 use lightbvh_kernels::shading::restir::combine::{Biased, Combine, Unbiased};
 use lightbvh_kernels::shading::restir::initial::{first_reservoir, first_surface};
@@ -16,142 +14,104 @@ use lightbvh_kernels::shading::restir::temporal::{Before, temporal};
 use lightbvh_kernels::shading::restir::{PixelReservoir, RestirParams};
 use rayon::prelude::*;
 
-use super::{Combination, History, LightRemap, Restir, RestirFrame, RestirOptions, continues, params};
-use crate::backend::{BackendError, Sampler, SceneArrays, Timed};
+use super::{Combination, History, Last, LightRemap, Restir, RestirFrame, params};
 
-/// ReSTIR on the CPU.
-pub struct CpuRestir<C: Choice<W> = Standard, const W: usize = WIDTH> {
-    options: RestirOptions,
-    last: Option<Last>,
-    shadow_rays: u64,
-    choice: PhantomData<C>,
-}
-
-/// The frame before.
-struct Last {
-    scene: Arc<SceneArrays>,
-    size: (u32, u32),
+/// What a frame leaves on the CPU.
+pub(super) struct Left {
     gbuffer: Vec<Surface>,
     reservoirs: Vec<PixelReservoir>,
+    /// The lights as they were.
+    triangles: Vec<EmissiveTriangle>,
+    instances: Vec<Instance>,
 }
 
-impl<C: Choice<W>, const W: usize> CpuRestir<C, W> {
-    /// Before the first frame.
-    pub fn new(options: RestirOptions) -> Self {
-        Self {
-            options,
-            last: None,
-            shadow_rays: 0,
-            choice: PhantomData,
-        }
+impl Left {
+    /// G-buffer and reservoirs.
+    pub fn state(&self) -> History {
+        (self.gbuffer.clone(), self.reservoirs.clone())
     }
 }
 
-impl<C: Choice<W>, const W: usize> Restir<C, W> for CpuRestir<C, W> {
-    fn frame(&mut self, frame: &RestirFrame<'_, C, W>) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
-        let start = Instant::now();
-        let params = params(&self.options, frame);
-        let view = frame.scene.view();
-        let scene = frame.scene.as_ref();
-        let (gbuffer, mut reservoirs) = match self.options.source {
-            Sampler::Uniform => {
-                let count = scene.lights.triangles().len() as u32;
-                initial(scene, &params, &Uniform { count })
-            }
-            Sampler::Power => {
-                let thresholds = &scene.thresholds;
-                initial(scene, &params, &Power { thresholds })
-            }
-            Sampler::SingleLevel | Sampler::TwoLevel => initial(scene, &params, &frame.bvh),
+/// The next frame, of `view`, with candidates from `picker`.
+pub(in crate::backend) fn resample<P: PickLight + Sync>(
+    restir: &mut Restir,
+    frame: &RestirFrame<'_>,
+    view: &Scene<'_>,
+    picker: &P,
+) -> Vec<[f32; 3]> {
+    let options = restir.options;
+    let mut params = params(&options, frame);
+    let (gbuffer, mut reservoirs) = initial(view, &frame.scene.camera, &params, picker);
+    if let Some(last) = restir.history(frame)
+        && let super::Left::Cpu(left) = &last.left
+    {
+        let none = LightRemap::default();
+        let remap = frame.remap.unwrap_or(&none);
+        let reuse = Reuse {
+            view,
+            params: &params,
+            gbuffer: &gbuffer,
         };
-        let usable = |last: &&Last| continues(&last.scene, last.size, frame) && self.options.history > 0;
-        if let Some(last) = self.last.as_ref().filter(usable) {
-            let none = LightRemap::default();
-            let remap = frame.remap.unwrap_or(&none);
-            let reuse = Reuse {
-                scene,
-                params: &params,
-                gbuffer: &gbuffer,
-            };
-            reservoirs = match self.options.combination {
-                Combination::Unbiased => {
-                    let then = last.scene.view();
-                    let combine = Unbiased {
-                        surfaces: then.surfaces,
-                        lights: then.lights,
-                    };
-                    reuse.over_time(&combine, last, remap, &reservoirs)
-                }
-                Combination::Biased => reuse.over_time(&Biased, last, remap, &reservoirs),
-            };
-        }
-        for spatial_pass in 0..self.options.spatial_passes {
-            let params = RestirParams {
-                spatial_pass,
-                ..params
-            };
-            let reuse = Reuse {
-                scene,
-                params: &params,
-                gbuffer: &gbuffer,
-            };
-            reservoirs = match self.options.combination {
-                Combination::Unbiased => {
-                    let combine = Unbiased {
-                        surfaces: view.surfaces,
-                        lights: view.lights,
-                    };
-                    reuse.over_pixels(&combine, &reservoirs)
-                }
-                Combination::Biased => reuse.over_pixels(&Biased, &reservoirs),
-            };
-        }
-        let (shaded, kept): (Vec<_>, Vec<_>) = gbuffer
-            .par_iter()
-            .zip(&reservoirs)
-            .map(|(surface, last)| shade(&view, &params, surface, last))
-            .unzip();
-        let time = start.elapsed();
-        self.shadow_rays = shaded.iter().map(|pixel| u64::from(pixel.shadow_rays)).sum();
-        self.last = Some(Last {
-            scene: Arc::clone(frame.scene),
-            size: (frame.width, frame.height),
-            gbuffer,
-            reservoirs: kept,
-        });
-        Ok(Timed {
-            value: shaded.iter().map(|pixel| pixel.radiance).collect(),
-            time,
-        })
+        reservoirs = match options.combination {
+            Combination::Unbiased => {
+                let combine = Unbiased {
+                    surfaces: last.scene.rays.surfaces(),
+                    emitters: Emitters {
+                        triangles: &left.triangles,
+                        instances: &left.instances,
+                    },
+                };
+                reuse.over_time(&combine, last, left, remap, &reservoirs)
+            }
+            Combination::Biased => reuse.over_time(&Biased, last, left, remap, &reservoirs),
+        };
     }
-
-    fn reset(&mut self) {
-        self.last = None;
+    for spatial_pass in 0..options.spatial_passes {
+        params.spatial_pass = spatial_pass;
+        let reuse = Reuse {
+            view,
+            params: &params,
+            gbuffer: &gbuffer,
+        };
+        reservoirs = match options.combination {
+            Combination::Unbiased => {
+                let combine = Unbiased {
+                    surfaces: view.surfaces,
+                    emitters: view.emitters,
+                };
+                reuse.over_pixels(&combine, &reservoirs)
+            }
+            Combination::Biased => reuse.over_pixels(&Biased, &reservoirs),
+        };
     }
-
-    fn shadow_rays(&self) -> u64 {
-        self.shadow_rays
-    }
-
-    fn state(&self) -> Result<History, BackendError> {
-        Ok(self.last.as_ref().map_or_else(Default::default, |last| {
-            (last.gbuffer.clone(), last.reservoirs.clone())
-        }))
-    }
+    let (shaded, kept): (Vec<_>, Vec<_>) = gbuffer
+        .par_iter()
+        .zip(&reservoirs)
+        .map(|(surface, last)| shade(view, &params, surface, last))
+        .unzip();
+    let left = Left {
+        gbuffer,
+        reservoirs: kept,
+        triangles: view.emitters.triangles.to_vec(),
+        instances: view.emitters.instances.to_vec(),
+    };
+    let shadow_rays = shaded.iter().map(|pixel| u64::from(pixel.shadow_rays)).sum();
+    restir.keep(frame, super::Left::Cpu(left), shadow_rays);
+    shaded.iter().map(|pixel| pixel.radiance).collect()
 }
 
 /// Pass 1.
 fn initial<P: PickLight + Sync>(
-    scene: &SceneArrays,
+    view: &Scene<'_>,
+    camera: &Camera,
     params: &RestirParams,
     picker: &P,
 ) -> (Vec<Surface>, Vec<PixelReservoir>) {
-    let view: Scene<'_> = scene.view();
     (0..params.width * params.height)
         .into_par_iter()
         .map(|pixel| {
-            let surface = first_surface(&view, &scene.camera, params, pixel);
-            let reservoir = first_reservoir(&view, params, picker, &surface, pixel);
+            let surface = first_surface(view, camera, params, pixel);
+            let reservoir = first_reservoir(view, params, picker, &surface, pixel);
             (surface, reservoir)
         })
         .unzip()
@@ -159,7 +119,7 @@ fn initial<P: PickLight + Sync>(
 
 /// What passes 2 and 3 have in common.
 struct Reuse<'a> {
-    scene: &'a SceneArrays,
+    view: &'a Scene<'a>,
     params: &'a RestirParams,
     gbuffer: &'a [Surface],
 }
@@ -170,23 +130,23 @@ impl Reuse<'_> {
         &self,
         combine: &C,
         last: &Last,
+        left: &Left,
         remap: &LightRemap,
         reservoirs: &[PixelReservoir],
     ) -> Vec<PixelReservoir> {
         let before = Before {
             camera: &last.scene.camera,
-            gbuffer: &last.gbuffer,
-            reservoirs: &last.reservoirs,
+            gbuffer: &left.gbuffer,
+            reservoirs: &left.reservoirs,
             to_current: remap.to_current(),
         };
-        let view = self.scene.view();
         (0..self.gbuffer.len())
             .into_par_iter()
             .map(|pixel| {
                 temporal(
                     combine,
-                    view.materials,
-                    view.lights,
+                    self.view.materials,
+                    &self.view.emitters,
                     &before,
                     remap.to_previous(),
                     self.params,
@@ -204,14 +164,13 @@ impl Reuse<'_> {
         combine: &C,
         reservoirs: &[PixelReservoir],
     ) -> Vec<PixelReservoir> {
-        let view = self.scene.view();
         (0..self.gbuffer.len() as u32)
             .into_par_iter()
             .map(|pixel| {
                 spatial(
                     combine,
-                    view.materials,
-                    view.lights,
+                    self.view.materials,
+                    &self.view.emitters,
                     self.gbuffer,
                     reservoirs,
                     self.params,

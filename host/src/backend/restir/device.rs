@@ -1,67 +1,143 @@
 //! ReSTIR on a Vulkan device.
 
-use std::marker::PhantomData;
-use std::sync::Arc;
 use std::time::Duration;
 
 use bytemuck::bytes_of;
-use lightbvh_kernels::bvh::{Choice, Standard, TreePush, WIDTH};
+use lightbvh_kernels::bvh::{Choice, TreePush};
 use lightbvh_kernels::restir::RestirPush;
 use lightbvh_kernels::shading::restir::shade::Shaded;
 use lightbvh_kernels::shading::restir::surface::Surface;
 use lightbvh_kernels::shading::restir::{PixelReservoir, RestirParams};
 
-use super::{Combination, History, Restir, RestirFrame, RestirOptions, continues, params};
-use crate::backend::device_arrays::{DeviceScene, DeviceTree, device_time, kernel_name};
-use crate::backend::{BackendError, SceneArrays, Timed};
+use super::{Combination, History, Restir, RestirFrame, params};
+use crate::backend::device_arrays::{DeviceScene, device_time, kernel_name};
+use crate::backend::{BackendError, DeviceBackend, Timed};
 use crate::vulkan::{Binding, Buffer, Device, Pass};
 
 /// Candidates or neighbours per dispatch: keeps one well below the seconds after which a driver gives up on it.
 const WORK_PER_PASS: usize = 1 << 21;
 
-/// ReSTIR on a device.
-pub struct DeviceRestir<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
-    device: &'d Device,
-    options: RestirOptions,
-    last: Option<Last>,
-    shadow_rays: u64,
-    choice: PhantomData<C>,
-}
-
-/// The frame before.
-struct Last {
-    scene: Arc<SceneArrays>,
-    size: (u32, u32),
-    buffers: DeviceScene,
+/// What a frame leaves on a device.
+pub(super) struct Left {
+    /// The scene as it was, its lights too: where they changed since, the light BVH has copies of its own.
+    scene: DeviceScene,
     gbuffer: Buffer<Surface>,
     reservoirs: Buffer<PixelReservoir>,
 }
 
-impl<'d, C: Choice<W>, const W: usize> DeviceRestir<'d, C, W> {
-    /// Before the first frame.
-    pub fn new(device: &'d Device, options: RestirOptions) -> Self {
-        Self {
-            device,
-            options,
-            last: None,
-            shadow_rays: 0,
-            choice: PhantomData,
-        }
+impl Left {
+    /// G-buffer and reservoirs.
+    pub fn state(&self) -> Result<History, BackendError> {
+        Ok((self.gbuffer.read()?, self.reservoirs.read()?))
     }
+}
 
+/// The next frame, with candidates from `backend`'s light BVH where the options say so.
+pub(in crate::backend) fn resample<C: Choice<W>, const W: usize>(
+    restir: &mut Restir,
+    frame: &RestirFrame<'_>,
+    backend: &DeviceBackend<'_, C, W>,
+) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
+    let (device, options) = (backend.device, restir.options);
+    let mut params = params(&options, frame);
+    let pixels = frame.width as usize * frame.height as usize;
+    let scene = DeviceScene::upload(device, frame.scene, backend.emitters(options.source))?;
+    let gbuffer = device.output::<Surface>(pixels)?;
+    let mut reservoirs = device.output::<PixelReservoir>(pixels)?;
+    let mut passes = Passes {
+        device,
+        time: Duration::ZERO,
+    };
+
+    let inputs = scene.with_lights(options.source, &backend.tree);
+    let bindings = [inputs.as_slice(), &[gbuffer.bind(), reservoirs.bind()]].concat();
+    let kernel = kernel_name::<C, W>("restir_initial", options.source);
+    passes.run(&kernel, &bindings, &params, backend.tree.push, options.candidates)?;
+
+    let none = TreePush::default();
+    if let Some(last) = restir.history(frame)
+        && let super::Left::Device(left) = &last.left
+    {
+        let (to_current, to_previous) = frame
+            .remap
+            .map_or((&[][..], &[][..]), |r| (r.to_current(), r.to_previous()));
+        let to_current = device.upload(to_current)?;
+        let to_previous = device.upload(to_previous)?;
+        let [ray_nodes, surfaces, _, triangles, instances] = left.scene.view();
+        let then = [ray_nodes, surfaces, triangles, instances, to_previous.bind()];
+        let [_, _, materials, triangles, instances] = scene.view();
+        let common = [
+            materials,
+            triangles,
+            instances,
+            left.scene.camera.bind(),
+            left.gbuffer.bind(),
+            left.reservoirs.bind(),
+            to_current.bind(),
+            gbuffer.bind(),
+            reservoirs.bind(),
+        ];
+        let (kernel, bindings) = match options.combination {
+            Combination::Unbiased => (
+                "restir_temporal_unbiased",
+                [then.as_slice(), common.as_slice()].concat(),
+            ),
+            Combination::Biased => ("restir_temporal_biased", common.to_vec()),
+        };
+        passes.run(kernel, &bindings, &params, none, 4)?;
+    }
+    for spatial_pass in 0..options.spatial_passes {
+        params.spatial_pass = spatial_pass;
+        let merged = device.output::<PixelReservoir>(pixels)?;
+        let pixel_buffers = [gbuffer.bind(), reservoirs.bind(), merged.bind()];
+        let all = [scene.view().as_slice(), &pixel_buffers].concat();
+        let (kernel, bindings) = match options.combination {
+            Combination::Unbiased => ("restir_spatial_unbiased", all.as_slice()),
+            // No rays, no buffers to trace them through.
+            Combination::Biased => ("restir_spatial_biased", &all[2..]),
+        };
+        let work = options.neighbors.saturating_add(1).saturating_mul(2);
+        passes.run(kernel, bindings, &params, none, work)?;
+        reservoirs = merged;
+    }
+    let output = device.output::<Shaded>(pixels)?;
+    let pixel_buffers = [gbuffer.bind(), reservoirs.bind(), output.bind()];
+    let bindings = [scene.view().as_slice(), &pixel_buffers].concat();
+    passes.run("restir_shade", &bindings, &params, none, 2)?;
+    let time = passes.time;
+    let shaded = output.read()?;
+    let shadow_rays = shaded.iter().map(|pixel| u64::from(pixel.shadow_rays)).sum();
+    let left = Left {
+        scene,
+        gbuffer,
+        reservoirs,
+    };
+    restir.keep(frame, super::Left::Device(Box::new(left)), shadow_rays);
+    Ok(Timed {
+        value: shaded.iter().map(|pixel| pixel.radiance).collect(),
+        time,
+    })
+}
+
+/// Passes that ran, and how long they took.
+struct Passes<'d> {
+    device: &'d Device,
+    time: Duration,
+}
+
+impl Passes<'_> {
     /// Runs a kernel over all pixels, in parts of `work` units of work per pixel.
-    fn over_pixels(
-        &self,
+    fn run(
+        &mut self,
         kernel: &str,
         bindings: &[Binding<'_>],
         params: &RestirParams,
         tree: TreePush,
         work: u32,
-    ) -> Result<Duration, BackendError> {
+    ) -> Result<(), BackendError> {
         let kernel = self.device.kernel(kernel)?;
         let pixels = params.width as usize * params.height as usize;
         let per_pass = (WORK_PER_PASS / work.max(1) as usize).max(64);
-        let mut time = Duration::ZERO;
         for first in (0..pixels).step_by(per_pass) {
             let push = RestirPush {
                 params: *params,
@@ -71,128 +147,8 @@ impl<'d, C: Choice<W>, const W: usize> DeviceRestir<'d, C, W> {
             };
             let mut pass = Pass::new();
             pass.dispatch(&kernel, bindings, bytes_of(&push), push.count);
-            time += device_time(&self.device.run(&pass)?);
+            self.time += device_time(&self.device.run(&pass)?);
         }
-        Ok(time)
-    }
-
-    /// Pass 2.
-    fn over_time(
-        &self,
-        frame: &RestirFrame<'_, C, W>,
-        last: &Last,
-        params: &RestirParams,
-        scene: &DeviceScene,
-        gbuffer: &Buffer<Surface>,
-        reservoirs: &Buffer<PixelReservoir>,
-    ) -> Result<Duration, BackendError> {
-        let (to_current, to_previous) = frame
-            .remap
-            .map_or((&[][..], &[][..]), |r| (r.to_current(), r.to_previous()));
-        let to_current = self.device.upload(to_current)?;
-        let to_previous = self.device.upload(to_previous)?;
-        let common = [
-            scene.materials.bind(),
-            scene.lights.bind(),
-            last.buffers.camera.bind(),
-            last.gbuffer.bind(),
-            last.reservoirs.bind(),
-            to_current.bind(),
-            gbuffer.bind(),
-            reservoirs.bind(),
-        ];
-        let then = [
-            last.buffers.ray_nodes.bind(),
-            last.buffers.surfaces.bind(),
-            last.buffers.lights.bind(),
-            to_previous.bind(),
-        ];
-        let (kernel, bindings) = match self.options.combination {
-            Combination::Unbiased => (
-                "restir_temporal_unbiased",
-                [then.as_slice(), common.as_slice()].concat(),
-            ),
-            Combination::Biased => ("restir_temporal_biased", common.to_vec()),
-        };
-        self.over_pixels(kernel, &bindings, params, TreePush::default(), 4)
-    }
-}
-
-impl<C: Choice<W>, const W: usize> Restir<C, W> for DeviceRestir<'_, C, W> {
-    fn frame(&mut self, frame: &RestirFrame<'_, C, W>) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
-        let device = self.device;
-        let mut params = params(&self.options, frame);
-        let pixels = frame.width as usize * frame.height as usize;
-        let scene = DeviceScene::upload(device, frame.scene)?;
-        let gbuffer = device.output::<Surface>(pixels)?;
-        let mut reservoirs = device.output::<PixelReservoir>(pixels)?;
-        let none = TreePush::default();
-
-        let source = self.options.source;
-        let upload = || DeviceTree::upload::<C, W>(device, &frame.bvh);
-        let tree = source.needs_bvh().then(upload).transpose()?;
-        let inputs = scene.with_lights(source, tree.as_ref());
-        let bindings = [inputs.as_slice(), &[gbuffer.bind(), reservoirs.bind()]].concat();
-        let kernel = kernel_name::<C, W>("restir_initial", source);
-        let work = self.options.candidates;
-        let push = tree.as_ref().map_or(none, |tree| tree.push);
-        let mut time = self.over_pixels(&kernel, &bindings, &params, push, work)?;
-
-        let usable = |last: &&Last| continues(&last.scene, last.size, frame) && self.options.history > 0;
-        if let Some(last) = self.last.as_ref().filter(usable) {
-            time += self.over_time(frame, last, &params, &scene, &gbuffer, &reservoirs)?;
-        }
-        for spatial_pass in 0..self.options.spatial_passes {
-            params.spatial_pass = spatial_pass;
-            let merged = device.output::<PixelReservoir>(pixels)?;
-            let all = [
-                scene.view().as_slice(),
-                &[gbuffer.bind(), reservoirs.bind(), merged.bind()],
-            ]
-            .concat();
-            let (kernel, bindings) = match self.options.combination {
-                Combination::Unbiased => ("restir_spatial_unbiased", all.as_slice()),
-                // No rays, no buffers to trace them through.
-                Combination::Biased => ("restir_spatial_biased", &all[2..]),
-            };
-            let work = self.options.neighbors.saturating_add(1).saturating_mul(2);
-            time += self.over_pixels(kernel, bindings, &params, none, work)?;
-            reservoirs = merged;
-        }
-        let output = device.output::<Shaded>(pixels)?;
-        let bindings = [
-            scene.view().as_slice(),
-            &[gbuffer.bind(), reservoirs.bind(), output.bind()],
-        ]
-        .concat();
-        time += self.over_pixels("restir_shade", &bindings, &params, none, 2)?;
-        let shaded = output.read()?;
-        self.shadow_rays = shaded.iter().map(|pixel| u64::from(pixel.shadow_rays)).sum();
-        self.last = Some(Last {
-            scene: Arc::clone(frame.scene),
-            size: (frame.width, frame.height),
-            buffers: scene,
-            gbuffer,
-            reservoirs,
-        });
-        Ok(Timed {
-            value: shaded.iter().map(|pixel| pixel.radiance).collect(),
-            time,
-        })
-    }
-
-    fn reset(&mut self) {
-        self.last = None;
-    }
-
-    fn shadow_rays(&self) -> u64 {
-        self.shadow_rays
-    }
-
-    fn state(&self) -> Result<History, BackendError> {
-        match &self.last {
-            Some(last) => Ok((last.gbuffer.read()?, last.reservoirs.read()?)),
-            None => Ok(Default::default()),
-        }
+        Ok(())
     }
 }

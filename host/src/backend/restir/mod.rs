@@ -2,20 +2,18 @@
 //!
 //! Both sides run the functions of [`lightbvh_kernels::shading::restir`], where it stands what is unbiased and when.
 
-mod cpu;
-mod device;
+pub(super) mod cpu;
+pub(super) mod device;
+mod remap;
 
-pub use cpu::CpuRestir;
-pub use device::DeviceRestir;
+pub use remap::LightRemap;
 
 use std::sync::Arc;
 
-use lightbvh_kernels::bvh::{Choice, Standard, TreeOf, WIDTH};
 use lightbvh_kernels::shading::restir::surface::Surface;
 use lightbvh_kernels::shading::restir::{PixelReservoir, RestirParams};
-use lightbvh_kernels::shading::trace::NONE;
 
-use super::{BackendError, Sampler, SceneArrays, Timed};
+use super::{BackendError, Sampler, SceneArrays};
 use crate::words::{Field, Record};
 
 /// How reservoirs are combined.
@@ -95,55 +93,11 @@ impl RestirOptions {
     }
 }
 
-/// Which lights of the frame before are which of this one's, where lights came, went or changed their index.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct LightRemap {
-    to_current: Vec<u32>,
-    to_previous: Vec<u32>,
-}
-
-impl LightRemap {
-    /// From the index now of each light of the frame before (`u32::MAX` for one that is gone), of `now` lights. An index
-    /// that is out of range or was given before counts as gone: no two lights can become one.
-    pub fn new(to_current: &[u32], now: usize) -> Self {
-        let mut to_previous = vec![NONE; now];
-        let to_current = to_current
-            .iter()
-            .enumerate()
-            .map(
-                |(previous, &current)| match to_previous.get_mut(current as usize) {
-                    Some(slot) if *slot == NONE => {
-                        *slot = previous as u32;
-                        current
-                    }
-                    _ => NONE,
-                },
-            )
-            .collect();
-        Self {
-            to_current,
-            to_previous,
-        }
-    }
-
-    /// By index in the frame before.
-    pub fn to_current(&self) -> &[u32] {
-        &self.to_current
-    }
-
-    /// By index now.
-    pub fn to_previous(&self) -> &[u32] {
-        &self.to_previous
-    }
-}
-
 /// One frame to render.
 #[derive(Clone, Copy)]
-pub struct RestirFrame<'a, C: Choice<W> = Standard, const W: usize = WIDTH> {
+pub struct RestirFrame<'a> {
     /// The scene; kept until the next frame, which asks what it hid from whom.
     pub scene: &'a Arc<SceneArrays>,
-    /// The light BVH over its lights; used where candidates are chosen by it.
-    pub bvh: TreeOf<'a, C, W>,
     /// Columns.
     pub width: u32,
     /// Rows.
@@ -154,32 +108,98 @@ pub struct RestirFrame<'a, C: Choice<W> = Standard, const W: usize = WIDTH> {
     pub jitter: u32,
     /// Radiance of what no surface covers, W/(m² sr).
     pub background: [f32; 3],
-    /// What became of the lights of the frame before; `None` where each kept its index.
+    /// What became of the lights of the frame before; `None` where each kept its number.
     pub remap: Option<&'a LightRemap>,
 }
 
-/// ReSTIR over frames in a row. Equal frames give equal words, whatever runs them.
-pub trait Restir<C: Choice<W> = Standard, const W: usize = WIDTH> {
-    /// Renders the next frame: direct lighting, W/(m² sr), by rows from the upper left.
-    ///
-    /// The history ends, as by [`reset`](Self::reset), where it cannot be used: the image has another size, reflectances
-    /// differ, or the number of lights does without a remap to say how.
-    ///
-    /// # Errors
-    /// [`BackendError`] from a device.
-    fn frame(&mut self, frame: &RestirFrame<'_, C, W>) -> Result<Timed<Vec<[f32; 3]>>, BackendError>;
+/// ReSTIR over frames in a row: what each leaves for the next. [`Backend::restir`](super::Backend::restir) renders them. Equal
+/// frames give equal words, whatever runs them.
+///
+/// The history ends, as by [`reset`](Self::reset), where it cannot be used: the image has another size, reflectances differ, another
+/// kind of backend has rendered it, or the number of listed lights differs without a remap to say how. Two levels need none: there
+/// lights keep their numbers.
+pub struct Restir {
+    options: RestirOptions,
+    last: Option<Last>,
+    shadow_rays: u64,
+}
+
+/// The frame before.
+struct Last {
+    scene: Arc<SceneArrays>,
+    size: (u32, u32),
+    left: Left,
+}
+
+/// What a frame left where it was rendered.
+enum Left {
+    Cpu(cpu::Left),
+    Device(Box<device::Left>),
+}
+
+impl Restir {
+    /// Before the first frame.
+    pub fn new(options: RestirOptions) -> Self {
+        Self {
+            options,
+            last: None,
+            shadow_rays: 0,
+        }
+    }
+
+    /// What is done in each frame.
+    pub fn options(&self) -> &RestirOptions {
+        &self.options
+    }
 
     /// Forgets the frames so far.
-    fn reset(&mut self);
+    pub fn reset(&mut self) {
+        self.last = None;
+    }
 
     /// Shadow rays that the last frame traced, over all pixels.
-    fn shadow_rays(&self) -> u64;
+    pub fn shadow_rays(&self) -> u64 {
+        self.shadow_rays
+    }
 
     /// G-buffer and reservoirs of the last frame, for comparing; empty before the first.
     ///
     /// # Errors
     /// [`BackendError`] from a device.
-    fn state(&self) -> Result<History, BackendError>;
+    pub fn state(&self) -> Result<History, BackendError> {
+        match self.last.as_ref().map(|last| &last.left) {
+            Some(Left::Cpu(left)) => Ok(left.state()),
+            Some(Left::Device(left)) => left.state(),
+            None => Ok(Default::default()),
+        }
+    }
+
+    /// The frame before, where `frame` may use it.
+    fn history(&self, frame: &RestirFrame<'_>) -> Option<&Last> {
+        self.last.as_ref().filter(|last| {
+            let count = |scene: &SceneArrays| scene.lights.triangles().len();
+            let (then, now) = (count(&last.scene), count(frame.scene));
+            let lights_known = match frame.remap {
+                _ if self.options.source == Sampler::TwoLevel => true,
+                Some(remap) => remap.to_current().len() == then && remap.to_previous().len() == now,
+                None => then == now,
+            };
+            self.options.history > 0
+                && last.size == (frame.width, frame.height)
+                && last.scene.materials == frame.scene.materials
+                && lights_known
+        })
+    }
+
+    /// Keeps what `frame` left, which traced `shadow_rays`.
+    fn keep(&mut self, frame: &RestirFrame<'_>, left: Left, shadow_rays: u64) {
+        self.shadow_rays = shadow_rays;
+        self.last = Some(Last {
+            scene: Arc::clone(frame.scene),
+            size: (frame.width, frame.height),
+            left,
+        });
+    }
 }
 
 /// Words of a G-buffer's pixel.
@@ -200,6 +220,7 @@ pub const RESERVOIR_RECORD: Record = Record {
     name: "reservoir",
     fields: &[
         Field::index("light"),
+        Field::index("instance"),
         Field::new("uv", 2),
         Field::new("weight", 1),
         Field::new("count", 1),
@@ -211,10 +232,7 @@ pub const RESERVOIR_RECORD: Record = Record {
 pub type History = (Vec<Surface>, Vec<PixelReservoir>);
 
 /// Parameters of the passes.
-fn params<C: Choice<W>, const W: usize>(
-    options: &RestirOptions,
-    frame: &RestirFrame<'_, C, W>,
-) -> RestirParams {
+fn params(options: &RestirOptions, frame: &RestirFrame<'_>) -> RestirParams {
     RestirParams {
         width: frame.width,
         height: frame.height,
@@ -231,33 +249,9 @@ fn params<C: Choice<W>, const W: usize>(
     }
 }
 
-/// Whether the history of `before`, seen in an image of `size`, can be used for `frame`.
-fn continues<C: Choice<W>, const W: usize>(
-    before: &SceneArrays,
-    size: (u32, u32),
-    frame: &RestirFrame<'_, C, W>,
-) -> bool {
-    let (then, now) = (
-        before.lights.triangles().len(),
-        frame.scene.lights.triangles().len(),
-    );
-    let lights_known = match frame.remap {
-        Some(remap) => remap.to_current.len() == then && remap.to_previous.len() == now,
-        None => then == now,
-    };
-    size == (frame.width, frame.height) && before.materials == frame.scene.materials && lights_known
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_remap_is_one_to_one_whatever_it_is_made_from() {
-        let remap = LightRemap::new(&[2, NONE, 0, 2, 7], 4);
-        assert_eq!(remap.to_current(), [2, NONE, 0, NONE, NONE]);
-        assert_eq!(remap.to_previous(), [2, NONE, 0, NONE]);
-    }
 
     #[test]
     fn the_most_shadow_rays_are_those_of_the_passes() {

@@ -7,10 +7,11 @@ use lightbvh_kernels::bvh::Choice;
 
 use super::structures::Subject;
 use super::tally::Tallies;
-use crate::backend::{Bvh, Combination, RestirFrame, RestirOptions, Sampler};
+use crate::backend::{
+    Backend, Bvh, Combination, CpuBackend, DeviceBackend, Restir, RestirFrame, RestirOptions, Sampler,
+};
 use crate::cli::devices::Opened;
 use crate::error::HostError;
-use crate::method::Target;
 use crate::workload::{RenderSettings, arrays_at, build};
 
 /// Frames in a row: the first has no history, the second a short one, the third one that was merged itself.
@@ -37,13 +38,11 @@ pub(super) fn compare<C: Choice<W>, const W: usize>(
     for source in sources.into_iter().filter(|source| source.needs_bvh() || power) {
         for combination in [Combination::Unbiased, Combination::Biased] {
             let options = RestirOptions::new(source, combination);
-            let mut cpu = Target::Cpu.restir::<C, W>(options);
-            let on = |o| Target::Device(o).restir::<C, W>(options);
-            let mut devices: Vec<_> = opened.iter().map(|o| on(&o.device)).collect();
+            let mut cpu = Restir::new(options);
+            let mut devices: Vec<_> = opened.iter().map(|_| Restir::new(options)).collect();
             for (number, (arrays, bvh)) in (0..).zip(&frames) {
                 let frame = RestirFrame {
                     scene: arrays,
-                    bvh: bvh.tree(),
                     width: settings.width,
                     height: settings.height,
                     seed: hash(settings.seed).wrapping_add(number),
@@ -51,12 +50,16 @@ pub(super) fn compare<C: Choice<W>, const W: usize>(
                     background,
                     remap: None,
                 };
-                let expected = cpu.frame(&frame)?.value;
+                let expected = CpuBackend::<C, W>::new(bvh.clone())
+                    .restir(&mut cpu, &frame)?
+                    .value;
                 let history = cpu.state()?;
                 let what = subject.says(&format!("restir {} frame {number}", combination.name()));
-                for (device, tally) in devices.iter_mut().zip(&mut tallies.devices) {
-                    tally.take_pixels(&what, &expected, &device.frame(&frame)?.value)?;
-                    tally.take_history([&what, &what], &history, &device.state()?)?;
+                let devices = opened.iter().zip(&mut devices).zip(&mut tallies.devices);
+                for ((opened, restir), tally) in devices {
+                    let mut device = DeviceBackend::<C, W>::new(&opened.device, bvh)?;
+                    tally.take_pixels(&what, &expected, &device.restir(restir, &frame)?.value)?;
+                    tally.take_history([&what, &what], &history, &restir.state()?)?;
                 }
             }
         }

@@ -1,8 +1,8 @@
 //! The two ways to count the reservoirs that a sample was chosen among.
 
-use lightbvh::EmissiveTriangle;
 use lightbvh::reservoir::{LightSample, Resampling, Reservoir};
 
+use super::super::emitters::Emitters;
 use super::super::material::Material;
 use super::super::trace::Surfaces;
 use super::surface::Surface;
@@ -42,7 +42,7 @@ pub struct Unbiased<'a> {
     /// What shadow rays met in the receivers' frame.
     pub surfaces: Surfaces<'a>,
     /// The lights of the receivers' frame.
-    pub lights: &'a [EmissiveTriangle],
+    pub emitters: Emitters<'a>,
 }
 
 /// Algorithm 4, 1 / M: **biased**, darker where receivers do not see the same lights; no ray.
@@ -60,7 +60,7 @@ impl Combine for Unbiased<'_> {
         sample: &LightSample,
         known_visible: bool,
     ) -> Answer {
-        let arriving = lit(materials, self.lights, receiver, sample);
+        let arriving = lit(materials, &self.emitters, receiver, sample);
         let mut answer = Answer {
             target: arriving.target,
             shadow_rays: 0,

@@ -57,18 +57,19 @@ pub fn first_reservoir<P: PickLight>(
             let picked = picker.pick(&surface.point, hash(random));
             let sample = LightSample {
                 light: picked.light,
+                instance: picked.instance,
                 uv: [
                     unit_f32(hash(random.wrapping_add(1))),
                     unit_f32(hash(random.wrapping_add(2))),
                 ],
             };
-            let arriving = lit(scene.materials, scene.lights, surface, &sample);
+            let arriving = lit(scene.materials, &scene.emitters, surface, &sample);
             stream.candidate(sample, arriving.target, picked.pmf, hash(random.wrapping_add(3)));
         }
         found.reservoir = stream.finish_equal();
         if found.reservoir.weight > 0.0 {
             let sample = found.reservoir.sample;
-            let end = lit(scene.materials, scene.lights, surface, &sample).end;
+            let end = lit(scene.materials, &scene.emitters, surface, &sample).end;
             found.shadow_rays = 1;
             if !visible(&scene.surfaces, surface, end, sample.light) {
                 found.reservoir = found.reservoir.occluded();

@@ -75,7 +75,7 @@ pub struct RestirParams {
 
 const _: () = assert!(size_of::<RestirParams>() == 56);
 
-/// The reservoir of a pixel, and what it cost; 24 bytes.
+/// The reservoir of a pixel, and what it cost; 28 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct PixelReservoir {
@@ -85,7 +85,7 @@ pub struct PixelReservoir {
     pub shadow_rays: u32,
 }
 
-const _: () = assert!(size_of::<PixelReservoir>() == 24);
+const _: () = assert!(size_of::<PixelReservoir>() == 28);
 
 /// The steps' random numbers are apart by these.
 const INITIAL: u32 = 0x1b56_c4e9;

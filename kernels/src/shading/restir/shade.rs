@@ -39,7 +39,7 @@ pub fn shade(
     let mut reflected = Vec3::ZERO;
     if last.reservoir.weight > 0.0 {
         let sample = last.reservoir.sample;
-        let arriving = lit(scene.materials, scene.lights, surface, &sample);
+        let arriving = lit(scene.materials, &scene.emitters, surface, &sample);
         let mut seen = false;
         if arriving.target > 0.0 {
             kept.shadow_rays = kept.shadow_rays.wrapping_add(1);

@@ -1,9 +1,9 @@
 //! The third step: reservoirs of pixels around (ReSTIR section 4.1, Algorithm 5).
 
-use lightbvh::EmissiveTriangle;
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::reservoir::Resampling;
 
+use super::super::emitters::Emitters;
 use super::super::material::Material;
 use super::super::trace::NONE;
 use super::combine::{Balance, Combine};
@@ -66,7 +66,7 @@ fn rounded(x: f32) -> i32 {
 pub fn spatial<C: Combine>(
     combine: &C,
     materials: &[Material],
-    lights: &[EmissiveTriangle],
+    emitters: &Emitters<'_>,
     gbuffer: &[Surface],
     reservoirs: &[PixelReservoir],
     params: &RestirParams,
@@ -84,7 +84,7 @@ pub fn spatial<C: Combine>(
                 let other = gbuffer[pixel as usize];
                 if surface.is_like(&other, surface.distance_squared) {
                     let reservoir = reservoirs[pixel as usize].reservoir;
-                    let target = lit(materials, lights, &surface, &reservoir.sample).target;
+                    let target = lit(materials, emitters, &surface, &reservoir.sample).target;
                     stream.merge(&reservoir, target, neighbor, hash(random.wrapping_add(1)));
                 }
             }

@@ -1,14 +1,14 @@
 //! p̂, the target that samples are resampled by: the luminance of the unshadowed contribution (ReSTIR section 3).
 
 use glam::Vec3;
-use lightbvh::EmissiveTriangle;
 use lightbvh::reservoir::{LightSample, target};
 
 use super::super::area::{connect, luminance};
+use super::super::emitters::Emitters;
 use super::super::material::Material;
-use super::super::pixel::{load_light, load_material};
+use super::super::pixel::load_material;
 use super::super::ray::Ray;
-use super::super::trace::{Surfaces, any_hit};
+use super::super::trace::{NONE, Surfaces, any_hit};
 use super::surface::Surface;
 
 /// What a light sample contributes to a surface if nothing is between.
@@ -25,20 +25,15 @@ pub struct Lit {
 /// The light of `sample` at `surface`; nothing for a light or material that is not there.
 #[inline]
 #[must_use]
-pub fn lit(
-    materials: &[Material],
-    lights: &[EmissiveTriangle],
-    surface: &Surface,
-    sample: &LightSample,
-) -> Lit {
+pub fn lit(materials: &[Material], emitters: &Emitters<'_>, surface: &Surface, sample: &LightSample) -> Lit {
     let mut lit = Lit {
         contribution: Vec3::ZERO,
         target: 0.0,
         end: Vec3::ZERO,
     };
-    if sample.light < lights.len() as u32 && surface.material < materials.len() as u32 && surface.is_lit() {
+    if sample.light != NONE && surface.material < materials.len() as u32 && surface.is_lit() {
         let material = load_material(materials, surface.material);
-        let light = load_light(lights, sample.light);
+        let light = emitters.light(sample.light, sample.instance);
         let connection = connect(
             &surface.point,
             surface.wo(),

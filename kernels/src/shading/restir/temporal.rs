@@ -1,12 +1,12 @@
 //! The second step: the reservoir that the pixel's surface had in the frame before (ReSTIR section 4.1, Algorithm 5).
 
 use glam::Vec3;
-use lightbvh::EmissiveTriangle;
 use lightbvh::exact::{abs, div, flush, hash, pow2};
 use lightbvh::reservoir::{LightSample, Resampling};
 use lightbvh::vector::{dot, length_squared};
 
 use super::super::camera::Camera;
+use super::super::emitters::Emitters;
 use super::super::grid::{STEP, TINY, flush_vector};
 use super::super::material::Material;
 use super::super::trace::NONE;
@@ -27,21 +27,28 @@ pub struct Before<'a> {
     pub gbuffer: &'a [Surface],
     /// What was left of its samples after shading.
     pub reservoirs: &'a [PixelReservoir],
-    /// By index of a light then: its index now, or [`NONE`].
-    pub to_current: &'a [u32],
+    /// By number of a light then: its number and instance now, or [`NONE`].
+    pub to_current: &'a [[u32; 2]],
 }
 
-/// The index that `light` has on the other side of a remap; its own where there is none.
+/// The sample as the other side of a remap names its light; as it is where there is none.
 #[inline]
-fn translate(map: &[u32], light: u32, remapped: u32) -> u32 {
-    let mut translated = light;
+fn translate(map: &[[u32; 2]], sample: &LightSample, remapped: u32) -> LightSample {
+    let mut light = sample.light;
+    let mut instance = sample.instance;
     if remapped != 0 {
-        translated = NONE;
-        if light < map.len() as u32 {
-            translated = map[light as usize];
+        light = NONE;
+        instance = NONE;
+        if sample.light < map.len() as u32 {
+            light = map[sample.light as usize][0];
+            instance = map[sample.light as usize][1];
         }
     }
-    translated
+    LightSample {
+        light,
+        instance,
+        uv: [sample.uv[0], sample.uv[1]],
+    }
 }
 
 /// The pixel of an image of `width` by `height` through which `camera` sees `p`, or [`NONE`].
@@ -84,16 +91,16 @@ fn cell(x: f32, count: u32) -> u32 {
 
 /// Merges the reservoir of the pixel where the frame before saw `surface` into this frame's.
 ///
-/// `lights` and `materials` are this frame's; `combine` asks the frame before. `to_previous` gives, by index of a light now,
-/// its index then or [`NONE`]; the biased way does not look at it.
+/// `emitters` and `materials` are this frame's; `combine` asks the frame before. `to_previous` gives, by number of a light now,
+/// its number and instance then or [`NONE`]; the biased way does not look at it.
 #[inline]
 #[must_use]
 pub fn temporal<C: Combine>(
     combine: &C,
     materials: &[Material],
-    lights: &[EmissiveTriangle],
+    emitters: &Emitters<'_>,
     before: &Before<'_>,
-    to_previous: &[u32],
+    to_previous: &[[u32; 2]],
     params: &RestirParams,
     surface: &Surface,
     current: PixelReservoir,
@@ -112,21 +119,18 @@ pub fn temporal<C: Combine>(
                 .reservoir
                 .limited(params.history);
             let mut history = old;
-            history.sample.light = translate(before.to_current, old.sample.light, params.remapped);
+            history.sample = translate(before.to_current, &old.sample, params.remapped);
 
             let seed = step_seed(params, index, TEMPORAL);
             let mut stream = Resampling::EMPTY;
-            let own = lit(materials, lights, surface, &current.reservoir.sample).target;
+            let own = lit(materials, emitters, surface, &current.reservoir.sample).target;
             stream.merge(&current.reservoir, own, 0, hash(seed));
-            let theirs = lit(materials, lights, surface, &history.sample).target;
+            let theirs = lit(materials, emitters, surface, &history.sample).target;
             stream.merge(&history, theirs, 1, hash(seed.wrapping_add(1)));
 
             let mut balance = Balance::ZERO;
             if C::UNBIASED && stream.target > 0.0 {
-                let sample = LightSample {
-                    light: translate(to_previous, stream.sample.light, params.remapped),
-                    uv: [stream.sample.uv[0], stream.sample.uv[1]],
-                };
+                let sample = translate(to_previous, &stream.sample, params.remapped);
                 // The reservoirs of the frame before hold only what was visible in it.
                 let answer = combine.ask(materials, &then, &sample, stream.source == 1);
                 found.shadow_rays = found.shadow_rays.wrapping_add(answer.shadow_rays);

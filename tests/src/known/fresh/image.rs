@@ -28,6 +28,7 @@ pub fn image() -> (&'static str, Vec<Table>) {
                 p,
                 material,
                 light: NONE,
+                instance: NONE,
             });
         }
     };
@@ -63,6 +64,7 @@ pub fn image() -> (&'static str, Vec<Table>) {
                 p: light.p,
                 material: 0,
                 light: i as u32,
+                instance: light.mesh,
             }),
     );
     let rays = RayBvh::build(&surfaces).expect("within the domain");
@@ -121,9 +123,13 @@ pub fn image() -> (&'static str, Vec<Table>) {
         ),
         array("materials", "albedo[3] specular exponent_log2", &materials),
         array("ray_nodes", "min[3] skip max[3] 16 first + count", &rays.nodes),
-        array("surfaces", "p0[3] p1[3] p2[3] material light", &rays.triangles),
         array(
-            "lights",
+            "surfaces",
+            "p0[3] p1[3] p2[3] material light instance",
+            &rays.triangles,
+        ),
+        array(
+            "triangles",
             "p0[3] p1[3] p2[3] radiance[3] mesh flags",
             lights.triangles(),
         ),

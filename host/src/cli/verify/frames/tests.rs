@@ -5,7 +5,9 @@ use lightbvh_kernels::bvh::Paper;
 use lightbvh_kernels::render::RenderParams;
 
 use super::*;
-use crate::backend::{Backend, BackendError, Bvh, CpuBackend, History, Integrator, Timed};
+use crate::backend::{
+    Backend, BackendError, Bvh, CpuBackend, History, Integrator, Restir, RestirFrame, Timed,
+};
 use crate::cli::verify::tally::Tally;
 use crate::method::{UpdateTimes, runner};
 use crate::words::Record;
@@ -102,6 +104,14 @@ impl Backend for CorruptBackend {
         integrator: Integrator,
     ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
         self.inner.render(scene, params, sampler, integrator)
+    }
+
+    fn restir(
+        &mut self,
+        restir: &mut Restir,
+        frame: &RestirFrame<'_>,
+    ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
+        self.inner.restir(restir, frame)
     }
 }
 
