@@ -21,7 +21,8 @@
 //! | [`Rebuilder`] | rebuilds on a thread beside the frame, or within it where there are no threads |
 //! | [`bvh`], [`build`] | edits, ids, plans and rebuilds; builders |
 //! | [`importance`], [`node`] | what children are chosen by, and what nodes store of them |
-//! | [`LightTree`], [`refit`], [`exact`] | arrays, passes and arithmetic, the same on devices |
+//! | [`LightTree`], [`DefaultTree`], [`TreeWords`] | a light BVH as borrowed arrays, the same on devices |
+//! | [`refit`], [`exact`] | passes and arithmetic, the same on devices |
 //! | [`reservoir`] | resampling of light samples, over candidates and over other reservoirs (ReSTIR) |
 //! | [`error`] | why input is refused |
 //!
@@ -137,6 +138,7 @@ pub mod transform;
 #[doc(hidden)]
 pub mod validate;
 
+mod emission;
 mod halves;
 #[cfg(test)]
 mod kit;
@@ -157,7 +159,7 @@ pub use transform::Transform;
 pub use light::{EmissiveTriangle, LightPoint};
 pub use point::ShadingPoint;
 pub use traverse::{Random64, SampledLight};
-pub use tree::LightTree;
+pub use tree::{DefaultTree, LightTree, TreeWords};
 
 // Short paths to what is documented in a module.
 #[cfg(feature = "alloc")]

@@ -2,7 +2,12 @@
 
 use core::marker::PhantomData;
 
-use crate::instance::Instance;
+use bytemuck::{Pod, Zeroable};
+
+use crate::importance::DefaultImportance;
+use crate::instance::{Instance, world_light};
+use crate::light::EmissiveTriangle;
+use crate::node::DefaultNode;
 use crate::trail::{BitTrail, Path};
 
 /// "No such index."
@@ -33,6 +38,9 @@ pub struct LightTree<'a, N, I, const W: usize> {
     pub importance: PhantomData<I>,
 }
 
+/// `LightBvh` as borrowed arrays, which a shader has too.
+pub type DefaultTree<'a> = LightTree<'a, DefaultNode, DefaultImportance, 8>;
+
 impl<N, I, const W: usize> Clone for LightTree<'_, N, I, W> {
     #[inline(always)]
     fn clone(&self) -> Self {
@@ -58,6 +66,14 @@ impl<'a, N, I, const W: usize> LightTree<'a, N, I, W> {
             depth: self.depth,
             importance: PhantomData,
         }
+    }
+
+    /// Light `light` of `instance` in the world, as a [`SampledLight`](crate::SampledLight) names them; `triangles` are those of the
+    /// `Bvh`, in the spaces of their meshes. Without radiance where there is no such light.
+    #[inline]
+    #[must_use]
+    pub fn triangle(&self, triangles: &[EmissiveTriangle], light: u32, instance: u32) -> EmissiveTriangle {
+        world_light(triangles, self.instances, light, instance)
     }
 
     /// The path to triangle `triangle` of the bottom level of instance `instance` (`u32::MAX` in a single-level tree).
@@ -90,5 +106,57 @@ impl<'a, N, I, const W: usize> LightTree<'a, N, I, W> {
         let wide = self.trail_words == 2 && word.wrapping_add(1) < self.trails.len() as u32;
         let high = if wide { self.trails[(word + 1) as usize] } else { 0 };
         BitTrail { low, high }
+    }
+}
+
+/// What a [`LightTree`] holds besides its arrays: five words, for push constants. They may change with every edit.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct TreeWords {
+    /// Index of the node that a walk starts at.
+    pub root: u32,
+    /// Words per bit trail, 1 or 2.
+    pub trail_words: u32,
+    /// Number of instances in use; 0 in a single-level tree.
+    pub live: u32,
+    /// Number of triangles of a single-level tree.
+    pub lights: u32,
+    /// Greatest number of nodes on a path.
+    pub depth: u32,
+}
+
+impl TreeWords {
+    /// Those of `tree`.
+    #[must_use]
+    pub fn of<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>) -> Self {
+        Self {
+            root: tree.root,
+            trail_words: tree.trail_words,
+            live: tree.live,
+            lights: tree.lights,
+            depth: tree.depth,
+        }
+    }
+
+    /// The tree over the given arrays: those of a `Bvh`, or a device's buffers.
+    #[inline]
+    #[must_use]
+    pub fn tree<'a, N, I, const W: usize>(
+        &self,
+        nodes: &'a [N],
+        instances: &'a [Instance],
+        trails: &'a [u32],
+    ) -> LightTree<'a, N, I, W> {
+        LightTree {
+            nodes,
+            root: self.root,
+            instances,
+            trails,
+            trail_words: self.trail_words,
+            live: self.live,
+            lights: self.lights,
+            depth: self.depth,
+            importance: PhantomData,
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! The public face alone: what an engine can rely on.
 
-use lightbvh::bvh::{EditError, EditReason};
+use lightbvh::error::{EditError, EditReason, FollowError};
 use lightbvh::{
     BuildParams, Bvh, CompactNode, Edit, EmissiveTriangle, Eq4, INVALID, LightBvh, Lights, MeshId,
     ShadingPoint, Transform,
@@ -129,9 +129,9 @@ fn lights_of_another_shape_are_not_followed() {
     let lights =
         |meshes: &[u32]| Lights::new(meshes.iter().map(|&mesh| lamp(mesh)).collect()).expect("lamps");
     let params = BuildParams::default();
-    let count = |edit, expected, found| {
-        Err(EditError {
-            edit,
+    let count = |mesh, expected, found| {
+        Err(FollowError {
+            mesh,
             reason: EditReason::Count { expected, found },
         })
     };

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use lightbvh::{EditError, RebuildError};
+use lightbvh::RebuildError;
+use lightbvh::error::FollowError;
 
 use crate::backend::BackendError;
 use crate::metrics::MetricError;
@@ -45,7 +46,7 @@ pub enum HostError {
     Vulkan(#[from] VulkanError),
     /// Lights that a backend cannot follow.
     #[error("{0}")]
-    Follow(EditError),
+    Follow(FollowError),
     /// A comparison that makes no sense.
     #[error(transparent)]
     Compare(#[from] CompareError),

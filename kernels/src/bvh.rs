@@ -1,11 +1,9 @@
 //! The light BVHs that the kernels are compiled for, and their picker for the renderer.
 
-use core::marker::PhantomData;
-
-use bytemuck::{Pod, Zeroable};
+use lightbvh::importance::DefaultImportance;
+use lightbvh::node::DefaultNode;
 use lightbvh::{
-    CompactNode, Defensive, Eq4, INVALID, ImportanceModel, Instance, LightNode, LightTree, MomentNode,
-    Moments, Random64, SampledLight, ShadingPoint,
+    CompactNode, Eq4, INVALID, ImportanceModel, LightNode, LightTree, Random64, SampledLight, ShadingPoint,
 };
 
 use crate::shading::pick::PickLight;
@@ -40,15 +38,15 @@ pub struct Standard;
 
 impl Choice<WIDTH> for Standard {
     type Node = Node;
-    type Importance = Defensive<Moments, 6>;
+    type Importance = DefaultImportance;
     const NAME: &'static str = "moments";
     const SUFFIX: &'static str = "";
 }
 
 /// Children per node of [`Standard`].
 pub const WIDTH: usize = 8;
-/// Node layout of [`Standard`].
-pub type Node = MomentNode<WIDTH>;
+/// Node of [`Standard`].
+pub type Node = DefaultNode;
 
 /// The node of a choice that is made for one width only: what a kernel's buffer holds.
 pub type NodeOf<C> = <C as Kernels>::Node;
@@ -65,58 +63,6 @@ impl Kernels for Standard {
 
 impl Kernels for Paper {
     type Node = CompactNode<4>;
-}
-
-/// What a [`LightTree`] holds besides its arrays; part of the push constants.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
-pub struct TreePush {
-    /// Index of the node that a walk starts at.
-    pub root: u32,
-    /// Words per bit trail, 1 or 2.
-    pub trail_words: u32,
-    /// Number of instances in use; 0 in a single-level tree.
-    pub live: u32,
-    /// Number of triangles of a single-level tree.
-    pub lights: u32,
-    /// Greatest number of nodes on a path.
-    pub depth: u32,
-}
-
-impl TreePush {
-    /// What `tree` holds besides its arrays.
-    #[must_use]
-    pub fn of<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>) -> Self {
-        Self {
-            root: tree.root,
-            trail_words: tree.trail_words,
-            live: tree.live,
-            lights: tree.lights,
-            depth: tree.depth,
-        }
-    }
-
-    /// The tree over the given arrays.
-    #[inline]
-    #[must_use]
-    pub fn tree<'a, N, I, const W: usize>(
-        &self,
-        nodes: &'a [N],
-        instances: &'a [Instance],
-        trails: &'a [u32],
-    ) -> LightTree<'a, N, I, W> {
-        LightTree {
-            nodes,
-            root: self.root,
-            instances,
-            trails,
-            trail_words: self.trail_words,
-            live: self.live,
-            lights: self.lights,
-            depth: self.depth,
-            importance: PhantomData,
-        }
-    }
 }
 
 /// The tree of a choice.

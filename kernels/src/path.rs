@@ -6,7 +6,7 @@ use lightbvh::exact::{div, hash};
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
-use crate::bvh::{NodeOf, Paper, Standard, TreeOf, TreePush};
+use crate::bvh::{NodeOf, Paper, Standard, TreeOf};
 use crate::invocation;
 use crate::render::RenderParams;
 use crate::shading::camera::Camera;
@@ -16,6 +16,7 @@ use crate::shading::path::path_radiance;
 use crate::shading::pick::{PickLight, Power, Uniform};
 use crate::shading::pixel::Scene;
 use crate::shading::trace::{RayNode, SurfaceTriangle};
+use lightbvh::TreeWords;
 
 /// The radiance that reaches the camera through pixel `index` along paths of up to `bounces` reflections, linear RGB,
 /// W/(m² sr): the mean of [`samples`](RenderParams::samples) paths. Pixels are numbered by rows from the upper left, and
@@ -66,7 +67,7 @@ pub struct PathPush {
     /// Number of pixels of this dispatch.
     pub count: u32,
     /// The light BVH (`path_bvh` only).
-    pub tree: TreePush,
+    pub tree: TreeWords,
 }
 
 /// Pass `path_bvh` for one choice.

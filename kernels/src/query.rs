@@ -7,8 +7,9 @@ use lightbvh::instance::world_light;
 use lightbvh::{EmissiveTriangle, Instance, LightPoint, Random64, SampledLight, ShadingPoint};
 use spirv_std::spirv;
 
-use crate::bvh::{Choice, NodeOf, Paper, Standard, TreeOf, TreePush};
+use crate::bvh::{Choice, NodeOf, Paper, Standard, TreeOf};
 use crate::invocation;
+use lightbvh::TreeWords;
 
 /// A point, and what is asked: 32 bytes.
 #[repr(C)]
@@ -28,7 +29,7 @@ pub struct QueryPush {
     /// Number of queries.
     pub count: u32,
     /// The tree.
-    pub tree: TreePush,
+    pub tree: TreeWords,
 }
 
 /// The answer to a query of pass `sample`.

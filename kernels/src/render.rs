@@ -7,13 +7,14 @@ use lightbvh::exact::hash;
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
-use crate::bvh::{NodeOf, Paper, Standard, TreeOf, TreePush};
+use crate::bvh::{NodeOf, Paper, Standard, TreeOf};
 use crate::invocation;
 use crate::shading::camera::Camera;
 use crate::shading::material::Material;
 use crate::shading::pick::{PickLight, Power, Uniform};
 use crate::shading::pixel::{Scene, reflected, see};
 use crate::shading::trace::{RayNode, SurfaceTriangle};
+use lightbvh::TreeWords;
 
 /// What all pixels of an image have in common besides the scene; push constants, 32 bytes.
 #[repr(C)]
@@ -69,7 +70,7 @@ pub struct RenderPush {
     /// Number of pixels of this dispatch.
     pub count: u32,
     /// The light BVH (`render_bvh` only).
-    pub tree: TreePush,
+    pub tree: TreeWords,
 }
 
 /// Pass `render_bvh` for one choice.

@@ -16,7 +16,7 @@ use glam::UVec3;
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
-use crate::bvh::{NodeOf, Paper, Standard, TreeOf, TreePush};
+use crate::bvh::{NodeOf, Paper, Standard, TreeOf};
 use crate::invocation;
 use crate::shading::camera::Camera;
 use crate::shading::emitters::Emitters;
@@ -31,6 +31,7 @@ use crate::shading::restir::surface::Surface;
 use crate::shading::restir::temporal::{Before, temporal};
 use crate::shading::restir::{PixelReservoir, RestirParams};
 use crate::shading::trace::{RayNode, SurfaceTriangle, Surfaces};
+use lightbvh::TreeWords;
 
 /// Push constants of all passes; 84 bytes.
 #[repr(C)]
@@ -43,7 +44,7 @@ pub struct RestirPush {
     /// Number of pixels of this dispatch.
     pub count: u32,
     /// The light BVH (`restir_initial_bvh` only).
-    pub tree: TreePush,
+    pub tree: TreeWords,
 }
 
 const _: () = assert!(size_of::<RestirPush>() == 84);

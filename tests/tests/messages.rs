@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use lightbvh::bvh::{EditError, EditReason};
+use lightbvh::error::{EditError, EditReason, FollowError, ReadError};
 use lightbvh::light::MAX_RADIANCE;
 use lightbvh::transform::TransformError;
 use lightbvh::validate::{Violation, What};
@@ -167,6 +167,84 @@ fn edits() {
             reason: EditReason::TooMany,
         },
         &["edit 7: more than 2^30"],
+    );
+}
+
+#[test]
+fn lights_that_cannot_be_followed() {
+    let lights = |count| Lights::new(vec![LAMP; count]).expect("lamps of one mesh light");
+    let mut bvh = lightbvh::LightBvh::two_level(&lights(2), &lightbvh::BuildParams::default());
+    let error = bvh.follow(&lights(3)).expect_err("one more");
+    assert_eq!(
+        error,
+        FollowError {
+            mesh: 0,
+            reason: EditReason::Count {
+                expected: 2,
+                found: 3
+            }
+        }
+    );
+    says(&error, &["mesh light 0: 3 triangles for a mesh of 2"]);
+    // What is refused by itself names no batch.
+    let mesh = bvh.mesh_id(0).expect("the first");
+    let error = bvh.remove_mesh(mesh).expect_err("in use");
+    assert!(
+        error.to_string().starts_with("the mesh still has 1 instances"),
+        "{error}"
+    );
+}
+
+#[test]
+fn files() {
+    let words = lightbvh::LightBvh::default().to_words();
+    let read = |change: &dyn Fn(&mut Vec<u32>)| {
+        let mut words = words.clone();
+        change(&mut words);
+        lightbvh::LightBvh::from_words(&words).expect_err("damaged")
+    };
+    says(&read(&|words| words[0] = 7), &["0x00000007", "to_words"]);
+    says(&read(&|words| words.clear()), &["0 words", "expected", "damaged"]);
+    says(&read(&|words| words.push(0)), &["words", "cut or damaged"]);
+    let error = Bvh::<CompactNode<4>, (), 4>::from_words(&words).expect_err("another layout");
+    says(&error, &["another layout", "as what was written"]);
+    says(
+        &ReadError::Version {
+            expected: 1,
+            found: 9,
+        },
+        &["format 9, expected 1", "build the light BVH anew"],
+    );
+    says(
+        &ReadError::Width {
+            expected: 8,
+            found: 16,
+        },
+        &["nodes of 16 children, expected 8"],
+    );
+    let word = ReadError::Word {
+        at: 12,
+        what: "number of meshes",
+        found: 5,
+    };
+    says(&word, &["word 12, number of meshes, is 5", "damaged"]);
+    says(
+        &ReadError::Places { what: "lights" },
+        &["places of lights overlap", "damaged"],
+    );
+    let error = LightError::Coordinate {
+        vertex: 2,
+        axis: 1,
+        value: 1e20,
+    };
+    says(
+        &ReadError::Light { triangle: 4, error },
+        &["emissive triangle 4: coordinate y of vertex 2"],
+    );
+    let reason = EditReason::Radiance { value: -1.0 };
+    says(
+        &ReadError::Instance { instance: 3, reason },
+        &["instance 3: factor on radiance -1"],
     );
 }
 

@@ -1,6 +1,6 @@
 //! Functions that change a light BVH.
 
-use lightbvh::bvh::{EditError, RebuildParams};
+use lightbvh::bvh::{EditError, EditReason, RebuildParams};
 use lightbvh::{Edit, EmissiveTriangle, Transform};
 
 use crate::error::{Fault, Status};
@@ -25,9 +25,8 @@ impl From<CTransform> for Transform {
     }
 }
 
-/// Of one edit, whose number says nothing.
-fn refused(error: EditError) -> Fault {
-    Fault::new(Status::Refused, error.reason)
+fn refused(reason: EditReason) -> Fault {
+    Fault::new(Status::Refused, reason)
 }
 
 /// A new mesh.
@@ -75,7 +74,7 @@ pub unsafe extern "C" fn lightbvh_add_instance(
                 transform: transform.into(),
                 radiance,
             };
-            let added = bvh.apply(vec![add]).map_err(refused)?;
+            let added = bvh.apply(vec![add]).map_err(|error| refused(error.reason))?;
             instance.write(added.instances[0].into());
             Ok(())
         })

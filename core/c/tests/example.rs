@@ -82,7 +82,7 @@ fn expected() -> String {
         )
         .unwrap();
     }
-    let error = bvh.remove_mesh(mesh).unwrap_err().reason;
+    let error = bvh.remove_mesh(mesh).unwrap_err();
     writeln!(text, "{error}").unwrap();
     text
 }

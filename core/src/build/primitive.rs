@@ -1,7 +1,8 @@
 //! What the builder sorts: a triangle or a mesh light, as two boxes.
 
-use crate::bounds::{LightBounds, MAX_SUM};
+use crate::bounds::LightBounds;
 use crate::cone::sine_of;
+use crate::emission::MAX_SUM;
 use crate::exact;
 
 /// Lanes of a box pair: x, y, z of position, one unused, x, y, z of the normals, one unused. Eight lanes become whole

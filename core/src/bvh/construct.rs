@@ -1,10 +1,11 @@
 //! Light BVHs over triangles that stand in the world already.
 
 use alloc::vec::Vec;
+use core::fmt;
 use core::ops::Range;
 
 use super::Bvh;
-use super::edit::{EditError, EditReason};
+use super::edit::EditReason;
 use crate::build::{BuildParams, build_each};
 use crate::light::EmissiveTriangle;
 use crate::lights::Lights;
@@ -59,9 +60,9 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// `k`, or all of them in a single-level BVH.
     ///
     /// # Errors
-    /// [`EditError`] naming the mesh light whose number of triangles is another (0 where there is no such), or would be out of range where an instance has
-    /// moved it meanwhile; the BVH is as before then.
-    pub fn follow(&mut self, lights: &Lights) -> Result<(), EditError> {
+    /// [`FollowError`] naming the mesh light whose number of triangles is another (0 where there is no such), or that would be out of
+    /// range where an instance has moved it meanwhile; the BVH is as before then.
+    pub fn follow(&mut self, lights: &Lights) -> Result<(), FollowError> {
         let all = lights.triangles().len();
         let mut meshes: Vec<_> = if self.single {
             Some(0..all).filter(|all| !all.is_empty()).into_iter().collect()
@@ -71,7 +72,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         meshes.resize(meshes.len().max(self.meshes.len()), 0..0);
         let mut changes = Vec::new();
         for (index, range) in meshes.into_iter().enumerate() {
-            let error = |reason| EditError { edit: index, reason };
+            let error = |reason| FollowError { mesh: index, reason };
             let mesh = self.meshes.get(index).filter(|mesh| mesh.live);
             let expected = mesh.map_or(0, |mesh| self.blases[mesh.blas as usize].triangles.len());
             if range.len() != expected {
@@ -96,3 +97,20 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         Ok(())
     }
 }
+
+/// Why a light BVH cannot follow [`Lights`]: they are not those that it was built over.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FollowError {
+    /// Index of the mesh light; 0 in a single-level BVH.
+    pub mesh: usize,
+    /// What is wrong with it.
+    pub reason: EditReason,
+}
+
+impl fmt::Display for FollowError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "mesh light {}: {}", self.mesh, self.reason)
+    }
+}
+
+impl core::error::Error for FollowError {}

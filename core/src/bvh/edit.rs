@@ -146,7 +146,7 @@ pub struct EditError {
     pub reason: EditReason,
 }
 
-/// What is wrong with an edit.
+/// What is wrong with an edit: the error of single ones.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum EditReason {
@@ -238,6 +238,8 @@ impl fmt::Display for EditReason {
 
 impl core::error::Error for EditError {}
 
+impl core::error::Error for EditReason {}
+
 #[cfg(test)]
 mod tests {
     use alloc::vec;
@@ -280,12 +282,12 @@ mod tests {
                 bits[word] ^= wrong;
                 let id = InstanceId::from_bits(bits);
                 let error = bvh.set_radiance(id, 2.0).unwrap_err();
-                assert_eq!(error.reason, EditReason::UnknownInstance(id));
+                assert_eq!(error, EditReason::UnknownInstance(id));
                 let mut bits = mesh.to_bits();
                 bits[word] ^= wrong;
                 let id = MeshId::from_bits(bits);
                 let error = bvh.add_instance(id, Transform::IDENTITY).unwrap_err();
-                assert_eq!(error.reason, EditReason::UnknownMesh(id));
+                assert_eq!(error, EditReason::UnknownMesh(id));
             }
         }
     }

@@ -42,6 +42,7 @@ use core::marker::PhantomData;
 use core::ops::Range;
 
 pub use apply::Added;
+pub use construct::FollowError;
 pub use edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
 #[cfg(feature = "std")]
 pub(crate) use rebuild::Taken;
@@ -59,10 +60,10 @@ use self::ranges::Ranges;
 use self::records::{InstanceState, Mesh, TreeId};
 use self::top::Top;
 use crate::build::BuildParams;
-use crate::importance::{Defensive, Moments};
+use crate::importance::DefaultImportance;
 use crate::instance::Instance;
 use crate::light::EmissiveTriangle;
-use crate::node::{LightNode, MomentNode};
+use crate::node::{DefaultNode, LightNode};
 use crate::refit::BlasRoot;
 use crate::tree::LightTree;
 
@@ -128,7 +129,7 @@ pub struct Parts<'a, N> {
 }
 
 /// The light BVH with what measured best for its time: moments on packed nodes of 8 children, 1/64 of uniform choice.
-pub type LightBvh = Bvh<MomentNode<8>, Defensive<Moments, 6>, 8>;
+pub type LightBvh = Bvh<DefaultNode, DefaultImportance, 8>;
 
 impl<N: LightNode<W>, I, const W: usize> Default for Bvh<N, I, W> {
     fn default() -> Self {

@@ -1,8 +1,8 @@
-//! Edits one at a time.
+//! Edits one at a time. There is no batch to name a place in: what is refused is returned by itself.
 
 use alloc::vec::Vec;
 
-use super::edit::{Edit, EditError, InstanceId, MeshId};
+use super::edit::{Edit, EditReason, InstanceId, MeshId};
 use super::{Added, Bvh};
 use crate::light::EmissiveTriangle;
 use crate::node::LightNode;
@@ -12,66 +12,69 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// Adds a mesh of at least one triangle, in its own space; it lights nothing before an instance puts it into the world.
     ///
     /// # Errors
-    /// [`EditError`], as of [`apply`](Self::apply).
-    pub fn add_mesh(&mut self, triangles: Vec<EmissiveTriangle>) -> Result<MeshId, EditError> {
-        let Added { meshes, .. } = self.apply(alloc::vec![Edit::AddMesh { triangles }])?;
-        Ok(meshes[0])
+    /// [`EditReason`]; nothing is changed then.
+    pub fn add_mesh(&mut self, triangles: Vec<EmissiveTriangle>) -> Result<MeshId, EditReason> {
+        Ok(self.one(Edit::AddMesh { triangles })?.meshes[0])
     }
 
     /// Puts a mesh into the world.
     ///
     /// # Errors
-    /// [`EditError`], as of [`apply`](Self::apply).
-    pub fn add_instance(&mut self, mesh: MeshId, transform: Transform) -> Result<InstanceId, EditError> {
-        let added = self.apply(alloc::vec![Edit::AddInstance {
+    /// [`EditReason`]; nothing is changed then.
+    pub fn add_instance(&mut self, mesh: MeshId, transform: Transform) -> Result<InstanceId, EditReason> {
+        let added = self.one(Edit::AddInstance {
             mesh,
             transform,
             radiance: 1.0,
-        }])?;
+        })?;
         Ok(added.instances[0])
     }
 
     /// Moves an instance.
     ///
     /// # Errors
-    /// [`EditError`], as of [`apply`](Self::apply).
-    pub fn set_transform(&mut self, instance: InstanceId, transform: Transform) -> Result<(), EditError> {
-        self.one(Edit::SetTransform { instance, transform })
+    /// [`EditReason`]; nothing is changed then.
+    pub fn set_transform(&mut self, instance: InstanceId, transform: Transform) -> Result<(), EditReason> {
+        self.one(Edit::SetTransform { instance, transform }).map(|_| ())
     }
 
     /// Makes an instance brighter or dimmer: `radiance` is a factor on its mesh's, 0 or from 2^-60 to 2^60.
     ///
     /// # Errors
-    /// [`EditError`], as of [`apply`](Self::apply).
-    pub fn set_radiance(&mut self, instance: InstanceId, radiance: f32) -> Result<(), EditError> {
-        self.one(Edit::SetRadiance { instance, radiance })
+    /// [`EditReason`]; nothing is changed then.
+    pub fn set_radiance(&mut self, instance: InstanceId, radiance: f32) -> Result<(), EditReason> {
+        self.one(Edit::SetRadiance { instance, radiance }).map(|_| ())
     }
 
     /// Gives a mesh as many other triangles.
     ///
     /// # Errors
-    /// [`EditError`], as of [`apply`](Self::apply).
-    pub fn set_triangles(&mut self, mesh: MeshId, triangles: Vec<EmissiveTriangle>) -> Result<(), EditError> {
-        self.one(Edit::SetTriangles { mesh, triangles })
+    /// [`EditReason`]; nothing is changed then.
+    pub fn set_triangles(
+        &mut self,
+        mesh: MeshId,
+        triangles: Vec<EmissiveTriangle>,
+    ) -> Result<(), EditReason> {
+        self.one(Edit::SetTriangles { mesh, triangles }).map(|_| ())
     }
 
     /// Takes an instance out of the world.
     ///
     /// # Errors
-    /// [`EditError`], as of [`apply`](Self::apply).
-    pub fn remove_instance(&mut self, instance: InstanceId) -> Result<(), EditError> {
-        self.one(Edit::RemoveInstance(instance))
+    /// [`EditReason`]; nothing is changed then.
+    pub fn remove_instance(&mut self, instance: InstanceId) -> Result<(), EditReason> {
+        self.one(Edit::RemoveInstance(instance)).map(|_| ())
     }
 
     /// Forgets a mesh that has no instances.
     ///
     /// # Errors
-    /// [`EditError`], as of [`apply`](Self::apply).
-    pub fn remove_mesh(&mut self, mesh: MeshId) -> Result<(), EditError> {
-        self.one(Edit::RemoveMesh(mesh))
+    /// [`EditReason`]; nothing is changed then.
+    pub fn remove_mesh(&mut self, mesh: MeshId) -> Result<(), EditReason> {
+        self.one(Edit::RemoveMesh(mesh)).map(|_| ())
     }
 
-    fn one(&mut self, edit: Edit) -> Result<(), EditError> {
-        self.apply(alloc::vec![edit]).map(|_| ())
+    fn one(&mut self, edit: Edit) -> Result<Added, EditReason> {
+        self.apply(alloc::vec![edit]).map_err(|error| error.reason)
     }
 }

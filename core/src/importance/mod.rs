@@ -36,6 +36,9 @@ pub trait ImportanceModel<N, const W: usize> {
 #[derive(Clone, Copy, Debug)]
 pub struct Defensive<I, const HALVINGS: u32>(core::marker::PhantomData<I>);
 
+/// What `LightBvh` chooses children by: moments, and a share of 1/64 of uniform choice.
+pub type DefaultImportance = Defensive<Moments, 6>;
+
 impl<N, I: ImportanceModel<N, W>, const HALVINGS: u32, const W: usize> ImportanceModel<N, W>
     for Defensive<I, HALVINGS>
 {

@@ -3,8 +3,9 @@
 use glam::Vec3;
 
 use super::{Instance, absolute, flushed};
-use crate::bounds::{LightBounds, MAX_SUM, MIN_PHI};
+use crate::bounds::LightBounds;
 use crate::cone::normalized;
+use crate::emission::{MAX_SUM, MIN_PHI};
 use crate::exact::{self, exponent, pow2, significand};
 use crate::moments::LightMoments;
 use crate::vector::{dot, greatest_exponent, length_squared, max3};

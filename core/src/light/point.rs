@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::EmissiveTriangle;
-use crate::bounds::flux;
+use crate::emission::flux;
 use crate::exact;
 use crate::vector::{abs3, greatest_exponent, max3};
 

@@ -6,7 +6,7 @@
 use glam::Vec3;
 
 use super::{LEAST_EXPONENT, LightMoments, row};
-use crate::bounds::MAX_SUM_EXPONENT;
+use crate::emission::MAX_SUM_EXPONENT;
 use crate::exact::{self, exponent, pow2};
 use crate::halves::{maxima, sums};
 use crate::summary::{Lanes, SUMMARY_WORDS};

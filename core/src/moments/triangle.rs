@@ -1,7 +1,7 @@
 //! The moments of one triangle.
 
 use super::{LEAST_EXPONENT, LightMoments};
-use crate::bounds::flux;
+use crate::emission::flux;
 use crate::exact;
 use crate::light::EmissiveTriangle;
 use crate::vector::{abs3, dot, greatest_exponent, max3};

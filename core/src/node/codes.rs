@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::bounds::{MAX_SUM, MIN_PHI};
+use crate::emission::{MAX_SUM, MIN_PHI};
 use crate::exact::{self, exponent, pow2};
 use crate::halves::maxima;
 use crate::light::MIN_COORDINATE;

@@ -26,6 +26,9 @@ pub use crate::moments::LightMoments;
 use crate::summary::Lanes;
 pub use crate::summary::Summary;
 
+/// The node of `LightBvh`.
+pub type DefaultNode = MomentNode<8>;
+
 /// Version of the node layouts' words; raised whenever a layout changes.
 pub const NODE_FORMAT: u32 = 2;
 

@@ -4,8 +4,9 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use bytemuck::Pod;
+use lightbvh::TreeWords;
 use lightbvh::{EmissiveTriangle, Instance};
-use lightbvh_kernels::bvh::{Choice, TreeOf, TreePush};
+use lightbvh_kernels::bvh::{Choice, TreeOf};
 use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::trace::{RayNode, SurfaceTriangle};
@@ -97,7 +98,7 @@ pub(super) struct DeviceTree<N> {
     pub nodes: Buffer<N>,
     pub emitters: DeviceEmitters,
     pub trails: Buffer<u32>,
-    pub push: TreePush,
+    pub push: TreeWords,
 }
 
 impl<N: Pod> DeviceTree<N> {
@@ -110,7 +111,7 @@ impl<N: Pod> DeviceTree<N> {
             nodes: device.upload(tree.nodes)?,
             emitters: DeviceEmitters::upload(device, triangles, tree.instances)?,
             trails: device.upload(tree.trails)?,
-            push: TreePush::of(tree),
+            push: TreeWords::of(tree),
         })
     }
 

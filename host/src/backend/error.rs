@@ -1,6 +1,6 @@
 //! Why a backend cannot do what it was asked to.
 
-use lightbvh::EditError;
+use lightbvh::error::FollowError;
 
 use crate::vulkan::VulkanError;
 
@@ -12,5 +12,5 @@ pub enum BackendError {
     Vulkan(#[from] VulkanError),
     /// The lights are not those that the BVH was built over.
     #[error(transparent)]
-    Lights(#[from] EditError),
+    Lights(#[from] FollowError),
 }

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use bytemuck::Pod;
+use lightbvh::TreeWords;
 use lightbvh_gpu::{Buffer as Array, Frame};
-use lightbvh_kernels::bvh::{Choice, TreePush};
+use lightbvh_kernels::bvh::Choice;
 
 use super::device::DeviceBackend;
 use super::{BackendError, Bvh, Follow, Timed};
@@ -40,7 +41,7 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
             frame,
             Array::Triangles,
         )?;
-        self.tree.push = TreePush::of(&tree);
+        self.tree.push = TreeWords::of(&tree);
         Ok(())
     }
 }

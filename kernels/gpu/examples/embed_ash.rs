@@ -67,7 +67,7 @@ impl DeviceLights {
         let staging: Vec<u8> = frame
             .copies
             .iter()
-            .flat_map(|copy| &copy.buffer.bytes(bvh)[copy.bytes.start as usize..copy.bytes.end as usize])
+            .flat_map(|copy| copy.source(bvh))
             .copied()
             .collect();
         let staging = Buffer::staged(&self.gpu, &staging)?;

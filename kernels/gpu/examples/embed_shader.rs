@@ -22,8 +22,9 @@ use common::words::compare;
 use common::world::{World, points};
 use direct::direct_light;
 use lightbvh::ShadingPoint;
+use lightbvh::TreeWords;
+use lightbvh_gpu::Buffer as Array;
 use lightbvh_gpu::spirv::{Interface, words};
-use lightbvh_gpu::{Buffer as Array, tree_words};
 
 /// The shader's bindings in the order of its parameters.
 const BINDINGS: [&str; 6] = ["nodes", "instances", "trails", "triangles", "points", "results"];
@@ -69,7 +70,7 @@ fn on_device(gpu: &Rc<Gpu>, module: &[u32], world: &World, points: &[ShadingPoin
         (None, _) => &results,
     });
     let mut push = vec![points.len() as u32, SAMPLES];
-    push.extend(tree_words(&bvh.tree()));
+    push.extend(bytemuck::cast::<_, [u32; 5]>(TreeWords::of(&bvh.tree())));
     gpu.run(|commands| {
         shader.dispatch(commands, &push, points.len() as u32);
         gpu.barrier(commands);

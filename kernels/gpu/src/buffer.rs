@@ -3,7 +3,7 @@
 use bytemuck::cast_slice;
 use lightbvh::node::LightNode;
 use lightbvh::refit::BlasRoot;
-use lightbvh::{Bvh, EmissiveTriangle, Instance, LightTree};
+use lightbvh::{Bvh, EmissiveTriangle, Instance};
 
 /// An array of a light BVH that a device holds in a storage buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -16,7 +16,7 @@ pub enum Buffer {
     Instances,
     /// The roots of bottom levels. A refit writes them.
     Roots,
-    /// The bit trails of triangles, [`LightTree::trail_words`] words each, for pmfs.
+    /// The bit trails of triangles, `LightTree::trail_words` words each, for pmfs.
     Trails,
 }
 
@@ -74,16 +74,6 @@ impl Buffer {
             Self::Trails => cast_slice(tree.trails),
         }
     }
-}
-
-/// Number of [`tree_words`].
-pub const TREE_WORDS: usize = 5;
-
-/// What the kernels take of a tree besides its buffers; [`query_push`](crate::query_push) makes push constants of them. They may
-/// change with every edit.
-#[must_use]
-pub fn tree_words<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>) -> [u32; TREE_WORDS] {
-    [tree.root, tree.trail_words, tree.live, tree.lights, tree.depth]
 }
 
 #[cfg(test)]

@@ -22,13 +22,21 @@ pub struct Frame {
     pub refit: Refit,
 }
 
-/// A copy from the array of the light BVH ([`Buffer::bytes`]) to the same place in the device's buffer.
+/// A copy from the array of the light BVH to the same place in the device's buffer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Copy {
     /// Which one.
     pub buffer: Buffer,
-    /// Bytes, in whole elements; not empty. Ranges of one buffer do not overlap.
+    /// Where in both, bytes, in whole elements; not empty. Ranges of one buffer do not overlap.
     pub bytes: Range<u64>,
+}
+
+impl Copy {
+    /// The bytes to be copied.
+    #[must_use]
+    pub fn source<'a, N: LightNode<W>, I, const W: usize>(&self, bvh: &'a Bvh<N, I, W>) -> &'a [u8] {
+        &self.buffer.bytes(bvh)[self.bytes.start as usize..self.bytes.end as usize]
+    }
 }
 
 /// The sizes of a device's buffers, by which it follows a light BVH. A new one holds nothing, so its first frame copies everything.

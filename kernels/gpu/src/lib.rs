@@ -25,7 +25,7 @@ pub mod spirv;
 #[rustfmt::skip]
 pub mod table;
 
-pub use buffer::{Buffer, tree_words};
+pub use buffer::Buffer;
 pub use frame::{Copy, Frame, Mirror};
 pub use query::{Query, query_push};
 pub use refit::{Dispatch, Pass, Refit};
@@ -36,8 +36,6 @@ pub use set::{EQ4, KernelSet, MOMENTS};
 pub use table::{KERNELS, LIGHT_POINTS};
 
 // Short paths to what is documented in a module.
-#[doc(hidden)]
-pub use buffer::TREE_WORDS;
 #[doc(hidden)]
 pub use device::{PUSH_CONSTANTS, REQUIRED_FEATURES, STORAGE_BUFFERS, VULKAN, without_vulkan_memory_model};
 #[doc(hidden)]

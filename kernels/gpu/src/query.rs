@@ -1,9 +1,7 @@
 //! What the kernels `sample` and `pmf` are asked.
 
 use bytemuck::{Pod, Zeroable};
-use lightbvh::{LightTree, Random64, ShadingPoint};
-
-use crate::buffer::{TREE_WORDS, tree_words};
+use lightbvh::{LightTree, Random64, ShadingPoint, TreeWords};
 
 /// An element of the buffer `queries`. `sample` answers with a [`SampledLight`](lightbvh::SampledLight), `pmf` with an `f32`.
 #[repr(C)]
@@ -38,10 +36,9 @@ impl Query {
 
 /// The push constants of `sample` and `pmf` for `count` queries. They may change with every edit.
 #[must_use]
-pub fn query_push<N, I, const W: usize>(count: u32, tree: &LightTree<'_, N, I, W>) -> [u32; 1 + TREE_WORDS] {
-    let mut push = [count; 1 + TREE_WORDS];
-    push[1..].copy_from_slice(&tree_words(tree));
-    push
+pub fn query_push<N, I, const W: usize>(count: u32, tree: &LightTree<'_, N, I, W>) -> [u32; 6] {
+    let [root, trail_words, live, lights, depth] = bytemuck::cast(TreeWords::of(tree));
+    [count, root, trail_words, live, lights, depth]
 }
 
 #[cfg(all(test, feature = "kernels"))]

@@ -55,7 +55,7 @@ mod tests {
     use lightbvh::{CompactNode, MomentNode};
 
     use super::*;
-    use crate::buffer::{Buffer, TREE_WORDS};
+    use crate::buffer::Buffer;
 
     fn fits<N>(set: &KernelSet, suffix: &str) {
         for pass in [Pass::Bottom, Pass::Roots, Pass::Top] {
@@ -63,8 +63,14 @@ mod tests {
             assert_eq!(kernel.name.strip_suffix(suffix), Some(pass.name()));
             assert_eq!(kernel.push_constants, 8);
         }
-        assert_eq!(set.sample.push_constants as usize, 4 * (1 + TREE_WORDS));
-        assert_eq!(set.pmf.push_constants as usize, 4 * (1 + TREE_WORDS));
+        assert_eq!(
+            set.sample.push_constants as usize,
+            4 + size_of::<lightbvh::TreeWords>()
+        );
+        assert_eq!(
+            set.pmf.push_constants as usize,
+            4 + size_of::<lightbvh::TreeWords>()
+        );
         for kernel in [
             set.refit_bottom,
             set.refit_roots,

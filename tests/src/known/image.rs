@@ -2,15 +2,15 @@
 
 use bytemuck::bytes_of;
 use glam::UVec3;
+use lightbvh::TreeWords;
 use lightbvh_host::vulkan::{Device, Pass};
-use lightbvh_kernels::bvh::TreePush;
 use lightbvh_kernels::render::{RenderParams, RenderPush, render_bvh};
 
 use super::file::{Answer, File};
 
 fn push(file: &File) -> RenderPush {
     let params: RenderParams = file.records("params")[0];
-    let tree: TreePush = file.records("tree")[0];
+    let tree: TreeWords = file.records("tree")[0];
     RenderPush {
         params,
         first: 0,

@@ -1,11 +1,12 @@
 //! Answers of a tree: refit pass by pass, samples, pmfs, by the functions that the kernels run or by the kernels.
 
 use bytemuck::bytes_of;
+use lightbvh::TreeWords;
 use lightbvh::node::kind;
 use lightbvh::refit::{self, BlasRoot};
 use lightbvh::{EmissiveTriangle, INVALID, Instance, LightNode, SampledLight, sweep};
 use lightbvh_host::vulkan::{Device, Pass};
-use lightbvh_kernels::bvh::{Choice, TreeOf, TreePush};
+use lightbvh_kernels::bvh::{Choice, TreeOf};
 use lightbvh_kernels::query::{Query, QueryPush, pmf_query, sample_query};
 use lightbvh_kernels::refit::RefitPush;
 
@@ -47,7 +48,7 @@ pub struct Tree<N, const W: usize> {
     /// Bit trails of the triangles.
     pub trails: Vec<u32>,
     /// What a tree holds besides its arrays.
-    pub push: TreePush,
+    pub push: TreeWords,
     /// The passes of a refit.
     pub passes: Vec<(Step, Vec<u32>)>,
     /// What is sampled.

@@ -1,6 +1,7 @@
 //! The committed modules.
 
-use lightbvh_kernels::bvh::TreePush;
+use lightbvh::TreeWords;
+use lightbvh_kernels::query::QueryPush;
 use lightbvh_kernels::refit::RefitPush;
 use lightbvh_kernels::{ROW_GROUPS, WORKGROUP};
 use lightbvh_kernels_builder::decorate::decorate;
@@ -40,15 +41,18 @@ fn shipped_modules_obey_the_rules() {
 #[test]
 fn push_constants_and_rows_are_those_of_the_kernels() {
     assert_eq!(lightbvh_gpu::ROW_GROUPS, ROW_GROUPS);
-    let tree = TreePush {
+    let tree = TreeWords {
         root: 1,
         trail_words: 2,
         live: 3,
         lights: 4,
         depth: 5,
     };
-    let words = lightbvh_gpu::tree_words(&tree.tree::<u32, (), 8>(&[], &[], &[]));
-    assert_eq!(bytemuck::bytes_of(&words), bytemuck::bytes_of(&tree));
+    let words = lightbvh_gpu::query_push(9, &tree.tree::<u32, (), 8>(&[], &[], &[]));
+    assert_eq!(
+        bytemuck::bytes_of(&words),
+        bytemuck::bytes_of(&QueryPush { count: 9, tree })
+    );
     let dispatch = lightbvh_gpu::Dispatch {
         pass: lightbvh_gpu::Pass::Top,
         first: 6,

@@ -7,8 +7,8 @@ use rayon::prelude::*;
 
 use super::codes::{BITS, Curve};
 use super::radix::{entry, sort};
-use crate::bounds::MAX_SUM;
 use crate::build::ward::{DARK, Leaves, NOTHING, WardPrimitive, extent_of};
+use crate::emission::MAX_SUM;
 use crate::exact::{exponent, min, pow2};
 
 /// The lights of each cluster.

@@ -144,7 +144,7 @@ fn edits<N: LightNode<W>, I, const W: usize>(bvh: &mut Bvh<N, I, W>, random: &mu
                 })
             });
             let adds = adds.collect();
-            bvh.apply(adds).map(|_| ())
+            bvh.apply(adds).map(|_| ()).map_err(|error| error.reason)
         }
         4..7 => some(bvh, random).map_or(Ok(()), |id| bvh.set_transform(id, place(random))),
         7 => some(bvh, random).map_or(Ok(()), |id| bvh.set_radiance(id, random.below(3) as f32)),

@@ -177,7 +177,7 @@ fn a_copy_has_ids_and_rebuilds_of_its_own() {
     let (mut bvh, ids) = lamps(20);
     let mut copy = bvh.clone();
     let error = copy.set_radiance(ids[3], 2.0).expect_err("not its own");
-    assert_eq!(error.reason, EditReason::UnknownInstance(ids[3]));
+    assert_eq!(error, EditReason::UnknownInstance(ids[3]));
     let own = copy.instance_id(ids[3].index()).expect("there");
     copy.set_radiance(own, 2.0).expect("its own");
     bvh.set_radiance(ids[4], 0.0).expect("its own");
@@ -201,7 +201,7 @@ fn numbers_that_are_free_again_make_room() {
     bvh.add_instance(mesh, Transform::IDENTITY)
         .expect_err("none is free");
     assert_eq!(
-        bvh.add_mesh(std::vec![lamp()]).expect_err("none is free").reason,
+        bvh.add_mesh(std::vec![lamp()]).expect_err("none is free"),
         EditReason::TooMany
     );
     bvh.lights.give(lights);

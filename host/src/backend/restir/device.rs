@@ -3,7 +3,8 @@
 use std::time::Duration;
 
 use bytemuck::bytes_of;
-use lightbvh_kernels::bvh::{Choice, TreePush};
+use lightbvh::TreeWords;
+use lightbvh_kernels::bvh::Choice;
 use lightbvh_kernels::restir::RestirPush;
 use lightbvh_kernels::shading::restir::shade::Shaded;
 use lightbvh_kernels::shading::restir::surface::Surface;
@@ -54,7 +55,7 @@ pub(in crate::backend) fn resample<C: Choice<W>, const W: usize>(
     let kernel = kernel_name::<C, W>("restir_initial", options.source);
     passes.run(&kernel, &bindings, &params, backend.tree.push, options.candidates)?;
 
-    let none = TreePush::default();
+    let none = TreeWords::default();
     if let Some(last) = restir.history(frame)
         && let super::Left::Device(left) = &last.left
     {
@@ -132,7 +133,7 @@ impl Passes<'_> {
         kernel: &str,
         bindings: &[Binding<'_>],
         params: &RestirParams,
-        tree: TreePush,
+        tree: TreeWords,
         work: u32,
     ) -> Result<(), BackendError> {
         let kernel = self.device.kernel(kernel)?;

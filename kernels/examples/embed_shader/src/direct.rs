@@ -5,21 +5,12 @@
 
 use lightbvh::exact::{div, hash, max};
 use lightbvh::vector::{cross, dot, length_squared};
-use lightbvh::{
-    Defensive, EmissiveTriangle, LightTree, MomentNode, Moments, Random64, SampledLight, ShadingPoint,
-};
-
-/// Children of a node of `LightBvh`.
-const WIDTH: usize = 8;
-/// A node of `LightBvh`.
-pub type Node = MomentNode<WIDTH>;
-/// `LightBvh` as a shader sees it.
-pub type Tree<'a> = LightTree<'a, Node, Defensive<Moments, 6>, WIDTH>;
+use lightbvh::{DefaultTree, EmissiveTriangle, Random64, ShadingPoint};
 
 /// The mean of `samples` light samples at `point`. `triangles` are `Bvh::triangles`; `seed` tells points apart.
 #[inline]
 pub fn direct_light(
-    tree: &Tree<'_>,
+    tree: &DefaultTree<'_>,
     triangles: &[EmissiveTriangle],
     point: &ShadingPoint,
     samples: u32,
@@ -30,7 +21,7 @@ pub fn direct_light(
         let random = hash(hash(seed) ^ k);
         let sampled = tree.sample(point, Random64::from(random));
         if sampled.pmf > 0.0 {
-            let triangle = in_world(tree, triangles, &sampled);
+            let triangle = tree.triangle(triangles, sampled.light, sampled.instance);
             let weight = div(received(&triangle, point), sampled.pmf);
             red += triangle.radiance[0] * weight;
             green += triangle.radiance[1] * weight;
@@ -39,14 +30,6 @@ pub fn direct_light(
     }
     let count = samples as i32 as f32;
     [div(red, count), div(green, count), div(blue, count)]
-}
-
-/// The triangle that a sample names.
-#[inline]
-fn in_world(tree: &Tree<'_>, triangles: &[EmissiveTriangle], sampled: &SampledLight) -> EmissiveTriangle {
-    let instance = &tree.instances[sampled.instance as usize];
-    let local = &triangles[instance.triangle_of(sampled.light) as usize];
-    instance.triangle(local, sampled.instance)
 }
 
 /// What arrives of a radiance of 1, as if all of it came from the triangle's centre: the cosines at both ends times the area

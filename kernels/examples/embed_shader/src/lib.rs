@@ -14,15 +14,14 @@
 
 mod direct;
 
-use core::marker::PhantomData;
-
 use bytemuck::{Pod, Zeroable};
-use direct::{Node, direct_light};
-use lightbvh::{EmissiveTriangle, Instance, LightTree, ShadingPoint};
+use direct::direct_light;
+use lightbvh::node::DefaultNode;
+use lightbvh::{EmissiveTriangle, Instance, ShadingPoint, TreeWords};
 use spirv_std::glam::UVec3;
 use spirv_std::spirv;
 
-/// Push constants. The last five are `lightbvh_gpu::tree_words`.
+/// Push constants.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct Push {
@@ -30,11 +29,7 @@ pub struct Push {
     pub count: u32,
     /// Light samples for each point.
     pub samples: u32,
-    pub root: u32,
-    pub trail_words: u32,
-    pub live: u32,
-    pub lights: u32,
-    pub depth: u32,
+    pub tree: TreeWords,
 }
 
 /// One invocation lights one point: W/m² of red, green and blue that arrive there, without shadows.
@@ -42,7 +37,7 @@ pub struct Push {
 pub fn direct(
     #[spirv(global_invocation_id)] id: UVec3,
     #[spirv(push_constant)] push: &Push,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[Node],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] nodes: &[DefaultNode],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] trails: &[u32],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
@@ -50,17 +45,7 @@ pub fn direct(
     #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] results: &mut [[f32; 3]],
 ) {
     if id.x < push.count {
-        let tree = LightTree {
-            nodes,
-            root: push.root,
-            instances,
-            trails,
-            trail_words: push.trail_words,
-            live: push.live,
-            lights: push.lights,
-            depth: push.depth,
-            importance: PhantomData,
-        };
+        let tree = push.tree.tree(nodes, instances, trails);
         let i = id.x as usize;
         results[i] = direct_light(&tree, triangles, &points[i], push.samples, id.x);
     }

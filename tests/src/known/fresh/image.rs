@@ -1,8 +1,8 @@
 //! Inputs of the image: a room with a box in it, lit by three meshes of small lights.
 
+use lightbvh::TreeWords;
 use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights};
 use lightbvh_host::render::{RayBvh, View, camera};
-use lightbvh_kernels::bvh::TreePush;
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
@@ -96,7 +96,7 @@ pub fn image() -> (&'static str, Vec<Table>) {
         jitter: 7,
         background: [0.02, 0.03, 0.05],
     };
-    let push = TreePush::of(&tree);
+    let push = TreeWords::of(&tree);
     let mut pixels = Table::new(
         "pixels",
         "pixel by pixel from the upper left: radiance, linear RGB",

@@ -46,7 +46,7 @@ impl<'a> DeviceLights<'a> {
         let frame = self.mirror.follow(bvh);
         self.grow(&frame);
         for copy in &frame.copies {
-            let bytes = &copy.buffer.bytes(bvh)[copy.bytes.start as usize..copy.bytes.end as usize];
+            let bytes = copy.source(bvh);
             let array = &self.arrays[copy.buffer as usize];
             engine.queue.write_buffer(array, copy.bytes.start, bytes);
         }

@@ -1,11 +1,11 @@
 //! Both levels as deep as bit trails are long.
 
 use bytemuck::Zeroable;
+use lightbvh::TreeWords;
 use lightbvh::node::kind;
 use lightbvh::refit::BlasRoot;
 use lightbvh::trail::{BitTrail, max_levels};
 use lightbvh::{EmissiveTriangle, Instance, LightNode, exact};
-use lightbvh_kernels::bvh::TreePush;
 
 use super::built::checked;
 use super::passes::passes_of;
@@ -98,7 +98,7 @@ pub(super) fn deep<N: LightNode<W>, const W: usize>() -> Tree<N, W> {
         instances,
         roots,
         trails: trails.iter().flat_map(|t| [t.low, t.high]).collect(),
-        push: TreePush {
+        push: TreeWords {
             root,
             trail_words: 2,
             live: levels + 1,

@@ -1,9 +1,9 @@
 //! The arrays of a built tree, without the summaries that a refit computes.
 
 use bytemuck::Zeroable;
+use lightbvh::TreeWords;
 use lightbvh::refit::BlasRoot;
 use lightbvh::{Bvh, LightNode, Lights};
-use lightbvh_kernels::bvh::TreePush;
 
 use super::passes::passes_of;
 use crate::known::tree::Tree;
@@ -20,7 +20,7 @@ pub(super) fn of_bvh<N: LightNode<W>, const W: usize>(bvh: &Bvh<N, (), W>, light
         passes: passes_of(tree.nodes, &roots, tree.root, !bvh.is_single_level()),
         roots,
         trails: tree.trails.to_vec(),
-        push: TreePush::of(&tree),
+        push: TreeWords::of(&tree),
         samples: Vec::new(),
         pmfs: Vec::new(),
     }

@@ -1,7 +1,7 @@
 //! Moving lights: instances of every kind of transform and brightness.
 
+use lightbvh::TreeWords;
 use lightbvh::{Bvh, CompactNode, Edit, Instance, LightNode, exact};
-use lightbvh_kernels::bvh::TreePush;
 
 use super::links::{links_of_nodes, links_of_roots};
 use super::passes::passes_of;
@@ -69,7 +69,7 @@ pub(super) fn instances<N: LightNode<W>, const W: usize>(random: &mut Random) ->
         passes: passes_of(tree.nodes, &roots, tree.root, true),
         roots,
         trails: tree.trails.to_vec(),
-        push: TreePush::of(&tree),
+        push: TreeWords::of(&tree),
         samples: Vec::new(),
         pmfs: Vec::new(),
     }
