@@ -21,7 +21,7 @@
 //! | [`Rebuilder`] | rebuilds on a thread beside the frame, or within it where there are no threads |
 //! | [`bvh`], [`build`] | edits, ids, plans and rebuilds; builders |
 //! | [`importance`], [`node`] | what children are chosen by, and what nodes store of them |
-//! | [`LightTree`], [`DefaultTree`], [`TreeWords`] | a light BVH as borrowed arrays, the same on devices |
+//! | [`tree`] | a light BVH as borrowed arrays, the same on devices |
 //! | [`refit`], [`exact`] | passes and arithmetic, the same on devices |
 //! | [`reservoir`] | resampling of light samples, over candidates and over other reservoirs (ReSTIR) |
 //! | [`error`] | why input is refused |
@@ -89,6 +89,7 @@ pub mod importance;
 pub mod node;
 pub mod refit;
 pub mod reservoir;
+pub mod tree;
 
 #[cfg(feature = "alloc")]
 pub mod build;
@@ -114,8 +115,6 @@ pub mod summary;
 pub mod trail;
 #[doc(hidden)]
 pub mod traverse;
-#[doc(hidden)]
-pub mod tree;
 #[doc(hidden)]
 pub mod vector;
 
@@ -159,7 +158,6 @@ pub use transform::Transform;
 pub use light::{EmissiveTriangle, LightPoint};
 pub use point::ShadingPoint;
 pub use traverse::{Random64, SampledLight};
-pub use tree::{DefaultTree, LightTree, TreeWords};
 
 // Short paths to what is documented in a module.
 #[cfg(feature = "alloc")]
@@ -183,7 +181,7 @@ pub use rebuilder::RebuilderParams;
 #[doc(hidden)]
 pub use refit::Instance;
 #[doc(hidden)]
-pub use tree::INVALID;
+pub use tree::{DefaultTree, INVALID, LightTree, TreeWords};
 
 /// The snippets of the first page, compiled and run.
 #[cfg(all(doctest, feature = "std"))]
