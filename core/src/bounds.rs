@@ -6,13 +6,8 @@ use crate::cone::{Cone, normalized};
 pub use crate::emission::{MAX_PHI, MIN_PHI};
 use crate::emission::{MAX_SUM, flux};
 use crate::exact::{self, pow2};
-use crate::instance::Instance;
 use crate::light::EmissiveTriangle;
-use crate::summary::{Lanes, SUMMARY_WORDS, Summary, Triangles};
-use crate::vector::{dot, greatest_exponent, length_squared, max3, min3};
-
-/// A constant of its own: rust-gpu does not fold an expression of literals.
-const TWELFTH: f32 = 1.0 / 12.0;
+use crate::vector::{dot, greatest_exponent, max3, min3};
 
 /// Bounds of the emission of a set of lights (Conty Estevez & Kulla 2018, section 4.1; pbrt-v4 `LightBounds`).
 ///
@@ -116,131 +111,6 @@ impl LightBounds {
         Cone {
             axis: self.axis,
             cos_theta_o: self.cos_theta_o,
-        }
-    }
-}
-
-impl Summary for LightBounds {
-    const EMPTY: Self = Self::EMPTY;
-    const NAMES: [&'static str; SUMMARY_WORDS] = [
-        "least x",
-        "least y",
-        "least z",
-        "greatest x",
-        "greatest y",
-        "greatest z",
-        "axis x",
-        "axis y",
-        "axis z",
-        "cos θ_o",
-        "cos θ_e",
-        "flux",
-    ];
-
-    #[inline(always)]
-    fn of_triangle(triangle: &EmissiveTriangle) -> Self {
-        Self::of_triangle(triangle)
-    }
-
-    #[inline(always)]
-    fn of_triangles<const W: usize>(triangles: &Triangles<W>, summaries: &mut Lanes<W>) {
-        for slot in 0..W {
-            if triangles.present(slot) != 0 {
-                summaries.set(slot, &Self::of_triangle(&triangles.get(slot)));
-            } else {
-                summaries.set(slot, &Self::EMPTY);
-            }
-        }
-    }
-
-    /// In slot order: the cone around cones depends on the order.
-    #[inline(always)]
-    fn merged<const W: usize>(children: &Lanes<W>) -> Self {
-        let mut merged = Self::EMPTY;
-        for slot in 0..W {
-            merged = merged.merge(&children.get(slot));
-        }
-        merged
-    }
-
-    #[inline(always)]
-    fn to_world(&self, instance: &Instance) -> Self {
-        instance.bounds_to_world(self)
-    }
-
-    #[inline(always)]
-    fn phi(&self) -> f32 {
-        self.phi
-    }
-
-    #[inline(always)]
-    fn center(&self) -> Vec3 {
-        (self.min + self.max) * 0.5
-    }
-
-    /// That of points spread evenly over the box.
-    #[inline(always)]
-    fn spread(&self) -> f32 {
-        let extent = self.max - self.min;
-        length_squared(extent) * TWELFTH
-    }
-
-    #[inline(always)]
-    fn bounds(&self) -> LightBounds {
-        *self
-    }
-
-    fn uncontained(&self, child: &Self) -> Option<usize> {
-        // Without flux a box and a cone mean nothing.
-        if child.phi == 0.0 {
-            return None;
-        }
-        let (outer, inner) = (self.to_words(), child.to_words());
-        for k in 0..3 {
-            if inner[k] < outer[k] {
-                return Some(k);
-            }
-            if inner[3 + k] > outer[3 + k] {
-                return Some(3 + k);
-            }
-        }
-        if !self.cone().contains(child.cone()) {
-            return Some(9);
-        }
-        if child.cos_theta_e < self.cos_theta_e {
-            return Some(10);
-        }
-        (child.phi > self.phi).then_some(11)
-    }
-
-    #[inline(always)]
-    fn to_words(&self) -> [f32; SUMMARY_WORDS] {
-        let (lo, hi, a) = (self.min, self.max, self.axis);
-        [
-            lo.x,
-            lo.y,
-            lo.z,
-            hi.x,
-            hi.y,
-            hi.z,
-            a.x,
-            a.y,
-            a.z,
-            self.cos_theta_o,
-            self.cos_theta_e,
-            self.phi,
-        ]
-    }
-
-    #[inline(always)]
-    fn from_words(words: &[f32; SUMMARY_WORDS]) -> Self {
-        Self {
-            min: Vec3::new(words[0], words[1], words[2]),
-            max: Vec3::new(words[3], words[4], words[5]),
-            axis: Vec3::new(words[6], words[7], words[8]),
-            cos_theta_o: words[9],
-            cos_theta_e: words[10],
-            phi: words[11],
         }
     }
 }

@@ -11,10 +11,10 @@ use glam::Vec3;
 
 use crate::bounds::LightBounds;
 use crate::exact::{self, flush, pow2};
+use crate::light::INVALID;
 use crate::light::{EmissiveTriangle, MAX_COORDINATE, MIN_COORDINATE};
 use crate::point::ShadingPoint;
 use crate::trail::BitTrail;
-use crate::tree::INVALID;
 use crate::vector::{dot, flush3, length_squared};
 
 /// Lengths below this in a mesh's space count as zero, metres: 2^-60. Entries of the maps are zero or at least 2^-60, so no

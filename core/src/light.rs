@@ -9,6 +9,9 @@ pub use point::{LightPoint, uniform_point};
 
 use crate::exact;
 
+/// "No such index."
+pub const INVALID: u32 = u32::MAX;
+
 /// [`EmissiveTriangle::flags`] bit: the triangle emits from both faces.
 pub const TWO_SIDED: u32 = 1;
 

@@ -1,5 +1,7 @@
 //! What a node stores of each child: a few numbers of the lights below it that can be merged.
 
+mod bounds;
+
 use core::fmt::Debug;
 
 use glam::Vec3;

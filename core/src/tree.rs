@@ -7,11 +7,9 @@ use bytemuck::{Pod, Zeroable};
 use crate::importance::DefaultImportance;
 use crate::instance::{Instance, world_light};
 use crate::light::EmissiveTriangle;
+pub use crate::light::INVALID;
 use crate::node::DefaultNode;
 use crate::trail::{BitTrail, Path};
-
-/// "No such index."
-pub const INVALID: u32 = u32::MAX;
 
 /// A light BVH of one or two levels: borrowed arrays with nodes of layout `N` and width `W`, and what children are chosen by, `I`.
 ///

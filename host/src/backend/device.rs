@@ -15,8 +15,7 @@ use lightbvh_kernels::render::{RenderParams, RenderPush};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
 use super::batches::in_batches;
-use super::device_arrays::{DeviceEmitters, DeviceScene, DeviceTree, device_time, kernel_name};
-use super::follow::own;
+use super::device_arrays::{DeviceEmitters, DeviceScene, DeviceTree, device_time, kernel_name, own};
 use super::restir::device::resample;
 use super::{
     Backend, BackendError, Bvh, Integrator, Restir, RestirFrame, Sampler, SceneArrays, Timed, node_record,

@@ -35,6 +35,14 @@ impl DeviceEmitters {
     }
 }
 
+/// The buffer to be written: a copy on the device where something else reads it as it is.
+pub(super) fn own<T: Pod>(buffer: &mut Arc<Buffer<T>>) -> Result<&mut Buffer<T>, VulkanError> {
+    if Arc::get_mut(buffer).is_none() {
+        *buffer = Arc::new(buffer.duplicate()?);
+    }
+    Ok(Arc::get_mut(buffer).expect("no one else has the copy"))
+}
+
 /// A frame's arrays on the device.
 pub(super) struct DeviceScene {
     pub ray_nodes: Buffer<RayNode>,

@@ -8,6 +8,7 @@ use lightbvh_gpu::{Buffer as Array, Frame};
 use lightbvh_kernels::bvh::Choice;
 
 use super::device::DeviceBackend;
+use super::device_arrays::own;
 use super::{BackendError, Bvh, Follow, Timed};
 use crate::vulkan::{Buffer, Device, VulkanError};
 
@@ -81,12 +82,4 @@ fn renew_shared<T: Pod>(
         renew(device, own(buffer)?, data, frame, array)?;
     }
     Ok(())
-}
-
-/// The buffer to be written: a copy on the device where something else reads it as it is.
-pub(super) fn own<T: Pod>(buffer: &mut Arc<Buffer<T>>) -> Result<&mut Buffer<T>, VulkanError> {
-    if Arc::get_mut(buffer).is_none() {
-        *buffer = Arc::new(buffer.duplicate()?);
-    }
-    Ok(Arc::get_mut(buffer).expect("no one else has the copy"))
 }

@@ -6,6 +6,7 @@ mod refits;
 mod restir;
 mod side;
 mod structures;
+mod subject;
 pub(super) mod tally;
 
 use std::ops::Range;
@@ -19,7 +20,7 @@ use crate::backend::Sampler;
 use crate::error::HostError;
 use crate::method::{Importance, Target};
 use crate::scene::{BUILT_IN, Scene};
-use structures::Subject;
+use subject::Subject;
 use tally::{Tallies, Tally};
 
 #[derive(Debug, clap::Args)]

@@ -1,7 +1,7 @@
 //! Device memory behind a buffer, and the copies in and out of it.
 
 use super::error::{CallContext, VulkanError};
-use super::retired::Retired;
+use super::queue::Retired;
 use super::shared::Shared;
 use ash::vk;
 use gpu_allocator::MemoryLocation;

@@ -1,6 +1,6 @@
 //! Vulkan compute without a window: devices, buffers, kernels, passes, and the question whether a device is exact.
 //!
-//! The files follow a device's life: instance, probe, device, buffers, kernels, passes, retirement. All of the
+//! The files follow a device's life: instance, probe, device, buffers, kernels, passes, submission. All of the
 //! host's `unsafe` code is in this module; what it needs to be sound is checked here and not left to callers, with one
 //! exception that Vulkan itself makes: the instructions of a SPIR-V module are trusted like any program's.
 //!
@@ -28,20 +28,23 @@ mod error;
 mod instance;
 mod kernel;
 mod memory;
+mod options;
 mod pass;
+mod pipeline;
 mod probe;
 mod queue;
-mod retired;
 mod run;
 mod self_test;
 mod shared;
+mod submit;
 mod validation;
 
 pub use buffer::{Binding, Buffer, UNWRITTEN};
-pub use device::{Device, DeviceInfo, DeviceList, Options};
+pub use device::{Device, DeviceInfo, DeviceList};
 pub use error::VulkanError;
 pub use kernel::Kernel;
 pub use lightbvh_gpu::spirv::{Interface, ModuleError};
+pub use options::Options;
 pub use pass::Pass;
 pub use probe::{Driver, Features, FloatControls, Limits, Probe};
 pub use run::Timings;

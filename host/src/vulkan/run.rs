@@ -3,7 +3,7 @@
 use super::device::Device;
 use super::error::{CallContext, VulkanError};
 use super::pass::{Dispatch, Pass};
-use super::retired::Retired;
+use super::queue::Retired;
 use super::shared::Shared;
 use ash::vk;
 use lightbvh_gpu::groups;

@@ -1,11 +1,11 @@
 //! What a device, its buffers and its kernels hold in common, destroyed when the last of them goes.
 
-use super::device::Options;
 use super::error::VulkanError;
 use super::instance::Instance;
 use super::kernel::Kernels;
+use super::options::Options;
 use super::probe::{Candidate, Probe};
-use super::queue::Queue;
+use super::queue::{Queue, Retired};
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use gpu_allocator::{AllocationSizes, AllocatorDebugSettings};
 use std::mem::ManuallyDrop;
@@ -112,6 +112,35 @@ impl Shared {
     /// Whether work that ran into its time limit is still running: nothing it may use can be destroyed then.
     pub(crate) fn is_busy(&self) -> bool {
         self.idle_queue().is_err()
+    }
+
+    /// Destroys an object now, or, if work that ran into its time limit may still use it, once that has ended.
+    pub(crate) fn retire(&self, object: Retired) {
+        let mut queue = self.queue();
+        queue.retired.push(object);
+        if queue.settle(&self.raw, &self.probe.name).is_ok() {
+            self.destroy_retired(queue.retired.drain(..));
+        }
+    }
+
+    /// Nothing may be running.
+    fn destroy_retired(&self, objects: impl Iterator<Item = Retired>) {
+        for object in objects {
+            // SAFETY: the objects belong to this device or are null, their owners gave them up, and nothing that uses
+            // them is running: submissions borrow them until they end, and one that ran into its time limit has ended
+            // before this is called.
+            unsafe {
+                match object {
+                    Retired::Sets(pool) => self.raw.destroy_descriptor_pool(pool, None),
+                    Retired::Queries(pool) => self.raw.destroy_query_pool(pool, None),
+                    Retired::Buffer(buffer, allocation) => {
+                        self.raw.destroy_buffer(buffer, None);
+                        // An error would be an inconsistency of the allocator itself; there is nothing to undo.
+                        let _ = allocation.map(|allocation| self.allocator().free(allocation));
+                    }
+                }
+            }
+        }
     }
 
     /// An error once the validation layer has said anything.

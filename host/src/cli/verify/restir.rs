@@ -5,7 +5,7 @@ use std::sync::Arc;
 use lightbvh::exact::hash;
 use lightbvh_kernels::bvh::Choice;
 
-use super::structures::Subject;
+use super::subject::Subject;
 use super::tally::Tallies;
 use crate::backend::{
     Backend, Bvh, Combination, CpuBackend, DeviceBackend, Restir, RestirFrame, RestirOptions, Sampler,

@@ -1,18 +1,17 @@
 //! Both structures over a scene: refits, queries by the hundred thousand, images, ReSTIR.
 
 use indicatif::ProgressBar;
-use lightbvh::BuildParams;
 use lightbvh::exact::hash;
 use lightbvh_kernels::bvh::Choice;
 
 use super::side::Side;
+use super::subject::Subject;
 use super::tally::{Kind, Tallies};
 use crate::backend::{
     Backend, Bvh, CpuBackend, DeviceBackend, Integrator, PIXEL_RECORD, Sampler, SceneArrays,
 };
 use crate::cli::devices::Opened;
 use crate::error::HostError;
-use crate::scene::Scene;
 use crate::workload::{RenderSettings, arrays_at, build, lights_at, queries};
 
 /// Queries answered at a time.
@@ -22,29 +21,6 @@ const BUILD_FRAME: u32 = 0;
 const REFIT_FRAMES: [u32; 2] = [40, 110];
 /// Most reflections of the paths that are compared: enough for some to end by chance.
 const BOUNCES: u32 = 5;
-
-/// A structure over a scene.
-pub(super) struct Subject<'a> {
-    pub scene: &'a Scene,
-    pub sampler: Sampler,
-    /// What lights are chosen by, for messages.
-    pub importance: &'static str,
-    pub params: BuildParams,
-    /// Whether images and reservoirs without a tree are compared too: once per scene.
-    pub treeless: bool,
-}
-
-impl Subject<'_> {
-    /// Where words come from.
-    pub fn says(&self, kernel: &str) -> String {
-        format!(
-            "{} {} {} {kernel}",
-            self.scene.name(),
-            self.sampler.name(),
-            self.importance
-        )
-    }
-}
 
 /// Compares everything about one structure over one scene.
 pub(super) fn compare<C: Choice<W>, const W: usize>(

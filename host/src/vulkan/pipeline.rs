@@ -1,0 +1,199 @@
+//! How kernels are made: built-in modules on first use, others from their words.
+
+use super::device::Device;
+use super::error::{CallContext, VulkanError};
+use super::kernel::Kernel;
+use super::shared::Shared;
+use ash::vk;
+use lightbvh_gpu::spirv::Interface;
+use lightbvh_gpu::{KERNELS, with_float_modes};
+use std::ffi::CString;
+use std::sync::Arc;
+
+impl Device {
+    /// The built-in kernel of that name; its pipeline is made on first use.
+    ///
+    /// Some drivers compile only at the first dispatch: leave that one out of any timing.
+    ///
+    /// # Errors
+    /// [`VulkanError::UnknownKernel`], or those of [`Device::kernel_from_words`].
+    pub fn kernel(&self, name: &str) -> Result<Arc<Kernel>, VulkanError> {
+        let module = built_in(name)?;
+        let mut kernels = self.shared.kernels();
+        if let Some(kernel) = kernels.built_in.get(name) {
+            return Ok(Arc::clone(kernel));
+        }
+        let kernel = Arc::new(Kernel::new(&self.shared, name, &module.words())?);
+        kernels.built_in.insert(module.name, Arc::clone(&kernel));
+        drop(kernels);
+        self.shared.check_validation()?;
+        Ok(kernel)
+    }
+
+    /// Puts a module of the caller's in the place of the built-in kernel of that name, for all that this device runs from now
+    /// on. Tests run deliberately broken kernels by it, to see that the self-test and every comparison find them.
+    ///
+    /// # Errors
+    /// [`VulkanError::UnknownKernel`], or those of [`Device::kernel_from_words`].
+    #[doc(hidden)]
+    pub fn replace_kernel(&self, name: &str, words: &[u32]) -> Result<(), VulkanError> {
+        let module = built_in(name)?;
+        let kernel = Arc::new(Kernel::new(&self.shared, name, words)?);
+        let mut kernels = self.shared.kernels();
+        // A pass may still name the old one's pipeline; it goes when the device does.
+        let old = kernels.built_in.insert(module.name, kernel);
+        kernels.others.extend(old);
+        drop(kernels);
+        self.shared.check_validation()
+    }
+
+    /// A kernel from a SPIR-V module with one compute entry point; `name` is for messages.
+    ///
+    /// Float-control execution modes are set as the device reports them. The module's instructions are trusted like
+    /// any program: Vulkan does not promise to catch an invalid one.
+    ///
+    /// # Errors
+    /// [`VulkanError::BadModule`] if the words are no such module, [`VulkanError::KernelOverLimit`] if it needs more
+    /// than the device has, [`VulkanError::Validation`], or [`VulkanError::Call`].
+    pub fn kernel_from_words(&self, name: &str, words: &[u32]) -> Result<Arc<Kernel>, VulkanError> {
+        let kernel = Arc::new(Kernel::new(&self.shared, name, words)?);
+        self.shared.kernels().others.push(Arc::clone(&kernel));
+        self.shared.check_validation()?;
+        Ok(kernel)
+    }
+}
+
+/// The module of that name.
+fn built_in(name: &str) -> Result<&'static lightbvh_gpu::Kernel, VulkanError> {
+    lightbvh_gpu::Kernel::named(name).ok_or_else(|| {
+        let known: Vec<&str> = KERNELS.iter().map(|kernel| kernel.name).collect();
+        VulkanError::UnknownKernel {
+            name: name.into(),
+            known: known.join(", "),
+        }
+    })
+}
+
+impl Kernel {
+    fn new(shared: &Shared, name: &str, words: &[u32]) -> Result<Self, VulkanError> {
+        let bad_module = |source| VulkanError::BadModule {
+            kernel: name.into(),
+            source,
+        };
+        let interface = Interface::read(words).map_err(bad_module)?;
+        let words = with_float_modes(words, shared.probe.float_controls.into()).map_err(bad_module)?;
+        check_limits(shared, name, &interface)?;
+        let mut kernel = Self {
+            name: name.into(),
+            device: shared.id,
+            interface,
+            set_layout: vk::DescriptorSetLayout::null(),
+            layout: vk::PipelineLayout::null(),
+            pipeline: vk::Pipeline::null(),
+        };
+        match kernel.create(&shared.raw, &shared.probe.name, &words) {
+            Ok(()) => Ok(kernel),
+            Err(error) => {
+                kernel.destroy(&shared.raw);
+                Err(error)
+            }
+        }
+    }
+
+    fn create(&mut self, device: &ash::Device, device_name: &str, words: &[u32]) -> Result<(), VulkanError> {
+        let bindings: Vec<_> = (0..self.interface.buffers.len() as u32)
+            .map(|binding| {
+                vk::DescriptorSetLayoutBinding::default()
+                    .binding(binding)
+                    .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
+                    .descriptor_count(1)
+                    .stage_flags(vk::ShaderStageFlags::COMPUTE)
+            })
+            .collect();
+        let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
+        // SAFETY: the device is alive and `info` outlives the call; the same holds for the creations below.
+        self.set_layout = unsafe { device.create_descriptor_set_layout(&info, None) }
+            .during("vkCreateDescriptorSetLayout", device_name)?;
+
+        let set_layouts = [self.set_layout];
+        let push = [vk::PushConstantRange {
+            stage_flags: vk::ShaderStageFlags::COMPUTE,
+            offset: 0,
+            size: self.interface.push_constants,
+        }];
+        let mut info = vk::PipelineLayoutCreateInfo::default().set_layouts(&set_layouts);
+        if self.interface.push_constants > 0 {
+            info = info.push_constant_ranges(&push);
+        }
+        // SAFETY: as above.
+        self.layout = unsafe { device.create_pipeline_layout(&info, None) }
+            .during("vkCreatePipelineLayout", device_name)?;
+
+        let info = vk::ShaderModuleCreateInfo::default().code(words);
+        // SAFETY: as above; the words parse as SPIR-V, and what they compute is the caller's to vouch for
+        // (`kernel_from_words`): the built-in ones were verified when they were built.
+        let module = unsafe { device.create_shader_module(&info, None) }
+            .during("vkCreateShaderModule", device_name)?;
+        // Read from a zero-terminated string, so there is no zero byte to cut at.
+        let entry_point = CString::new(self.interface.entry_point.as_bytes()).unwrap_or_default();
+        let stage = vk::PipelineShaderStageCreateInfo::default()
+            .stage(vk::ShaderStageFlags::COMPUTE)
+            .module(module)
+            .name(&entry_point);
+        let info = [vk::ComputePipelineCreateInfo::default()
+            .layout(self.layout)
+            .stage(stage)];
+        // SAFETY: as above; the layout covers every binding and push constant that the module declares.
+        let created = unsafe { device.create_compute_pipelines(vk::PipelineCache::null(), &info, None) };
+        // SAFETY: pipelines do not need their module once they are made; nothing else uses it.
+        unsafe { device.destroy_shader_module(module, None) };
+        match created {
+            Ok(pipelines) => {
+                self.pipeline = pipelines[0];
+                Ok(())
+            }
+            // A single creation that failed left a null handle.
+            Err((_, result)) => Err(result).during("vkCreateComputePipelines", device_name),
+        }
+    }
+}
+
+/// Compares what the kernel declares with what the device has.
+fn check_limits(shared: &Shared, kernel: &str, interface: &Interface) -> Result<(), VulkanError> {
+    let limits = &shared.probe.limits;
+    let [x, y, z] = interface.workgroup;
+    let invocations = x.saturating_mul(y).saturating_mul(z);
+    let [max_x, max_y, max_z] = limits.max_workgroup_size;
+    for (what, needed, limit) in [
+        ("a workgroup width of", x, max_x),
+        ("a workgroup height of", y, max_y),
+        ("a workgroup depth of", z, max_z),
+        (
+            "invocations per workgroup:",
+            invocations,
+            limits.max_workgroup_invocations,
+        ),
+        (
+            "storage buffers:",
+            interface.buffers.len() as u32,
+            limits.max_storage_buffers,
+        ),
+        (
+            "bytes of push constants:",
+            interface.push_constants,
+            limits.max_push_constants_size,
+        ),
+    ] {
+        if needed > limit {
+            let (kernel, device) = (kernel.into(), shared.probe.name.clone());
+            return Err(VulkanError::KernelOverLimit {
+                kernel,
+                device,
+                what,
+                needed,
+                limit,
+            });
+        }
+    }
+    Ok(())
+}
