@@ -19,8 +19,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         p: [10.0, 0.0, 0.0],
         n: [0.0, 1.0, 0.0],
     };
+    let mut rebuilds = 0;
     for frame in 0..60_u16 {
-        let start = rebuilder.begin_frame(&mut bvh)?;
+        rebuilds += u32::from(rebuilder.begin_frame(&mut bvh)?.swapped);
         let at = |x: u16| Transform::at([f32::from(x), 0.0, f32::from(frame) * 0.1]);
         // A batch is done whole or not at all.
         let mut edits: Vec<Edit> = (0..)
@@ -47,9 +48,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let gone = bvh.take_removed_lights();
         if frame % 20 == 19 {
             println!(
-                "frame {frame}: {} lamps, rebuilt {}, {} gone, light {} with probability {:.3}",
+                "frame {frame}: {} lamps, rebuilt {rebuilds} times, {} gone, light {} with probability {:.3}",
                 bvh.light_count(),
-                start.swapped,
                 gone.len(),
                 sampled.light,
                 sampled.pmf

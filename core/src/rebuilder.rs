@@ -17,7 +17,7 @@ use self::clock::Clock;
 use self::handover::Outcome;
 use self::worker::{Built, Worker, build};
 use crate::bvh::{Bvh, RebuildParams, Taken};
-use crate::node::LightNode;
+use crate::node::{DefaultNode, LightNode};
 
 /// When results are swapped in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -102,7 +102,7 @@ impl core::error::Error for RebuildError {}
 /// `wasm32-unknown-unknown`, where there is no clock either, and all times are zero. Where panics abort, one while building does
 /// too.
 #[derive(Debug)]
-pub struct Rebuilder<N, const W: usize> {
+pub struct Rebuilder<N = DefaultNode, const W: usize = 8> {
     params: RebuilderParams,
     worker: Option<Worker<N, W>>,
     flight: Option<Flight<N, W>>,
@@ -146,8 +146,8 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
         self.flight.is_some()
     }
 
-    /// Swaps in what is due. Comes before the frame's [`Bvh::apply`] or after it, but before its [`Bvh::refit`], with
-    /// the scene that [`end_frame`](Self::end_frame) gets.
+    /// Swaps in what is due. Comes before the frame's [`Bvh::apply`] or after it, but before its [`Bvh::plan`] and [`Bvh::refit`],
+    /// with the scene that [`end_frame`](Self::end_frame) gets.
     ///
     /// # Errors
     /// [`RebuildError`], once, if the rebuild that was due came to nothing. The frame can go on as if nothing had been due.

@@ -67,10 +67,17 @@ impl<'a, N, I, const W: usize> LightTree<'a, N, I, W> {
     }
 
     /// Light `light` of `instance` in the world, as a [`SampledLight`](crate::SampledLight) names them; `triangles` are those of the
-    /// `Bvh`, in the spaces of their meshes. Without radiance where there is no such light.
+    /// `Bvh`, in the spaces of their meshes. Without radiance where there is no such light. A single level has one
+    /// instance, whichever is named.
     #[inline]
     #[must_use]
     pub fn triangle(&self, triangles: &[EmissiveTriangle], light: u32, instance: u32) -> EmissiveTriangle {
+        // A single level has one instance, whatever is named; of several, none is meant by no index.
+        let instance = match (self.live, instance) {
+            (0, _) => INVALID,
+            (_, INVALID) => INVALID - 1,
+            _ => instance,
+        };
         world_light(triangles, self.instances, light, instance)
     }
 

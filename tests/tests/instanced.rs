@@ -3,14 +3,18 @@
 
 use std::sync::Arc;
 
-use lightbvh::{Edit, EmissiveTriangle, InstanceId, LightBvh, Lights, MeshId, Transform};
+use lightbvh::bvh::RebuildParams;
+use lightbvh::{
+    BuildParams, Edit, EmissiveTriangle, InstanceId, LightBvh, Lights, MeshId, ShadingPoint, Transform,
+};
 use lightbvh_host::backend::{
     Backend, Combination, CpuBackend, DeviceBackend, Follow, Integrator, Restir, RestirFrame, RestirOptions,
     Sampler, SceneArrays,
 };
 use lightbvh_host::render::{RayBvh, View, camera, render, render_path};
-use lightbvh_host::vulkan::Options;
+use lightbvh_host::vulkan::{Device, Options};
 use lightbvh_kernels::bvh::Standard;
+use lightbvh_kernels::query::Query;
 use lightbvh_kernels::render::RenderParams;
 use lightbvh_kernels::shading::emitters::Emitters;
 use lightbvh_kernels::shading::material::Material;
@@ -175,16 +179,22 @@ fn devices_resample_lights_that_moved() {
             ..RestirOptions::new(Sampler::TwoLevel, combination)
         };
         on_each_device(Options::default(), |device| {
-            let (mut bvh, meshes, ids) = world();
+            let (mut bvh, meshes, mut ids) = world();
             let mut cpu = CpuBackend::<Standard, 8>::new(bvh.clone());
             let mut other = DeviceBackend::<Standard, 8>::new(device, &bvh).expect("an upload");
             let (mut on_cpu, mut on_device) = (Restir::new(options), Restir::new(options));
+            let mut fresh = 0;
             for number in 0..5_u32 {
                 if number > 0 {
                     // Only the later half moves; a mesh changes its shape in the last frame.
                     let mut moved = edits(&ids, number as f32);
                     moved.drain(..6);
                     bvh.apply(moved).expect("affine maps");
+                    // All arrays grow, and no light changes its number.
+                    if number == 2 {
+                        let place = Transform::at([2.0, 2.0, 1.0]);
+                        ids.push(bvh.add_instance(meshes[1], place).expect("a place"));
+                    }
                     if number == 4 {
                         let (mesh, mut triangles) = (meshes[0], lights(5));
                         triangles[2].p[1][1] += 0.3;
@@ -210,10 +220,13 @@ fn devices_resample_lights_that_moved() {
                 let found = other.restir(&mut on_device, &frame).expect("an image").value;
                 let what = format!("{} {combination:?} frame {number}", device.name());
                 assert!(expected == found, "{what}");
-                let (cpu_state, device_state) = (on_cpu.state(), on_device.state());
+                let state = on_cpu.state().expect("a state");
+                assert!(state == on_device.state().expect("a state"), "{what}");
+                let samples: u32 = state.1.iter().map(|pixel| pixel.reservoir.count).sum();
+                fresh = if number == 0 { samples } else { fresh };
                 assert!(
-                    cpu_state.expect("a state") == device_state.expect("a state"),
-                    "{what}"
+                    number == 0 || 2 * samples > 3 * fresh,
+                    "{what}: the history was lost"
                 );
                 assert!(on_cpu.shadow_rays() > 300, "{what}: nothing is lit");
                 if number == 4 && combination.is_unbiased() {
@@ -227,4 +240,91 @@ fn devices_resample_lights_that_moved() {
             }
         });
     }
+}
+
+/// A device that followed edits and a swap refits what it has then; lights of other meshes are refused as on the CPU.
+#[test]
+fn refits_after_edits_are_those_of_the_cpu() {
+    let lamps = |meshes: u32, each: u32, seed: u32| {
+        Lights::new(small_triangles(meshes * each, each, 8.0, 0.3, true, seed)).expect("within the domain")
+    };
+    on_each_device(Options::default(), |device| {
+        let mut bvh = LightBvh::two_level(&lamps(12, 40, 1), &BuildParams::default());
+        let mut cpu = CpuBackend::<Standard, 8>::new(bvh.clone());
+        let mut other = DeviceBackend::<Standard, 8>::new(device, &bvh).expect("an upload");
+        bvh.follow(&lamps(12, 40, 2)).expect("the same meshes");
+        let everything = RebuildParams {
+            top: true,
+            drift: 0.0,
+        };
+        let rebuilt = bvh.rebuild(&everything).run();
+        bvh.install(rebuilt).expect("its own");
+        bvh.plan();
+        other.follow(&bvh).expect("copies and a refit");
+        cpu.follow(&bvh).expect("a refit");
+        let moved = lamps(12, 40, 3);
+        cpu.refit(&moved).expect("a refit");
+        other.refit(&moved).expect("a refit");
+        let queries: Vec<_> = (0..500_u32)
+            .map(|k| {
+                let point = ShadingPoint {
+                    p: [(k % 9) as f32, (k % 7) as f32, (k % 5) as f32],
+                    n: [0.0, 1.0, 0.0],
+                };
+                let words = [k.wrapping_mul(0x9e37_79b9), 0];
+                Query { point, words }
+            })
+            .collect();
+        let expected = cpu.sample(&queries).expect("samples").value;
+        assert!(
+            expected == other.sample(&queries).expect("samples").value,
+            "{}",
+            device.name()
+        );
+        let wrong = lamps(10, 48, 4);
+        let error = cpu.refit(&wrong).expect_err("other meshes").to_string();
+        assert_eq!(other.refit(&wrong).expect_err("other meshes").to_string(), error);
+    });
+}
+
+/// What one device left is of no use to another: its history begins anew there.
+#[test]
+fn a_history_stays_on_its_device() {
+    let (bvh, ..) = world();
+    let scene = Arc::new(arrays(&bvh));
+    let options = RestirOptions {
+        candidates: 2,
+        ..RestirOptions::new(Sampler::TwoLevel, Combination::Unbiased)
+    };
+    on_each_device(Options::default(), |device| {
+        let list = Device::list().expect("devices");
+        let again = list
+            .devices
+            .iter()
+            .find(|info| info.probe.name == device.name())
+            .expect("itself");
+        let second = Device::open(again, Options::default()).expect("a second time");
+        let frame = RestirFrame {
+            scene: &scene,
+            width: SIZE.0,
+            height: SIZE.1,
+            seed: 5,
+            jitter: 0,
+            background: [0.0; 3],
+            remap: None,
+        };
+        let on = |device: &Device, restir: &mut Restir| {
+            let mut backend = DeviceBackend::<Standard, 8>::new(device, &bvh).expect("an upload");
+            backend.restir(restir, &frame).expect("an image").value
+        };
+        let (mut first, mut fresh) = (Restir::new(options), Restir::new(options));
+        on(device, &mut first);
+        let (moved, expected) = (on(&second, &mut first), on(&second, &mut fresh));
+        assert!(moved == expected, "{}", device.name());
+        assert!(
+            on(&second, &mut first) != expected,
+            "{}: no history",
+            device.name()
+        );
+    });
 }

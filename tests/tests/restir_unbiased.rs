@@ -88,8 +88,8 @@ impl World {
     fn shot(&self, order: &[u32], before: Option<&[u32]>) -> Shot {
         let lights: Vec<_> = (0..)
             .zip(order)
-            .map(|(mesh, &i)| EmissiveTriangle {
-                mesh,
+            .map(|(k, &i)| EmissiveTriangle {
+                mesh: instance_of(k),
                 ..self.lights[i as usize]
             })
             .collect();
@@ -97,7 +97,7 @@ impl World {
             p,
             material: 0,
             light,
-            instance: light,
+            instance: instance_of(light),
         };
         let mut surfaces: Vec<_> = self.walls.iter().map(|&p| surface(p, NONE)).collect();
         surfaces.extend(lights.iter().zip(0..).map(|(t, i)| surface(t.p, i)));
@@ -119,12 +119,17 @@ impl World {
             bvh: LightBvh::two_level(&arrays.lights, &BuildParams::default()),
             arrays: Arc::new(arrays),
             remap: before.map(|before| {
-                // Each light is an instance of its own.
-                let kept = (0..).zip(before).map(|(i, &k)| ([i; 2], [position(k); 2]));
+                let name = |light: u32| [light, instance_of(light)];
+                let kept = (0..).zip(before).map(|(i, &k)| (name(i), name(position(k))));
                 LightRemap::new(before.len(), order.len(), kept)
             }),
         }
     }
+}
+
+/// Two lights make an instance.
+fn instance_of(light: u32) -> u32 {
+    light / 2
 }
 
 /// Frames that all show the same.

@@ -14,6 +14,8 @@ pub(super) struct Changes {
     pub unrefitted: Pending,
     /// Refitted since the last plan, if there ever was one.
     pub unplanned: Pending,
+    /// Number of plans so far, and of refits before the first that none tells of.
+    pub plans: u64,
     /// Whether plans are taken.
     pub is_planned: bool,
     /// Whether the last lists are those of all that a refit has to do.

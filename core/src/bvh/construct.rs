@@ -109,7 +109,15 @@ pub struct FollowError {
 
 impl fmt::Display for FollowError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "mesh light {}: {}", self.mesh, self.reason)
+        match self.reason {
+            EditReason::Count { expected, found } => write!(
+                f,
+                "mesh light {}: {found} triangles, expected {expected}; these are not the lights that the light BVH was built over: \
+                 build it anew",
+                self.mesh
+            ),
+            ref reason => write!(f, "mesh light {}: {reason}", self.mesh),
+        }
     }
 }
 

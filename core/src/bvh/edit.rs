@@ -199,7 +199,7 @@ impl fmt::Display for EditReason {
         match self {
             Self::UnknownMesh(id) if id.place_in_batch().is_some() => write!(
                 f,
-                "MeshId::added({}), but the edits before it in the batch add fewer meshes",
+                "MeshId::added({}): only an AddInstance takes it, after that many AddMesh and one more in its batch",
                 id.index
             ),
             Self::UnknownMesh(id) => write!(

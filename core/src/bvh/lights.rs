@@ -51,6 +51,14 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         })
     }
 
+    /// The triangles of a mesh, in its own space and in the order in which it was given; `None` where there is no such mesh.
+    #[must_use]
+    pub fn mesh_triangles(&self, mesh: MeshId) -> Option<&[EmissiveTriangle]> {
+        let own = self.mesh_id(mesh.index).filter(|&own| own == mesh)?;
+        let range = &self.blases[self.meshes[own.index as usize].blas as usize].triangles;
+        Some(&self.triangles[range.start as usize..range.end as usize])
+    }
+
     /// The id of the mesh of index `mesh`, which is that of [`MeshId::index`]; `None` where there is no such.
     #[must_use]
     pub fn mesh_id(&self, mesh: u32) -> Option<MeshId> {

@@ -13,7 +13,7 @@
 //!
 //! | change | costs |
 //! |---|---|
-//! | any affine motion, brightness | the instance's leaf and the nodes above it |
+//! | any affine motion, brightness | the instance's leaf and the nodes above it; far from its neighbours also variance, until the next rebuild |
 //! | vertices or emission of a mesh | its bottom level, and the leaves of its instances |
 //! | removed instance | its slot, empty until the next rebuild, and the nodes above it |
 //! | added instances | a tree over those of the batch and a node on top of the top level, and the trails of all instances: add many in one batch |

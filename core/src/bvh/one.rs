@@ -30,7 +30,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         Ok(added.instances[0])
     }
 
-    /// Moves an instance.
+    /// Moves an instance. One that jumps away from those around it makes samples worse until the next rebuild, for its node of the top
+    /// level then spans both places: remove it and add it instead.
     ///
     /// # Errors
     /// [`EditReason`]; nothing is changed then.
@@ -38,7 +39,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         self.one(Edit::SetTransform { instance, transform }).map(|_| ())
     }
 
-    /// Makes an instance brighter or dimmer: `radiance` is a factor on its mesh's, 0 or from 2^-60 to 2^60.
+    /// Makes an instance brighter or dimmer: `radiance` is a factor on its mesh's, 0 or from 2^-60 to 2^60. 0 turns it off; uniform
+    /// choice may still return its lights, which then have no radiance.
     ///
     /// # Errors
     /// [`EditReason`]; nothing is changed then.

@@ -56,6 +56,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// [`rebuild`](Self::rebuild) sees no bottom level lose quality. A refit here, now and then, is enough for both.
     pub fn plan(&mut self) -> &RefitPlan {
         self.changes.is_planned = true;
+        self.changes.plans += 1;
         let new = core::mem::take(&mut self.changes.new);
         let mut told = core::mem::take(&mut self.changes.unplanned);
         let is_whole = self.changes.unrefitted.is_empty() && told.is_empty();
@@ -89,6 +90,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         self.changes.is_fresh = false;
         if self.changes.is_planned {
             self.changes.unplanned.join(new.clone());
+        } else {
+            self.changes.plans += u64::from(!new.is_empty());
         }
         self.bound_changes();
         pending.join(new);
@@ -122,6 +125,14 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     #[must_use]
     pub fn work(&self) -> &RefitPlan {
         &self.work
+    }
+
+    /// By what mirrors tell plans apart: the number of this BVH, and that of its last plan; and whether that plan says all.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn last_plan(&self) -> ((u32, u64), bool) {
+        let is_current = self.changes.new.is_empty() && self.changes.unplanned.is_empty();
+        ((self.id.0, self.changes.plans), is_current)
     }
 
     /// Turns changes into lists.

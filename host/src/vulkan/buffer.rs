@@ -127,6 +127,11 @@ impl<T: Pod> Buffer<T> {
             .write_at(first * Self::ELEMENT_BYTES, bytemuck::cast_slice(data))
     }
 
+    /// Whether it was made on `device`.
+    pub fn is_on(&self, device: &Device) -> bool {
+        self.memory.shared.id == device.shared.id
+    }
+
     /// A buffer of the same elements, copied by the device.
     ///
     /// # Errors

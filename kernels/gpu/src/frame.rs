@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use lightbvh::Bvh;
+use lightbvh::bvh::RefitPlan;
 use lightbvh::node::LightNode;
 
 use crate::buffer::Buffer;
@@ -39,17 +40,42 @@ impl Copy {
     }
 }
 
-/// The sizes of a device's buffers, by which it follows a light BVH. A new one holds nothing, so its first frame copies everything.
+/// What a device holds of a light BVH, by which it follows it. A new one holds nothing, so its first frame copies everything.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Mirror {
     bytes: [u64; Buffer::ALL.len()],
+    /// The plan followed last: the light BVH's number, and the plan's.
+    last: Option<(u32, u64)>,
 }
 
 impl Mirror {
-    /// The frame after the edits planned last: call [`Bvh::plan`] before, and do what this says for each
-    /// frame without gaps.
+    /// Plans and follows: what brings the device's buffers to what `bvh` is now, after all edits of a frame and what
+    /// a `Rebuilder` has swapped in. The copies are to be done before `bvh` changes again.
+    pub fn frame<N: LightNode<W>, I, const W: usize>(&mut self, bvh: &mut Bvh<N, I, W>) -> Frame {
+        bvh.plan();
+        self.follow(bvh)
+    }
+
+    /// [`frame`](Self::frame), where several mirrors follow one light BVH: each after one [`Bvh::plan`], after all edits and swaps.
+    ///
+    /// Everything is copied and refitted where the plan does not say all that changed for this mirror: another light BVH than last
+    /// time (a clone, or one that was read), a plan that was left out, a change since the plan.
     pub fn follow<N: LightNode<W>, I, const W: usize>(&mut self, bvh: &Bvh<N, I, W>) -> Frame {
-        let work = bvh.work();
+        let (now, is_current) = bvh.last_plan();
+        let is_followed = is_current && self.last == Some(now);
+        let is_next = is_current && self.last.is_some_and(|(tree, plan)| (tree, plan + 1) == now);
+        let everything = !is_followed && !is_next;
+        self.last = Some(now);
+        let (whole, none);
+        let work = if everything {
+            whole = bvh.plan_of_everything();
+            &whole
+        } else if is_followed {
+            none = RefitPlan::default();
+            &none
+        } else {
+            bvh.work()
+        };
         let mut frame = Frame {
             refit: Refit::new(work),
             ..Frame::default()
@@ -69,7 +95,7 @@ impl Mirror {
                 .iter()
                 .map(|range| stride * u64::from(range.start)..stride * u64::from(range.end));
             // What a buffer grows by is new too.
-            let grown = (*held).min(now)..now;
+            let grown = if everything { 0 } else { (*held).min(now) }..now;
             let ranges = written.chain(core::iter::once(grown)).collect();
             let copies = joined(ranges, now)
                 .into_iter()

@@ -58,6 +58,7 @@ pub(in crate::backend) fn resample<C: Choice<W>, const W: usize>(
     let none = TreeWords::default();
     if let Some(last) = restir.history(frame)
         && let super::Left::Device(left) = &last.left
+        && left.gbuffer.is_on(device)
     {
         let (to_current, to_previous) = frame
             .remap

@@ -116,7 +116,7 @@ pub struct RestirFrame<'a> {
 /// frames give equal words, whatever runs them.
 ///
 /// The history ends, as by [`reset`](Self::reset), where it cannot be used: the image has another size, reflectances differ, another
-/// kind of backend has rendered it, or the number of listed lights differs without a remap to say how. Two levels need none: there
+/// processor has rendered it, or the number of listed lights differs without a remap to say how. Two levels need none: there
 /// lights keep their numbers.
 pub struct Restir {
     options: RestirOptions,

@@ -65,7 +65,11 @@ impl Device {
         }
     }
 
-    fn assert_is<N: LightNode<W>, const W: usize>(&self, scene: &Bvh<N, (), W>, frame: u32) {
+    fn assert_is<N: LightNode<W>, const W: usize>(
+        &self,
+        scene: &Bvh<N, (), W>,
+        frame: impl core::fmt::Display,
+    ) {
         // Nodes and roots out of use hold what they held last, here and there.
         let used = scene.plan_of_everything();
         let nodes = [used.bottom.nodes(), used.top.nodes()].concat();
@@ -289,4 +293,99 @@ fn ranges_that_touch_are_one() {
         [0..12, 20..28]
     );
     assert_eq!(joined(vec![4..4, 40..50], 28), []);
+}
+
+/// What a caller may get wrong costs copies, never a word: a plan left out, taken twice or too early, another light BVH.
+#[test]
+fn a_plan_that_does_not_say_all_is_not_trusted() {
+    let lamp = |x: f32| EmissiveTriangle {
+        p: [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x, 1.0, 0.0]],
+        radiance: [1.0; 3],
+        mesh: 0,
+        flags: 0,
+    };
+    type Scene = Bvh<MomentNode<8>, (), 8>;
+    let mut scene = Scene::default();
+    let mesh = scene.add_mesh(vec![lamp(0.0), lamp(3.0)]).expect("a mesh");
+    let place = |k: u16| Transform::at([f32::from(k % 7), f32::from(k), 0.0]);
+    let ids: Vec<_> = (0..20)
+        .map(|k| scene.add_instance(mesh, place(k)).expect("a place"))
+        .collect();
+    let mut device = Device::default();
+    let everything = |scene: &Scene| -> u64 {
+        let bytes = |buffer: Buffer| buffer.bytes(scene).len() as u64;
+        Buffer::ALL.into_iter().map(bytes).sum()
+    };
+    let copied = |frame: &Frame| {
+        frame
+            .copies
+            .iter()
+            .map(|copy| copy.bytes.end - copy.bytes.start)
+            .sum::<u64>()
+    };
+    // Sizes are told once, here and after each case.
+    let frame = device.follow(&scene);
+    assert_eq!((copied(&frame), frame.resizes.len()), (everything(&scene), 5));
+    let mut turn = 0;
+    let mut change = |scene: &mut Scene| {
+        turn += 1;
+        scene
+            .set_transform(ids[usize::from(turn % 20)], place(turn * 3))
+            .expect("its own");
+    };
+    let cases: [(&str, &mut dyn FnMut(&mut Scene)); 6] = [
+        ("no plan", &mut |scene| scene.refit()),
+        ("a plan left out", &mut |scene| {
+            scene.plan();
+            scene.set_radiance(ids[3], 2.0).expect("its own");
+            scene.plan();
+        }),
+        ("an edit after the plan", &mut |scene| {
+            scene.plan();
+            scene.set_radiance(ids[4], 3.0).expect("its own");
+        }),
+        ("a swap after the plan", &mut |scene| {
+            let rebuilt = scene.rebuild(&RebuildParams::default()).run();
+            scene.plan();
+            scene.install(rebuilt).expect("its own");
+        }),
+        ("a clone", &mut |scene| {
+            scene.plan();
+            *scene = scene.clone();
+        }),
+        ("one that was read", &mut |scene| {
+            scene.refit();
+            *scene = Scene::from_words(&scene.to_words()).expect("its own words");
+        }),
+    ];
+    let mut scene = scene;
+    for (what, case) in cases {
+        change(&mut scene);
+        case(&mut scene);
+        let frame = device.follow(&scene);
+        assert_eq!(copied(&frame), everything(&scene), "{what}");
+        assert!(frame.resizes.is_empty(), "{what}");
+        let mut refitted = scene.clone();
+        refitted.refit();
+        device.assert_is(&refitted, what);
+        // The next plan may say some of it again; what follows is small.
+        scene.plan();
+        device.follow(&scene);
+        // A clone and a read one have ids of their own.
+        let id = scene.instance_id(5).expect("in use");
+        scene
+            .set_transform(id, Transform::at([9.0, 0.0, 3.0]))
+            .expect("its own");
+        scene.plan();
+        let frame = device.follow(&scene);
+        assert!(copied(&frame) < everything(&scene) / 4, "{what}, the frame after");
+        assert_eq!(
+            device.follow(&scene),
+            Frame::default(),
+            "{what}, the same plan again"
+        );
+        let mut refitted = scene.clone();
+        refitted.refit();
+        device.assert_is(&refitted, what);
+    }
 }
