@@ -68,7 +68,7 @@ use crate::refit::BlasRoot;
 use crate::tree::LightTree;
 
 /// A light BVH that owns its arrays: two levels over instances of emissive meshes, with nodes of layout `N` and width `W`, whose
-/// children are chosen by `I`.
+/// children are chosen by `I`. `W` is 2 to 16 for layouts of bounds, 4 to 16 for packed moments; another does not compile.
 ///
 /// A clone is another light BVH: ids and rebuilds of the one are refused by the other, which knows its own by index
 /// ([`mesh_id`](Self::mesh_id), [`instance_id`](Self::instance_id)).

@@ -39,9 +39,11 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// the same edits, refits and rebuilds the same words. Places of its arrays that are not in use hold the words of nothing.
     ///
     /// It is another BVH, so it has ids of its own: [`mesh_id`](Self::mesh_id) and [`instance_id`](Self::instance_id) give them by
-    /// the indices, which stay. What was planned for a mirror is not written: one takes all arrays over.
+    /// the indices, which stay. What was planned for a mirror is not written: one takes all arrays over, as
+    /// `lightbvh_gpu::Mirror` does by itself.
     ///
-    /// The words may be anything. Reading takes time in proportion to them, but for sorting, and for each no more memory than a node
+    /// The words may be anything that gives a sound light BVH, damaged ones too: there is no checksum, and a turned bit may be another
+    /// lamp. Reading takes time in proportion to them, but for sorting, and for each no more memory than a node
     /// and an instance take; then every invariant is checked by [`validate`](Self::validate), which takes as much again.
     ///
     /// # Errors

@@ -308,9 +308,9 @@ fn a_plan_that_does_not_say_all_is_not_trusted() {
     let mut scene = Scene::default();
     let mesh = scene.add_mesh(vec![lamp(0.0), lamp(3.0)]).expect("a mesh");
     let place = |k: u16| Transform::at([f32::from(k % 7), f32::from(k), 0.0]);
-    let ids: Vec<_> = (0..20)
-        .map(|k| scene.add_instance(mesh, place(k)).expect("a place"))
-        .collect();
+    for k in 0..20 {
+        scene.add_instance(mesh, place(k)).expect("a place");
+    }
     let mut device = Device::default();
     let everything = |scene: &Scene| -> u64 {
         let bytes = |buffer: Buffer| buffer.bytes(scene).len() as u64;
@@ -326,41 +326,39 @@ fn a_plan_that_does_not_say_all_is_not_trusted() {
     // Sizes are told once, here and after each case.
     let frame = device.follow(&scene);
     assert_eq!((copied(&frame), frame.resizes.len()), (everything(&scene), 5));
-    let mut turn = 0;
-    let mut change = |scene: &mut Scene| {
-        turn += 1;
-        scene
-            .set_transform(ids[usize::from(turn % 20)], place(turn * 3))
-            .expect("its own");
-    };
-    let cases: [(&str, &mut dyn FnMut(&mut Scene)); 6] = [
-        ("no plan", &mut |scene| scene.refit()),
-        ("a plan left out", &mut |scene| {
+    // By index: a clone and a read one have ids of their own.
+    fn shine(scene: &mut Scene, index: u32, radiance: f32) {
+        let id = scene.instance_id(index).expect("in use");
+        scene.set_radiance(id, radiance).expect("its own");
+    }
+    type Case = (&'static str, fn(&mut Scene));
+    let cases: [Case; 6] = [
+        ("no plan", |scene| scene.refit()),
+        ("a plan left out", |scene| {
             scene.plan();
-            scene.set_radiance(ids[3], 2.0).expect("its own");
+            shine(scene, 3, 2.0);
             scene.plan();
         }),
-        ("an edit after the plan", &mut |scene| {
+        ("an edit after the plan", |scene| {
             scene.plan();
-            scene.set_radiance(ids[4], 3.0).expect("its own");
+            shine(scene, 4, 3.0);
         }),
-        ("a swap after the plan", &mut |scene| {
+        ("a swap after the plan", |scene| {
             let rebuilt = scene.rebuild(&RebuildParams::default()).run();
             scene.plan();
             scene.install(rebuilt).expect("its own");
         }),
-        ("a clone", &mut |scene| {
+        ("a clone", |scene| {
             scene.plan();
             *scene = scene.clone();
         }),
-        ("one that was read", &mut |scene| {
+        ("one that was read", |scene| {
             scene.refit();
             *scene = Scene::from_words(&scene.to_words()).expect("its own words");
         }),
     ];
-    let mut scene = scene;
-    for (what, case) in cases {
-        change(&mut scene);
+    for (k, (what, case)) in (1_u8..).zip(cases) {
+        shine(&mut scene, u32::from(k), 0.5);
         case(&mut scene);
         let frame = device.follow(&scene);
         assert_eq!(copied(&frame), everything(&scene), "{what}");
@@ -371,11 +369,7 @@ fn a_plan_that_does_not_say_all_is_not_trusted() {
         // The next plan may say some of it again; what follows is small.
         scene.plan();
         device.follow(&scene);
-        // A clone and a read one have ids of their own.
-        let id = scene.instance_id(5).expect("in use");
-        scene
-            .set_transform(id, Transform::at([9.0, 0.0, 3.0]))
-            .expect("its own");
+        shine(&mut scene, 5, 1.0 + f32::from(k));
         scene.plan();
         let frame = device.follow(&scene);
         assert!(copied(&frame) < everything(&scene) / 4, "{what}, the frame after");
