@@ -2,8 +2,8 @@
 
 use lightbvh::error::{EditError, EditReason, FollowError};
 use lightbvh::{
-    BuildParams, Bvh, CompactNode, Edit, EmissiveTriangle, Eq4, INVALID, LightBvh, Lights, MeshId,
-    ShadingPoint, Transform,
+    BuildParams, Bvh, CompactNode, DefaultTree, Edit, EmissiveTriangle, Eq4, INVALID, LightBvh, Lights,
+    MeshId, Random64, ShadingPoint, Transform, TreeWords,
 };
 
 const POINT: ShadingPoint = ShadingPoint {
@@ -157,10 +157,50 @@ fn a_sample_leads_to_its_point_on_its_triangle() {
     assert_eq!(bvh.instance_id(sampled.instance), Some(instance));
     let triangle = bvh.triangle(sampled.light, sampled.instance).expect("there");
     let tree = bvh.tree();
-    let same =
-        lightbvh::instance::world_light(bvh.triangles(), tree.instances, sampled.light, sampled.instance);
+    let same = tree.triangle(bvh.triangles(), sampled.light, sampled.instance);
     assert_eq!(same, triangle);
     let at = triangle.point([0.25, 0.5]);
     assert_eq!((at.p, at.normal), ([4.125, 3.0, 0.25], [0.0, -1.0, 0.0]));
     assert_eq!(at.density, 8.0);
+}
+
+/// Arrays as a shader has them answer as the light BVH does, also for names of no light.
+#[test]
+fn borrowed_arrays_name_the_same_lights() {
+    let lights =
+        |meshes: &[u32]| Lights::new(meshes.iter().map(|&mesh| lamp(mesh)).collect()).expect("lamps");
+    let params = BuildParams::default();
+    for bvh in [
+        LightBvh::two_level(&lights(&[0, 0, 1, 2]), &params),
+        LightBvh::single_level(&lights(&[0, 0, 1, 2]), &params),
+    ] {
+        let tree = bvh.tree();
+        let tree: DefaultTree<'_> = TreeWords::of(&tree).tree(tree.nodes, tree.instances, tree.trails);
+        assert_eq!(
+            tree.sample(&POINT, Random64::from(7_u32)),
+            bvh.sample(&POINT, 7_u32)
+        );
+        for light in [0, 1, 2, 3, 4, INVALID] {
+            for instance in [0, 1, 2, 3, INVALID - 1, INVALID] {
+                let found = tree.triangle(bvh.triangles(), light, instance);
+                match bvh.triangle(light, instance) {
+                    Some(expected) => assert_eq!((found.p, found.radiance), (expected.p, expected.radiance)),
+                    None => assert_eq!(found.radiance, [0.0; 3], "{light} of {instance}"),
+                }
+            }
+        }
+    }
+}
+
+/// What a mesh was given, whatever has changed since.
+#[test]
+fn a_mesh_says_its_triangles() {
+    let mut bvh = LightBvh::default();
+    let first = bvh.add_mesh(vec![lamp(0)]).expect("a mesh");
+    let second = bvh.add_mesh(vec![lamp(0), lamp(0)]).expect("a mesh");
+    assert_eq!(bvh.mesh_triangles(second).map(<[_]>::len), Some(2));
+    bvh.remove_mesh(first).expect("not in use");
+    assert_eq!(bvh.mesh_triangles(first), None);
+    assert_eq!(bvh.mesh_triangles(second).expect("there")[1].p, lamp(0).p);
+    assert_eq!(bvh.clone().mesh_triangles(second), None, "an id of another");
 }
