@@ -112,8 +112,8 @@ fn arrays(bvh: &LightBvh) -> SceneArrays {
     let view = View {
         eye: [0.0, 3.0, 9.0],
         right: [1.0, 0.0, 0.0],
-        up: [0.0, 1.0, 0.0],
-        forward: [0.0, -0.1, -1.0],
+        up: [0.0, 0.995, -0.1],
+        forward: [0.0, -0.1, -0.995],
         yfov: 1.0,
     };
     let material = Material {
