@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use crate::exact::{self, exponent, pow2, significand};
 use crate::light::EmissiveTriangle;
-use crate::vector::{cross, dot, greatest_exponent};
+use crate::vector::{abs3, cross, dot, greatest_exponent, max3};
 
 /// Smallest flux that is not zero, W: smaller ones count as this much.
 pub const MIN_PHI: f32 = pow2(-100);
@@ -27,13 +27,31 @@ pub(crate) struct Emission {
     pub exponent: i32,
 }
 
+/// Whether a triangle has area: its edges, the longer of exponent `edge_exponent`, are brought to about 1, and
+/// `across_exponent` is that of their cross product then.
+#[inline(always)]
+fn has_area(across_exponent: i32, edge_exponent: i32) -> bool {
+    (across_exponent >= -100) & (edge_exponent > -127)
+}
+
+/// Whether `triangle` has flux, for less than [`flux`] costs.
+#[inline(always)]
+pub(crate) fn has_flux(triangle: &EmissiveTriangle) -> bool {
+    let p0 = triangle.vertex(0);
+    let (e1, e2) = (triangle.vertex(1) - p0, triangle.vertex(2) - p0);
+    let edge_exponent = greatest_exponent(max3(abs3(e1), abs3(e2)), -127);
+    let to_one = pow2(-edge_exponent);
+    let across_exponent = greatest_exponent(cross(e1 * to_one, e2 * to_one), -127);
+    has_area(across_exponent, edge_exponent) & (triangle.luminance() > 0.0)
+}
+
 /// The emission of `triangle`, whose edges are `a` and `b` by 2^`edge_exponent`: together of about 1. Without a branch, for
 /// processors that compute several at a time.
 #[inline(always)]
 pub(crate) fn flux(a: Vec3, b: Vec3, edge_exponent: i32, triangle: &EmissiveTriangle) -> Emission {
     let across = cross(a, b);
     let across_exponent = greatest_exponent(across, -127);
-    let has_area = (across_exponent >= -100) & (edge_exponent > -127);
+    let has_area = has_area(across_exponent, edge_exponent);
     let scaled = across * pow2(-across_exponent);
     let area = exact::mask_of(has_area);
     let normal = Vec3::new(
@@ -60,5 +78,41 @@ pub(crate) fn flux(a: Vec3, b: Vec3, edge_exponent: i32, triangle: &EmissiveTria
         normal,
         squared,
         exponent: across_exponent,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bounds::LightBounds;
+    use crate::exact::hash;
+
+    #[test]
+    fn has_flux_where_flux_is_above_zero() {
+        let mut counts = [0_u32; 2];
+        for seed in 0..200_000_u32 {
+            let word = |k: u32| hash(seed.wrapping_mul(31).wrapping_add(k));
+            // Coordinates over the whole range; vertices that differ in few last bits or not at all; few radiances are 0.
+            let size = pow2((word(0) % 120) as i32 - 79);
+            let near = pow2(-((word(1) % 26) as i32));
+            let at = |k: u32| (word(k) >> 8) as f32 * pow2(-23) - 1.0;
+            let p0 = [at(2), at(3), at(4)];
+            let vertex = |k: u32| core::array::from_fn(|i| (p0[i] + near * at(k + i as u32)) * size);
+            let radiance = core::array::from_fn(|i| if word(20 + i as u32) % 4 == 0 { 0.0 } else { 1.0e-6 });
+            let triangle = EmissiveTriangle {
+                p: [
+                    p0.map(|x| x * size),
+                    vertex(8),
+                    if word(14) % 8 == 0 { vertex(8) } else { vertex(11) },
+                ],
+                radiance,
+                mesh: 0,
+                flags: word(15) & EmissiveTriangle::TWO_SIDED,
+            };
+            let expected = LightBounds::of_triangle(&triangle).phi > 0.0;
+            assert_eq!(has_flux(&triangle), expected, "{triangle:?}");
+            counts[usize::from(expected)] += 1;
+        }
+        assert!(counts[0] > 10_000 && counts[1] > 10_000, "{counts:?}");
     }
 }

@@ -9,7 +9,7 @@ mod summaries;
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use crate::bounds::LightBounds;
+use crate::emission::has_flux;
 use crate::exact::{self, flush, pow2};
 use crate::light::INVALID;
 use crate::light::{EmissiveTriangle, MAX_COORDINATE, MIN_COORDINATE};
@@ -167,7 +167,7 @@ impl Instance {
             self.vertex(local.p[2]),
         );
         let mirrored = self.mirrored != 0;
-        let shines = self.radiance > 0.0 && LightBounds::of_triangle(local).phi > 0.0;
+        let shines = self.radiance > 0.0 && has_flux(local);
         let shine = |channel: usize| {
             let l = local.radiance[channel];
             let scaled = exact::clamp(

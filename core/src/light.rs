@@ -73,7 +73,8 @@ impl EmissiveTriangle {
     /// Coordinates smaller than [`MIN_COORDINATE`] become zero (with the sign of zero dropped); nothing else changes.
     ///
     /// # Errors
-    /// [`LightError`] for a coordinate or radiance that is not finite or out of range, and for negative radiance.
+    /// [`LightError`] for a coordinate or radiance that is not finite or out of range, for negative radiance, and for flags that mean
+    /// nothing.
     pub fn checked(mut self) -> Result<Self, LightError> {
         for vertex in 0..3 {
             for axis in 0..3 {
@@ -92,6 +93,9 @@ impl EmissiveTriangle {
                 return Err(LightError::Radiance { channel, value });
             }
             self.radiance[channel] = exact::flush(value, MIN_RADIANCE);
+        }
+        if self.flags & !TWO_SIDED != 0 {
+            return Err(LightError::Flags { flags: self.flags });
         }
         Ok(self)
     }
@@ -117,6 +121,11 @@ pub enum LightError {
         /// What was found.
         value: f32,
     },
+    /// A bit of [`flags`](EmissiveTriangle::flags) that means nothing.
+    Flags {
+        /// What was found.
+        flags: u32,
+    },
 }
 
 impl core::fmt::Display for LightError {
@@ -132,6 +141,10 @@ impl core::fmt::Display for LightError {
                 f,
                 "{} radiance is {value:e}, expected 0 or a number from 2^-100 to 2^100 (7.9e-31 to 1.3e30); repair the material's emission",
                 ["red", "green", "blue"][channel]
+            ),
+            Self::Flags { flags } => write!(
+                f,
+                "flags are {flags:#x}, expected 0 or TWO_SIDED ({TWO_SIDED}); clear the other bits"
             ),
         }
     }

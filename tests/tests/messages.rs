@@ -3,7 +3,7 @@
 use std::error::Error;
 
 use lightbvh::error::{EditError, EditReason, FollowError, ReadError};
-use lightbvh::light::MAX_RADIANCE;
+use lightbvh::light::{MAX_RADIANCE, TWO_SIDED};
 use lightbvh::transform::TransformError;
 use lightbvh::validate::{Violation, What};
 use lightbvh::{
@@ -55,6 +55,17 @@ fn lights() {
         says(&error, &[name, "-3", "2^-100 to 2^100", "repair"]);
         lamp.radiance[channel] = 2.0 * MAX_RADIANCE;
         lamp.checked().expect_err("too bright");
+    }
+    let mut lamp = LAMP;
+    for flags in [0, TWO_SIDED] {
+        lamp.flags = flags;
+        assert_eq!(lamp.checked(), Ok(lamp));
+    }
+    for flags in [2, 3, 1 << 31, u32::MAX] {
+        lamp.flags = flags;
+        let error = lamp.checked().expect_err("a bit that means nothing");
+        assert_eq!(error, LightError::Flags { flags });
+        says(&error, &["flags", &format!("{flags:#x}"), "TWO_SIDED (1)"]);
     }
 
     says(

@@ -24,6 +24,7 @@ mod changes;
 mod check;
 mod construct;
 mod edit;
+mod follow;
 mod lights;
 mod one;
 mod query;
@@ -42,8 +43,8 @@ use core::marker::PhantomData;
 use core::ops::Range;
 
 pub use apply::Added;
-pub use construct::FollowError;
 pub use edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
+pub use follow::{FollowError, MeshCounts};
 #[cfg(feature = "std")]
 pub(crate) use rebuild::Taken;
 pub use rebuild::{Foreign, Rebuild, RebuildParams, Rebuilt};

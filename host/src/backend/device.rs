@@ -4,9 +4,9 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use bytemuck::bytes_of;
-use lightbvh::error::{EditReason, FollowError};
+use lightbvh::bvh::MeshCounts;
 use lightbvh::refit::BlasRoot;
-use lightbvh::{LightNode, Lights, SampledLight};
+use lightbvh::{Lights, SampledLight};
 use lightbvh_gpu::{Buffer as Array, Mirror, Refit};
 use lightbvh_kernels::WORKGROUP;
 use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
@@ -31,14 +31,6 @@ const SAMPLES_PER_PASS: usize = 1 << 20;
 /// Surfaces met by paths per dispatch, for the same reason; each costs two rays, a sampled light and a pmf.
 const SURFACES_PER_PASS: usize = 1 << 18;
 
-/// Numbers of triangles of the meshes.
-pub(super) fn shape<N: LightNode<W>, I, const W: usize>(bvh: &lightbvh::Bvh<N, I, W>) -> Vec<usize> {
-    let meshes = (0..).map_while(|index| bvh.mesh_id(index));
-    meshes
-        .map(|mesh| bvh.mesh_triangles(mesh).map_or(0, <[_]>::len))
-        .collect()
-}
-
 /// A light BVH on a device.
 pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     pub(super) device: &'d Device,
@@ -46,7 +38,7 @@ pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     pub(super) roots: Buffer<BlasRoot>,
     /// The refit of everything, and of how many triangles the meshes are then.
     pub(super) refit: Refit,
-    pub(super) shape: Vec<usize>,
+    pub(super) counts: MeshCounts,
     /// By which edits are followed.
     pub(super) mirror: Mirror,
 }
@@ -65,7 +57,7 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
             tree: DeviceTree::upload::<C, W>(device, &bvh.tree(), bvh.triangles())?,
             roots: device.upload(bvh.roots())?,
             refit: Refit::new(&bvh.plan_of_everything()),
-            shape: shape(bvh),
+            counts: bvh.mesh_counts(),
             mirror,
         })
     }
@@ -81,28 +73,6 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     /// The lights that `sampler` chooses among, where they are the light BVH's.
     pub(super) fn emitters(&self, sampler: Sampler) -> Option<DeviceEmitters> {
         sampler.needs_bvh().then(|| self.tree.emitters.clone())
-    }
-
-    /// An error where `lights` are not those that the BVH was built over.
-    fn check(&self, lights: &Lights) -> Result<(), FollowError> {
-        let all = [lights.triangles().len()];
-        let meshes: Vec<usize> = (0..lights.mesh_count())
-            .map(|mesh| lights.mesh(mesh).len())
-            .collect();
-        let found = if self.tree.push.live == 0 {
-            &all[..]
-        } else {
-            &meshes
-        };
-        for mesh in 0..found.len().max(self.shape.len()) {
-            let of = |counts: &[usize]| counts.get(mesh).copied().unwrap_or(0);
-            let (expected, found) = (of(&self.shape), of(found));
-            if expected != found {
-                let reason = EditReason::Count { expected, found };
-                return Err(FollowError { mesh, reason });
-            }
-        }
-        Ok(())
     }
 
     /// The kernel of this choice.
@@ -178,7 +148,7 @@ impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
     }
 
     fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, BackendError> {
-        self.check(lights)?;
+        self.counts.check(lights)?;
         own(&mut self.tree.emitters.triangles)?.write(lights.triangles())?;
         let time = self.refit_by(&self.refit)?;
         Ok(Timed {

@@ -7,7 +7,7 @@ use lightbvh::TreeWords;
 use lightbvh_gpu::{Buffer as Array, Copy, Frame, Refit};
 use lightbvh_kernels::bvh::Choice;
 
-use super::device::{DeviceBackend, shape};
+use super::device::DeviceBackend;
 use super::device_arrays::own;
 use super::{BackendError, Bvh, Follow, Timed};
 use crate::vulkan::{Buffer, Device, VulkanError};
@@ -19,7 +19,7 @@ impl<C: Choice<W>, const W: usize> Follow<C, W> for DeviceBackend<'_, C, W> {
         let is_rewired = |copy: &Copy| matches!(copy.buffer, Array::Nodes | Array::Trails);
         if !frame.resizes.is_empty() || frame.copies.iter().any(is_rewired) {
             self.refit = Refit::new(&bvh.plan_of_everything());
-            self.shape = shape(bvh);
+            self.counts = bvh.mesh_counts();
         }
         let time = self.refit_by(&frame.refit)?;
         Ok(Timed { time, value: () })

@@ -1,7 +1,7 @@
-//! How every call of a BVH grows: time (median, and 99.9 %), bytes allocated, and bytes that a device's mirror copies, from 10³ to 10⁶
-//! instances or triangles.
+//! How every call of a BVH and its mirror grows: time (median, and 99.9 %), bytes allocated, and bytes that the mirror copies, from 10³ to
+//! 10⁶ instances or triangles.
 //!
-//! `cargo bench -p lightbvh --bench growth [-- LARGEST]` (4 min; 1 min up to 100000)
+//! `cargo bench -p lightbvh-gpu --bench growth [-- LARGEST]` (4 min; 1 min up to 100000)
 
 mod any;
 mod measure;
@@ -32,16 +32,20 @@ fn instances(size: u32) {
     scene.bvh.refit();
     let moved = |scene: &mut Scene| {
         scene.bvh.refit();
-        scene.bvh.plan();
+        scene.mirror.frame(&mut scene.bvh);
         let id = scene.some();
         scene.bvh.set_transform(id, at(scene.turn)).expect("its own");
     };
     row(scene, "refit after one moved", size, moved, |scene, ()| {
         scene.bvh.refit()
     });
-    row(scene, "plan after one moved", size, moved, |scene, ()| {
-        scene.bvh.plan().computed()
-    });
+    row(
+        scene,
+        "Mirror::frame after one moved",
+        size,
+        moved,
+        |scene, ()| scene.mirror.frame(&mut scene.bvh),
+    );
     row(scene, "remove_instance", size, Scene::one_more, |scene, ()| {
         let id = scene.one_less();
         scene.bvh.remove_instance(id)
@@ -116,6 +120,16 @@ fn instances(size: u32) {
         },
         |scene, ()| scene.bvh.refit(),
     );
+    row(
+        scene,
+        "Mirror::frame after all moved",
+        size,
+        |scene| {
+            let edits = all(scene);
+            scene.bvh.apply(edits).expect("its own");
+        },
+        |scene, ()| scene.mirror.frame(&mut scene.bvh),
+    );
     let top = RebuildParams {
         top: true,
         drift: f64::INFINITY,
@@ -183,16 +197,20 @@ fn triangles(size: u32) {
     });
     let set = |scene: &mut Scene| {
         scene.bvh.refit();
-        scene.bvh.plan();
+        scene.mirror.frame(&mut scene.bvh);
         let triangles = deformed(scene);
         scene.bvh.set_triangles(scene.mesh, triangles).expect("as many");
     };
     row(scene, "refit after it deformed", size, set, |scene, ()| {
         scene.bvh.refit()
     });
-    row(scene, "plan after it deformed", size, set, |scene, ()| {
-        scene.bvh.plan().computed()
-    });
+    row(
+        scene,
+        "Mirror::frame after it deformed",
+        size,
+        set,
+        |scene, ()| scene.mirror.frame(&mut scene.bvh),
+    );
     row(
         scene,
         "add_mesh",

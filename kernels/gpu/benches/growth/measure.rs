@@ -2,14 +2,13 @@
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::hint::black_box;
-use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::time::{Duration, Instant};
 
 use lightbvh::bvh::{InstanceId, MeshId};
 use lightbvh::node::MomentNode;
-use lightbvh::refit::Instance;
 use lightbvh::{Edit, EmissiveTriangle, LightBvh, Rebuilder, ShadingPoint, Transform};
+use lightbvh_gpu::{Frame, Mirror};
 
 /// The system's allocator, counting the bytes asked for.
 struct Counting;
@@ -40,6 +39,8 @@ pub struct Scene {
     pub triangles: Vec<EmissiveTriangle>,
     pub instances: Vec<InstanceId>,
     pub rebuilder: Rebuilder<MomentNode<8>, 8>,
+    /// What follows the BVH.
+    pub mirror: Mirror,
     /// A mesh that was added.
     pub last: Option<MeshId>,
     pub turn: u32,
@@ -58,14 +59,15 @@ impl Scene {
         });
         let instances = bvh.apply(all.collect()).expect("instances").instances;
         bvh.refit();
-        bvh.plan();
-        bvh.refit();
+        let mut mirror = Mirror::default();
+        mirror.frame(&mut bvh);
         Self {
             bvh,
             mesh,
             triangles,
             instances,
             rebuilder: Rebuilder::default(),
+            mirror,
             last: None,
             turn: 0,
         }
@@ -118,19 +120,10 @@ pub fn at(k: u32) -> Transform {
     Transform::at([(k % 1000) as f32, (k / 1000 % 100) as f32, (k / 100_000) as f32])
 }
 
-/// Bytes that a mirror of the arrays copies for what changed since the last call.
-fn mirrored(bvh: &mut LightBvh) -> usize {
-    let plan = bvh.plan();
-    let parts = [
-        (&plan.written_nodes, size_of::<MomentNode<8>>()),
-        (&plan.written_triangles, size_of::<EmissiveTriangle>()),
-        (&plan.written_trails, size_of::<u32>()),
-        (&plan.written_instances, size_of::<Instance>()),
-    ];
-    let of = |(ranges, size): (&Vec<Range<u32>>, usize)| {
-        ranges.iter().map(|range| range.len() * size).sum::<usize>()
-    };
-    parts.into_iter().map(of).sum()
+/// What a frame copies.
+fn bytes(frame: &Frame) -> u64 {
+    let each = frame.copies.iter();
+    each.map(|copy| copy.bytes.end - copy.bytes.start).sum()
 }
 
 /// One row: `prepare` comes before each call and is not measured.
@@ -152,7 +145,7 @@ pub fn row<T, U>(
         times.push(start.elapsed().as_nanos() as f64 * 1e-3);
         allocated.push((ALLOCATED.load(Relaxed) - before) as f64);
         drop(output);
-        copied.push(mirrored(&mut scene.bvh) as f64);
+        copied.push(bytes(&scene.mirror.frame(&mut scene.bvh)) as f64);
     }
     let calls = times.len();
     let [times, allocated, copied] = [times, allocated, copied].map(|mut values| {

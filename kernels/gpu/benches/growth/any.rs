@@ -1,6 +1,7 @@
 //! Calls of any BVH, whatever it holds.
 
 use lightbvh::{BuildParams, LightBvh, Lights, Random64};
+use lightbvh_gpu::Mirror;
 
 use crate::measure::{Scene, nothing, row};
 
@@ -74,5 +75,11 @@ pub fn wholes(scene: &mut Scene, size: u32) {
     });
     row(scene, "plan_of_everything", size, nothing, |scene, ()| {
         scene.bvh.plan_of_everything()
+    });
+    row(scene, "Mirror::follow of all", size, nothing, |scene, ()| {
+        Mirror::default().follow(&scene.bvh)
+    });
+    row(scene, "mesh_triangles", size, nothing, |scene, ()| {
+        scene.bvh.mesh_triangles(scene.mesh).map(<[_]>::len)
     });
 }
