@@ -1,6 +1,6 @@
 //! One point, a hundred lamps: which lamp to trace a shadow ray to, and how likely that choice was.
 //!
-//! `cargo run -p lightbvh --features std --example first_light` (seconds)
+//! `cargo run -p lightbvh --example first_light` (seconds)
 
 use lightbvh::{Edit, EmissiveTriangle, LightBvh, Random64, ShadingPoint, Transform};
 

@@ -1,6 +1,6 @@
 //! Lamps that come, move, flicker and go, with the top level rebuilt beside the frame.
 //!
-//! `cargo run -p lightbvh --features std --example moving_lights` (seconds)
+//! `cargo run -p lightbvh --example moving_lights` (seconds)
 
 use lightbvh::{Edit, EmissiveTriangle, LightBvh, Rebuilder, ShadingPoint, Transform};
 

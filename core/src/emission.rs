@@ -83,6 +83,10 @@ pub(crate) fn flux(a: Vec3, b: Vec3, edge_exponent: i32, triangle: &EmissiveTria
 
 #[cfg(test)]
 mod tests {
+    extern crate std;
+
+    use std::format;
+
     use super::*;
     use crate::bounds::LightBounds;
     use crate::exact::hash;
@@ -92,18 +96,21 @@ mod tests {
         let mut counts = [0_u32; 2];
         for seed in 0..200_000_u32 {
             let word = |k: u32| hash(seed.wrapping_mul(31).wrapping_add(k));
-            // Coordinates over the whole range; vertices that differ in few last bits or not at all; few radiances are 0.
+            // Coordinates over the whole range; edges of unlike lengths, some as long as rounding, some none; few radiances are 0.
             let size = pow2((word(0) % 120) as i32 - 79);
-            let near = pow2(-((word(1) % 26) as i32));
             let at = |k: u32| (word(k) >> 8) as f32 * pow2(-23) - 1.0;
             let p0 = [at(2), at(3), at(4)];
-            let vertex = |k: u32| core::array::from_fn(|i| (p0[i] + near * at(k + i as u32)) * size);
+            let vertex = |k: u32| {
+                let near = pow2(-((word(k + 3) % 40) as i32));
+                core::array::from_fn(|i| (p0[i] + near * at(k + i as u32)) * size)
+            };
             let radiance = core::array::from_fn(|i| if word(20 + i as u32) % 4 == 0 { 0.0 } else { 1.0e-6 });
+            let p1 = vertex(8);
             let triangle = EmissiveTriangle {
                 p: [
                     p0.map(|x| x * size),
-                    vertex(8),
-                    if word(14) % 8 == 0 { vertex(8) } else { vertex(11) },
+                    p1,
+                    if word(14) % 8 == 0 { p1 } else { vertex(30) },
                 ],
                 radiance,
                 mesh: 0,
@@ -114,5 +121,24 @@ mod tests {
             counts[usize::from(expected)] += 1;
         }
         assert!(counts[0] > 10_000 && counts[1] > 10_000, "{counts:?}");
+    }
+
+    /// The cross product of the edges is 2^-k of the longer one squared: flux from 2^-100 on.
+    #[test]
+    fn needles_have_flux_down_to_the_stated_area() {
+        for k in 90..110 {
+            for size in [pow2(-20), 1.0, pow2(30)] {
+                // Edges of about one length, and of lengths far apart.
+                for shorter in [0, 60] {
+                    let base = [size * pow2(-shorter), 0.0, 0.0];
+                    let apex = [size, size * pow2(shorter - k), 0.0];
+                    for p in [[[0.0; 3], base, apex], [[0.0; 3], apex, base]] {
+                        let (triangle, what) = (crate::kit::triangle(p), format!("2^-{k} of {size:e}"));
+                        assert_eq!(LightBounds::of_triangle(&triangle).phi > 0.0, k <= 100, "{what}");
+                        assert_eq!(has_flux(&triangle), k <= 100, "{what}");
+                    }
+                }
+            }
+        }
     }
 }

@@ -96,7 +96,8 @@ impl Reservoir {
 }
 
 /// The domain of targets: zero, or from [`MIN_TARGET`] to [`MAX_TARGET`]. `luminance` is that of the unshadowed
-/// contribution, zero or a normal number.
+/// contribution, zero or a normal number: over the lights times the unit square, so what a point of a light's area contributes is divided
+/// by [`LightPoint::density`](crate::light::LightPoint::density).
 #[inline]
 #[must_use]
 pub fn target(luminance: f32) -> f32 {

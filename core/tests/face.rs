@@ -147,6 +147,47 @@ fn lights_of_another_shape_are_not_followed() {
     assert_eq!(none.follow(&lights(&[0])), count(0, 0, 1));
 }
 
+/// Meshes that are gone have no triangles to follow, and each instance that has moved meanwhile must stay within the domain.
+#[test]
+fn lights_are_followed_after_edits() {
+    let lights = |size: f32| {
+        let of = |mesh: u32| {
+            let mut one = lamp(mesh);
+            one.p = one.p.map(|v| v.map(|x| x * size));
+            one
+        };
+        Lights::new(vec![of(0), of(0), of(1)]).expect("lamps")
+    };
+    let params = BuildParams::default();
+    let mut bvh = LightBvh::two_level(&lights(1.0), &params);
+    let mesh = bvh.mesh_id(0).expect("a mesh");
+    let half = lightbvh::light::MAX_COORDINATE * 0.5;
+    let second = Transform::at([half, 0.0, 0.0]);
+    let second = bvh.add_instance(mesh, second).expect("within the domain");
+    bvh.refit();
+    let before = bvh.to_words();
+    let error = bvh.follow(&lights(half * 0.5)).expect_err("beyond the domain");
+    assert!(
+        error.mesh == 0 && matches!(error.reason, EditReason::Transform(_)),
+        "{error}"
+    );
+    assert!(bvh.to_words() == before, "as before");
+    bvh.remove_instance(second).expect("there");
+    bvh.follow(&lights(half * 0.25)).expect("the others may");
+
+    let gone = bvh.instance_id(1).expect("of the second mesh");
+    bvh.remove_instance(gone).expect("there");
+    bvh.remove_mesh(bvh.mesh_id(1).expect("a mesh"))
+        .expect("not in use");
+    let reason = EditReason::Count {
+        expected: 0,
+        found: 1,
+    };
+    assert_eq!(bvh.follow(&lights(1.0)), Err(FollowError { mesh: 1, reason }));
+    let first = Lights::new(vec![lamp(0), lamp(0)]).expect("lamps");
+    assert_eq!(bvh.follow(&first), Ok(()));
+}
+
 #[test]
 fn a_sample_leads_to_its_point_on_its_triangle() {
     let mut bvh = LightBvh::default();

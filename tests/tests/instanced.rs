@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use lightbvh::bvh::RebuildParams;
 use lightbvh::{
-    BuildParams, Edit, EmissiveTriangle, InstanceId, LightBvh, Lights, MeshId, ShadingPoint, Transform,
+    BuildParams, Edit, EmissiveTriangle, INVALID, InstanceId, LightBvh, Lights, MeshId, ShadingPoint,
+    Transform,
 };
 use lightbvh_host::backend::{
     Backend, Combination, CpuBackend, DeviceBackend, Follow, Integrator, Restir, RestirFrame, RestirOptions,
@@ -284,6 +285,21 @@ fn refits_after_edits_are_those_of_the_cpu() {
         let wrong = lamps(10, 48, 4);
         let error = cpu.refit(&wrong).expect_err("other meshes").to_string();
         assert_eq!(other.refit(&wrong).expect_err("other meshes").to_string(), error);
+
+        // What it may refit to is what it has followed last.
+        let fifth = bvh.instance_id(5).expect("there");
+        bvh.remove_instance(fifth).expect("there");
+        bvh.remove_mesh(bvh.mesh_id(5).expect("a mesh"))
+            .expect("not in use");
+        bvh.plan();
+        other.follow(&bvh).expect("copies and a refit");
+        cpu.follow(&bvh).expect("a refit");
+        let error = cpu.refit(&moved).expect_err("a mesh is gone").to_string();
+        assert!(error.contains("mesh light 5"), "{error}");
+        assert_eq!(
+            other.refit(&moved).expect_err("a mesh is gone").to_string(),
+            error
+        );
     });
 }
 
@@ -327,4 +343,31 @@ fn a_history_stays_on_its_device() {
             device.name()
         );
     });
+}
+
+/// Two instances are told apart; one is meant by any name.
+#[test]
+fn one_instance_is_meant_by_any_name() {
+    let (bvh, _, ids) = world();
+    let all = bvh.tree().instances;
+    let light_of = |k: usize| bvh.lights_of(ids[k]).expect("there").start;
+    for count in [1, 2, 3] {
+        let emitters = Emitters {
+            triangles: bvh.triangles(),
+            instances: &all[..count],
+        };
+        for instance in (0..4).chain((count == 1).then_some(INVALID)) {
+            for k in 0..3 {
+                let own = ids[k].index();
+                let found = emitters.light(light_of(k), instance);
+                let expected = bvh.triangle(light_of(k), own).expect("a light");
+                let is_meant = (own as usize) < count && (instance == own || count == 1);
+                let radiance = if is_meant { expected.radiance } else { [0.0; 3] };
+                assert_eq!(
+                    found.radiance, radiance,
+                    "light of {own}, named {instance}, of {count}"
+                );
+            }
+        }
+    }
 }

@@ -27,6 +27,9 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
 
     /// Probability with which [`sample`](Self::sample) returns `light` of `instance`, as a [`SampledLight`] names them, at `point`:
     /// to the bit the one that comes with the sample. 0 where there is no such light.
+    ///
+    /// For multiple importance sampling, where a ray of the caller's hits triangle `k` of an instance's mesh, the light is
+    /// [`lights_of`](Self::lights_of)`(id).start + k`, and the instance `id.index()`.
     #[must_use]
     pub fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {
         debug_assert!(

@@ -39,7 +39,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// - ranges of nodes, triangles and lights in use do not overlap;
     /// - an instance's words are those of its transform, mesh and bottom level;
     /// - every word of every bounds is what refit makes of triangles and instances from scratch;
-    /// - a child's box, cone and flux lie within its parent's.
+    /// - where nodes hold bounds (Eq. 4), a child's box, cone and flux lie within its parent's.
     ///
     /// # Errors
     /// The first [`Violation`].

@@ -196,3 +196,50 @@ fn normals_come_back_at_unit_length() {
         }
     }
 }
+
+/// Radiance in the world: scaled and kept within its range, zero where the triangle, its channel or the instance has none, and where
+/// the mesh's triangle has no area, though rounding gives it some in the world.
+#[test]
+fn radiance_in_the_world() {
+    use crate::light::{EmissiveTriangle, MAX_RADIANCE, MIN_RADIANCE};
+    let columns = [Vec3::X, Vec3::Y, Vec3::Z];
+    let of = |radiance: [f32; 3], factor: f32| {
+        let triangle = EmissiveTriangle {
+            p: [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            radiance,
+            mesh: 0,
+            flags: 0,
+        };
+        placed(columns, Vec3::ZERO, factor)
+            .triangle(&triangle, 7)
+            .radiance
+    };
+    assert_eq!(of([1.0, 0.0, 3.0], 0.5), [0.5, 0.0, 1.5]);
+    assert_eq!(of([1.0, 2.0, 3.0], 0.0), [0.0; 3]);
+    assert_eq!(of([0.0; 3], 2.0), [0.0; 3]);
+    let [least, most] = crate::bvh::RADIANCE_FACTORS;
+    assert_eq!(of([MIN_RADIANCE, 0.0, 1.0], least), [MIN_RADIANCE, 0.0, least]);
+    assert_eq!(of([MAX_RADIANCE, 0.0, 1.0], most), [MAX_RADIANCE, 0.0, most]);
+
+    // A line in the mesh, which the map's rounding bends.
+    let line = EmissiveTriangle {
+        p: [[0.0; 3], [0.1, 0.2, 0.3], [0.2, 0.4, 0.6]],
+        radiance: [1.0; 3],
+        mesh: 0,
+        flags: 0,
+    };
+    assert_eq!(LightBounds::of_triangle(&line).phi, 0.0);
+    let mut random = Random(5);
+    let mut bent = 0;
+    for _ in 0..100 {
+        let (columns, _) = map(&mut random, 1.0);
+        let world = placed(columns, random.vector(), 1.0).triangle(&line, 0);
+        assert_eq!(world.radiance, [0.0; 3]);
+        let lit = EmissiveTriangle {
+            radiance: [1.0; 3],
+            ..world
+        };
+        bent += u32::from(LightBounds::of_triangle(&lit).phi > 0.0);
+    }
+    assert!(bent > 10, "{bent}");
+}

@@ -1,11 +1,11 @@
 //! The hand-over between a frame and its worker: one job goes in, one result comes out, and either side may go away.
 //!
 //! Everything lies behind one lock that is held for a few moves of a value only, never while a job runs or a value is
-//! dropped. All interleavings are model-checked with loom; the tests below say how.
+//! dropped. All interleavings are model-checked with loom (`tests/handover.rs`).
 
 use std::sync::PoisonError;
 
-// The model replaces the primitives where it runs, which is in this crate's own tests only.
+// The model replaces the primitives where it runs, which is in the test that includes this file.
 #[cfg(all(test, loom))]
 use loom::sync::{Condvar, Mutex, MutexGuard};
 #[cfg(not(all(test, loom)))]
@@ -49,7 +49,7 @@ pub(super) enum Outcome<R> {
 #[derive(Debug)]
 pub(super) struct Task<'a, J, R> {
     handover: &'a Handover<J, R>,
-    job: Option<J>,
+    pub(super) job: Option<J>,
     owes: bool,
 }
 
@@ -173,6 +173,3 @@ impl<J, R> Drop for Task<'_, J, R> {
         }
     }
 }
-
-#[cfg(all(test, loom))]
-mod tests;

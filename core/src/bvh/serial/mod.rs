@@ -29,14 +29,15 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// `N` and the width `W`, not the importance `I`, of which no word depends. Takes time and memory in proportion to the arrays.
     ///
     /// Nothing is refitted here, and nothing need be: where edits wait for their refit, what is read has been refitted, and may be once
-    /// more.
+    /// more. Trees that later edits build are then as good, but not the same word for word as those of the original, which built them
+    /// before its refit: refit first where that matters.
     #[must_use]
     pub fn to_words(&self) -> Vec<u32> {
         self.written()
     }
 
     /// Reads what [`to_words`](Self::to_words) wrote. The BVH goes on as the one that was written: the same samples and pmfs, and after
-    /// the same edits, refits and rebuilds the same words. Places of its arrays that are not in use hold the words of nothing.
+    /// the same edits, refits and rebuilds the same words if it was refitted when it was written. Places of its arrays that are not in use hold the words of nothing.
     ///
     /// It is another BVH, so it has ids of its own: [`mesh_id`](Self::mesh_id) and [`instance_id`](Self::instance_id) give them by
     /// the indices, which stay. What was planned for a mirror is not written: one takes all arrays over, as

@@ -286,6 +286,61 @@ fn the_first_frame_copies_everything_and_a_still_one_nothing() {
     assert_eq!(device.follow(&scene), Frame::default());
 }
 
+/// Buffers are as large as another light BVH needs them, be it smaller.
+#[test]
+fn a_mirror_may_change_to_another_light_bvh() {
+    let mut device = Device::default();
+    for count in [50, 3, 20] {
+        let mut scene = Bvh::<MomentNode<8>, (), 8>::default();
+        scene.add_mesh(mesh(count, 1)).expect("a mesh");
+        scene.refit();
+        scene.plan();
+        let frame = device.follow(&scene);
+        assert!(!frame.resizes.is_empty());
+        for buffer in Buffer::ALL {
+            let (held, needed) = (device.buffer(buffer).len() * 4, buffer.bytes(&scene).len());
+            assert_eq!(held, needed, "{buffer:?} of {count}");
+        }
+        device.assert_is(&scene, count);
+    }
+}
+
+/// Trails of two words each: where a mesh takes another's place, both words are copied.
+#[test]
+fn wide_trails_are_copied_whole() {
+    let mut scene = Bvh::<CompactNode<2>, (), 2>::default();
+    // Each half as large as the next: a deep tree.
+    let deep = (-58..38_i16).map(|e| {
+        let size = f32::from(e).exp2();
+        EmissiveTriangle {
+            p: [
+                [size, 0.0, 0.0],
+                [size * 1.01, 0.0, 0.0],
+                [size, 0.0, size * 0.01],
+            ],
+            radiance: [1.0; 3],
+            mesh: 0,
+            flags: 0,
+        }
+    });
+    scene.add_mesh(deep.collect()).expect("a mesh");
+    let mut last = scene.add_mesh(mesh(40, 0)).expect("a mesh");
+    assert_eq!(scene.tree().trail_words, 2);
+    let mut device = Device::default();
+    scene.refit();
+    scene.plan();
+    device.follow(&scene);
+    for turn in 0..4_u32 {
+        // In the place of the one that goes.
+        scene.remove_mesh(last).expect("not in use");
+        last = scene.add_mesh(mesh(40, turn + 1)).expect("a mesh");
+        scene.refit();
+        scene.plan();
+        assert!(device.follow(&scene).resizes.is_empty());
+        device.assert_is(&scene, turn);
+    }
+}
+
 #[test]
 fn ranges_that_touch_are_one() {
     assert_eq!(
@@ -332,7 +387,8 @@ fn a_plan_that_does_not_say_all_is_not_trusted() {
         scene.set_radiance(id, radiance).expect("its own");
     }
     type Case = (&'static str, fn(&mut Scene));
-    let cases: [Case; 6] = [
+    let cases: [Case; 7] = [
+        ("an edit alone", |_| {}),
         ("no plan", |scene| scene.refit()),
         ("a plan left out", |scene| {
             scene.plan();

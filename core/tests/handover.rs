@@ -1,17 +1,20 @@
 //! Every interleaving of a frame and its worker, by loom: no job and no result is lost or dropped twice, and nobody waits
 //! for ever (loom reports a deadlock when all threads wait). Jobs and results are counted while they live.
 //!
-//! `RUSTFLAGS="--cfg loom" cargo test -p lightbvh --features std --profile quick --lib handover --target-dir target/loom`
+//! `RUSTFLAGS="--cfg loom" cargo test -p lightbvh --features std --profile quick --test handover --target-dir target/loom`
+#![cfg(loom)]
 
-extern crate std;
+// Of the library only this file, so that the rest of its tests need not be compiled with it.
+#[path = "../src/rebuilder/handover.rs"]
+#[expect(unreachable_pub, reason = "written for its crate")]
+mod handover;
 
 use loom::model;
 use loom::sync::Arc;
 use loom::sync::atomic::{AtomicUsize, Ordering};
 use loom::thread;
-use std::vec::Vec;
 
-use super::{Handover, Outcome};
+use handover::{Handover, Outcome};
 
 /// A value whose life is counted.
 #[derive(Debug)]
