@@ -357,8 +357,8 @@ fn one_instance_is_meant_by_any_name() {
             instances: &all[..count],
         };
         for instance in (0..4).chain((count == 1).then_some(INVALID)) {
-            for k in 0..3 {
-                let own = ids[k].index();
+            for (k, id) in ids.iter().enumerate().take(3) {
+                let own = id.index();
                 let found = emitters.light(light_of(k), instance);
                 let expected = bvh.triangle(light_of(k), own).expect("a light");
                 let is_meant = (own as usize) < count && (instance == own || count == 1);

@@ -2,6 +2,8 @@
 
 mod animate;
 mod checks;
+mod compare;
 mod program;
 mod refusals;
 mod render;
+mod stability;

@@ -310,8 +310,8 @@ fn a_mirror_may_change_to_another_light_bvh() {
 fn wide_trails_are_copied_whole() {
     let mut scene = Bvh::<CompactNode<2>, (), 2>::default();
     // Each half as large as the next: a deep tree.
-    let deep = (-58..38_i16).map(|e| {
-        let size = f32::from(e).exp2();
+    let deep = (-58..38).map(|e| {
+        let size = lightbvh::exact::pow2(e);
         EmissiveTriangle {
             p: [
                 [size, 0.0, 0.0],
