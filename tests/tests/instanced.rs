@@ -371,3 +371,33 @@ fn one_instance_is_meant_by_any_name() {
         }
     }
 }
+
+/// A device may be made of a light BVH that no CPU has refitted, planned or not.
+#[test]
+fn a_device_takes_what_was_never_refitted() {
+    on_each_device(Options::default(), |device| {
+        for planned in [false, true] {
+            let (mut bvh, _, ids) = world();
+            bvh.apply(edits(&ids, 1.5)).expect("affine maps");
+            if planned {
+                bvh.plan();
+            }
+            let mut other = DeviceBackend::<Standard, 8>::new(device, &bvh).expect("an upload");
+            let mut refitted = bvh.clone();
+            refitted.refit();
+            let what = format!("{}, planned: {planned}", device.name());
+            let used = refitted.plan_of_everything();
+            let words = size_of_val(&refitted.nodes()[0]) / 4;
+            let expected: &[u32] = bytemuck::cast_slice(refitted.nodes());
+            for twice in 0..2 {
+                let found = other.nodes().expect("nodes");
+                for node in used.bottom.nodes().iter().chain(used.top.nodes()) {
+                    let at = *node as usize * words..(*node as usize + 1) * words;
+                    assert!(found[at.clone()] == expected[at], "node {node}, {twice}, {what}");
+                }
+                // The frame after changes nothing.
+                other.follow(&bvh).expect("nothing to do");
+            }
+        }
+    });
+}

@@ -44,22 +44,24 @@ pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
 }
 
 impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
-    /// Uploads a BVH, planned or refitted.
+    /// Uploads a BVH and refits all of it, for its own nodes may wait for that.
     ///
     /// # Errors
     /// [`BackendError`] when it does not fit, or the device fails.
     pub fn new(device: &'d Device, bvh: &Bvh<C, W>) -> Result<Self, BackendError> {
-        // All of it is uploaded here.
+        // The copies of the first frame are the upload.
         let mut mirror = Mirror::default();
-        mirror.follow(bvh);
-        Ok(Self {
+        let refit = mirror.follow(bvh).refit;
+        let new = Self {
             device,
             tree: DeviceTree::upload::<C, W>(device, &bvh.tree(), bvh.triangles())?,
             roots: device.upload(bvh.roots())?,
-            refit: Refit::new(&bvh.plan_of_everything()),
+            refit,
             counts: bvh.mesh_counts(),
             mirror,
-        })
+        };
+        new.refit_by(&new.refit)?;
+        Ok(new)
     }
 
     /// Overwrites the device's nodes, so that a refit has something to change.
