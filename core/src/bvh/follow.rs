@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 use core::fmt;
+use core::ops::Range;
 
 use super::Bvh;
 use super::edit::EditReason;
@@ -10,6 +11,7 @@ use crate::node::LightNode;
 use crate::transform::Extent;
 
 /// How many triangles each mesh of a BVH has: what [`Lights`] must have for the BVH, or a copy of it, to follow them.
+#[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MeshCounts {
     /// One mesh holds all triangles.
@@ -37,7 +39,7 @@ impl MeshCounts {
     }
 
     /// The triangles of `lights` that are those of mesh `mesh`; none where there is no such mesh light.
-    fn range(&self, lights: &Lights, mesh: usize) -> core::ops::Range<usize> {
+    fn range(&self, lights: &Lights, mesh: usize) -> Range<usize> {
         match mesh {
             0 if self.single => 0..lights.triangles().len(),
             _ if mesh < lights.mesh_count() => lights.mesh(mesh),
