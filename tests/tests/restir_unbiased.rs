@@ -16,7 +16,7 @@ use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 use lightbvh_tests::direct::{Reference, brute_force};
 use lightbvh_tests::generate::Random;
 use lightbvh_tests::statistics::{Mean, normal_quantile};
-use std::sync::Mutex;
+use rayon::prelude::*;
 
 const WHITE: Material = Material {
     albedo: [1.0; 3],
@@ -193,30 +193,21 @@ fn references(shots: &[Shot], time: f32) -> Vec<Reference> {
 /// Mean of each pixel, and of the whole image over its reference, over all histories.
 fn measure(options: RestirOptions, shots: &[Shot], references: &[Reference]) -> (Vec<Mean>, Mean) {
     let whole: f64 = references.iter().map(|r| r.sum).sum();
-    let found = Mutex::new(Vec::new());
-    let workers = std::thread::available_parallelism().map_or(1, usize::from) as u32;
-    std::thread::scope(|scope| {
-        for worker in 0..workers {
-            let found = &found;
-            scope.spawn(move || {
-                for history in (worker..HISTORIES).step_by(workers as usize) {
-                    let mut restir = Restir::new(options);
-                    let mut image = Vec::new();
-                    for (number, shot) in (0..).zip(shots) {
-                        let seed = exact::hash(history * FRAMES as u32 + number);
-                        image = render(&mut restir, shot, seed);
-                    }
-                    found.lock().expect("no worker panics").push((history, image));
-                }
-            });
-        }
-    });
-    let mut images = found.into_inner().expect("no worker panics");
-    // The same sums whatever the number of workers.
-    images.sort_by_key(|(history, _)| *history);
+    let images: Vec<_> = (0..HISTORIES)
+        .into_par_iter()
+        .map(|history| {
+            let mut restir = Restir::new(options);
+            let mut image = Vec::new();
+            for (number, shot) in (0..).zip(shots) {
+                let seed = exact::hash(history * FRAMES as u32 + number);
+                image = render(&mut restir, shot, seed);
+            }
+            image
+        })
+        .collect();
     let mut pixels = vec![Mean::default(); references.len()];
     let mut total = Mean::default();
-    for (_, image) in &images {
+    for image in &images {
         let mut sum = 0.0;
         for (mean, value) in pixels.iter_mut().zip(image) {
             let value = f64::from(value[0]) * std::f64::consts::PI;
