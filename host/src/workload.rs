@@ -32,6 +32,7 @@ impl RenderSettings {
             width: self.width,
             height: self.height,
             samples: self.samples,
+            candidates: 1,
             seed: self.seed,
             jitter: 0,
             background,

@@ -71,8 +71,8 @@ pub type TreeOf<'a, C, const W: usize> =
 
 impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> PickLight for LightTree<'_, N, I, W> {
     #[inline]
-    fn pick(&self, point: &ShadingPoint, random: u32) -> SampledLight {
-        self.sample(point, Random64::from(random))
+    fn pick(&self, point: &ShadingPoint, random: Random64) -> SampledLight {
+        self.sample(point, random)
     }
 
     #[inline]

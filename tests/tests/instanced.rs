@@ -28,6 +28,7 @@ const PARAMS: RenderParams = RenderParams {
     width: SIZE.0,
     height: SIZE.1,
     samples: 4,
+    candidates: 3,
     seed: 11,
     jitter: 2,
     background: [0.1, 0.2, 0.3],

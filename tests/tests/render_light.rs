@@ -204,6 +204,7 @@ fn params(samples: u32) -> RenderParams {
         width: 4,
         height: 4,
         samples,
+        candidates: 1,
         seed: 1,
         jitter: 2,
         background: [0.5, 0.25, 0.125],
@@ -283,7 +284,7 @@ fn walls_shadow_and_lights_do_not_shadow_themselves() {
     };
     let seen = see(&room.scene(), &camera.ray(1, 1, 4, 4, 0), Vec3::ZERO);
     let unshadowed =
-        lightbvh_kernels::shading::pixel::reflected(&alone, &seen, &Uniform { count: 2 }, 1 << 16, 9);
+        lightbvh_kernels::shading::pixel::reflected(&alone, &seen, &Uniform { count: 2 }, 1 << 16, 1, 9);
     assert!(
         (mean(&lit).x / f64::from(unshadowed.x) - 1.0).abs() < 1e-2,
         "{} {}",

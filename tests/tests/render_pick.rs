@@ -1,6 +1,6 @@
 //! The choice of a light without a tree: every probability is the exact frequency.
 
-use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, ShadingPoint};
+use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, Random64, ShadingPoint};
 use lightbvh_host::render::{flux, power_thresholds};
 use lightbvh_kernels::bvh::{Choice, Node, Standard, WIDTH};
 use lightbvh_kernels::shading::pick::{MAX_PICKABLE, PickLight, Power, Uniform};
@@ -25,7 +25,7 @@ const LAMP: EmissiveTriangle = EmissiveTriangle {
 fn every_choice(picker: &impl PickLight) -> Vec<(u32, u32, f32)> {
     let mut runs: Vec<(u32, u32, f32)> = Vec::new();
     for random in 0..1_u32 << 24 {
-        let picked = picker.pick(&ANYWHERE, (random << 8) | (random & 0xff));
+        let picked = picker.pick(&ANYWHERE, Random64::from((random << 8) | (random & 0xff)));
         match runs.last_mut() {
             Some((light, chances, pmf)) if *light == picked.light => {
                 assert_eq!(*pmf, picked.pmf);
@@ -49,8 +49,8 @@ fn uniform_pmfs_are_the_exact_frequencies() {
             assert_eq!(f64::from(pmf), f64::from(chances) / f64::from(MAX_PICKABLE));
         }
     }
-    assert_eq!(Uniform { count: 0 }.pick(&ANYWHERE, 5).light, NONE);
-    assert!(Uniform { count: u32::MAX }.pick(&ANYWHERE, u32::MAX).light < MAX_PICKABLE);
+    assert_eq!(Uniform { count: 0 }.pick(&ANYWHERE, 5u32.into()).light, NONE);
+    assert!(Uniform { count: u32::MAX }.pick(&ANYWHERE, u32::MAX.into()).light < MAX_PICKABLE);
 }
 
 /// Triangles whose fluxes span twelve orders of magnitude; every fifth is black, every seventh flat.
@@ -106,7 +106,7 @@ fn power_pmfs_are_the_exact_frequencies_and_sum_to_one() {
 
 #[test]
 fn power_tables_at_the_edges() {
-    let pick = |thresholds: &[u32], random| Power { thresholds }.pick(&ANYWHERE, random);
+    let pick = |thresholds: &[u32], random: u32| Power { thresholds }.pick(&ANYWHERE, random.into());
     let one = power_thresholds(&[LAMP]).unwrap();
     assert_eq!((pick(&one, u32::MAX).light, pick(&one, 0).pmf), (0, 1.0));
     let dark = EmissiveTriangle {
@@ -143,7 +143,7 @@ fn pmf_is_of_the_pick(what: &str, picker: &impl PickLight, lights: &[EmissiveTri
             "{what}: {sum} at {point:?}"
         );
         for _ in 0..256 {
-            let picked = picker.pick(&point, random.bits());
+            let picked = picker.pick(&point, random.bits().into());
             assert_eq!(picked.light == NONE, !reachable, "{what} at {point:?}");
             if reachable {
                 let evaluated = pmfs[picked.light as usize];

@@ -2,7 +2,7 @@
 
 use lightbvh::{
     BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, Heuristic, INVALID, ImportanceModel,
-    LightNode, Lights, Random64, SampledLight, ShadingPoint, Summary,
+    LightNode, LightTree, Lights, Random64, SampledLight, ShadingPoint, Summary,
 };
 use lightbvh_host::stability::geometry::contribution;
 use lightbvh_tests::each_layout;
@@ -454,6 +454,38 @@ fn batches_are_single_samples<N: LightNode<W>, I: ImportanceModel<N, W>, const W
             assert!(few[shorter..].iter().all(|&found| found == untouched));
         }
     }
+}
+
+/// Candidates are the samples of numbers at equal distances, in any layout, uniform choices among them.
+fn candidates_are_single_samples<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(two: bool) {
+    fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, const COUNT: usize>(
+        bvh: &LightTree<'_, N, I, W>,
+        point: &ShadingPoint,
+        number: Random64,
+    ) {
+        let many = bvh.sample_many::<COUNT>(point, number);
+        for (k, found) in (0..).zip(many) {
+            let expected = bvh.sample(point, number.spaced(k, COUNT as u32));
+            assert_eq!(found, expected, "{k} of {COUNT}");
+        }
+    }
+    for count in [1, 3, 200] {
+        let bvh = built::<N, W>(&scene(count, 51), &BuildParams::default(), two);
+        let bvh = bvh.by::<I>();
+        let random = &mut Random::new(52);
+        for _ in 0..200 {
+            let (point, number) = (generate::point(random, 10.0), number(random));
+            check::<N, I, W, 1>(&bvh, &point, number);
+            check::<N, I, W, 5>(&bvh, &point, number);
+            check::<N, I, W, 64>(&bvh, &point, number);
+        }
+    }
+}
+
+#[test]
+fn candidates() {
+    each_layout!(candidates_are_single_samples(false));
+    each_layout!(candidates_are_single_samples(true));
 }
 
 #[test]

@@ -25,6 +25,16 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
         self.tree().sample_batch(points, randoms, sampled);
     }
 
+    /// Chooses `COUNT` lights for `point` by numbers at equal distances; see [`LightTree::sample_many`].
+    #[must_use]
+    pub fn sample_many<const COUNT: usize>(
+        &self,
+        point: &ShadingPoint,
+        random: impl Into<Random64>,
+    ) -> [SampledLight; COUNT] {
+        self.tree().sample_many(point, random)
+    }
+
     /// Probability with which [`sample`](Self::sample) returns `light` of `instance`, as a [`SampledLight`] names them, at `point`:
     /// to the bit the one that comes with the sample. 0 where there is no such light.
     ///

@@ -39,67 +39,92 @@ pub(super) fn choose<const W: usize>(
 ) -> Share {
     // As few rows as the children need: each takes registers, or private memory on a device.
     if W <= 4 {
-        choose_in_rows::<W, 1>(weights, range, number, follow, wanted)
+        Shares::<1>::of(weights, range).of_child::<W>(number, follow, wanted)
     } else if W <= 8 {
-        choose_in_rows::<W, 2>(weights, range, number, follow, wanted)
+        Shares::<2>::of(weights, range).of_child::<W>(number, follow, wanted)
     } else {
-        choose_in_rows::<W, 4>(weights, range, number, follow, wanted)
+        Shares::<4>::of(weights, range).of_child::<W>(number, follow, wanted)
     }
 }
 
-/// [`choose`] with the children in `ROWS` rows of four.
-#[inline(always)]
-fn choose_in_rows<const W: usize, const ROWS: usize>(
-    weights: &[f32; W],
-    range: u32,
-    number: u32,
-    follow: bool,
-    wanted: u32,
-) -> Share {
-    let weights = Rows::<ROWS>::of(weights);
-    let sum = weights.sum();
-    let alive = sum > 0.0;
-    let length = range as i32 as f32;
-    let scale = length * GIVEN * exact::recip(if alive { sum } else { 1.0 });
-    // Integers, but in `f32`, where processors add and compare several at a time.
-    let mut ends = Rows::<ROWS>::ZERO;
-    // Of all rows together: the number of shares that end at or before the number, and the last child with weight.
-    let mut passed = Vec4::ZERO;
-    let mut open = Vec4::ZERO;
-    let at = Vec4::splat(number as i32 as f32);
-    let mut before = Vec4::ZERO;
-    for row in 0..ROWS {
-        let w = weights.0[row];
-        let whole = (w * scale + COUNTS) - COUNTS;
-        let at_least_one = Vec4::select(whole.cmpgt(Vec4::ONE), whole, Vec4::ONE);
-        let some = w.cmpgt(Vec4::ZERO);
-        let count = Vec4::select(some, at_least_one, Vec4::ZERO);
-        // Inclusive prefix sums: within the row by doubling steps, then from row to row.
-        let pairs = count + Vec4::new(0.0, count.x, count.y, count.z);
-        let end = (pairs + Vec4::new(0.0, 0.0, pairs.x, pairs.y)) + before;
-        before = Vec4::splat(end.w);
-        ends.0[row] = end;
-        passed += Vec4::select(end.cmple(at), Vec4::ONE, Vec4::ZERO);
-        let first = (4 * row) as i32 as f32;
-        let slots = Vec4::new(first, first + 1.0, first + 2.0, first + 3.0);
-        // Later rows hold later slots.
-        open = Vec4::select(some, slots, open);
+/// A range of numbers shared out among children in `ROWS` rows of four.
+#[derive(Clone, Copy)]
+pub(super) struct Shares<const ROWS: usize> {
+    /// Where the share of each child ends. Integers, but in `f32`, where processors add and compare several at a time.
+    ends: Rows<ROWS>,
+    /// The last child with weight, of each column.
+    open: Vec4,
+    /// Length of the range.
+    length: f32,
+    /// Whether any child has weight.
+    alive: bool,
+}
+
+impl<const ROWS: usize> Shares<ROWS> {
+    /// Shares `0..range` out by `weights`.
+    #[inline(always)]
+    pub fn of<const W: usize>(weights: &[f32; W], range: u32) -> Self {
+        let weights = Rows::<ROWS>::of(weights);
+        let sum = weights.sum();
+        let alive = sum > 0.0;
+        let length = range as i32 as f32;
+        let scale = length * GIVEN * exact::recip(if alive { sum } else { 1.0 });
+        let mut ends = Rows::<ROWS>::ZERO;
+        let mut open = Vec4::ZERO;
+        let mut before = Vec4::ZERO;
+        for row in 0..ROWS {
+            let w = weights.0[row];
+            let whole = (w * scale + COUNTS) - COUNTS;
+            let at_least_one = Vec4::select(whole.cmpgt(Vec4::ONE), whole, Vec4::ONE);
+            let some = w.cmpgt(Vec4::ZERO);
+            let count = Vec4::select(some, at_least_one, Vec4::ZERO);
+            // Inclusive prefix sums: within the row by doubling steps, then from row to row.
+            let pairs = count + Vec4::new(0.0, count.x, count.y, count.z);
+            let end = (pairs + Vec4::new(0.0, 0.0, pairs.x, pairs.y)) + before;
+            before = Vec4::splat(end.w);
+            ends.0[row] = end;
+            let first = (4 * row) as i32 as f32;
+            let slots = Vec4::new(first, first + 1.0, first + 2.0, first + 3.0);
+            // Later rows hold later slots.
+            open = Vec4::select(some, slots, open);
+        }
+        Self {
+            ends,
+            open,
+            length,
+            alive,
+        }
     }
-    // The slot is the number of shares that end at or before the number, but not beyond the last child with weight.
-    let last = exact::max(exact::max(open.x, open.z), exact::max(open.y, open.w));
-    let found = integer(exact::min((passed.x + passed.z) + (passed.y + passed.w), last));
-    let last = integer(last);
-    let slot = if follow { wanted } else { found };
-    let within = if slot < W as u32 { slot } else { 0 };
-    let end = ends.entry(within);
-    let first = if within == 0 { 0.0 } else { ends.entry(within - 1) };
-    let count = end - first;
-    let all = if slot == last { length - first } else { count };
-    let some = alive & (count > 0.0) & (slot < W as u32);
-    Share {
-        slot: within,
-        first: if some { integer(first) } else { 0 },
-        count: if some { integer(all) } else { 0 },
+
+    /// The share that holds `number`, or with `follow` that of `wanted`.
+    #[inline(always)]
+    pub fn of_child<const W: usize>(&self, number: u32, follow: bool, wanted: u32) -> Share {
+        // The number of shares that end at or before the number, but not beyond the last child with weight.
+        let at = Vec4::splat(number as i32 as f32);
+        let mut passed = Vec4::ZERO;
+        for row in 0..ROWS {
+            passed += Vec4::select(self.ends.0[row].cmple(at), Vec4::ONE, Vec4::ZERO);
+        }
+        let open = self.open;
+        let last = exact::max(exact::max(open.x, open.z), exact::max(open.y, open.w));
+        let found = integer(exact::min((passed.x + passed.z) + (passed.y + passed.w), last));
+        let last = integer(last);
+        let slot = if follow { wanted } else { found };
+        let within = if slot < W as u32 { slot } else { 0 };
+        let end = self.ends.entry(within);
+        let first = if within == 0 {
+            0.0
+        } else {
+            self.ends.entry(within - 1)
+        };
+        let count = end - first;
+        let all = if slot == last { self.length - first } else { count };
+        let some = self.alive & (count > 0.0) & (slot < W as u32);
+        Share {
+            slot: within,
+            first: if some { integer(first) } else { 0 },
+            count: if some { integer(all) } else { 0 },
+        }
     }
 }
 

@@ -10,6 +10,7 @@
 
 mod batch;
 mod choose;
+mod many;
 mod random;
 mod sample;
 #[cfg(test)]
@@ -42,6 +43,23 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> LightTree<'_, N,
     #[inline(always)]
     pub fn sample_batch(&self, points: &[ShadingPoint], randoms: &[Random64], sampled: &mut [SampledLight]) {
         widest::sample_batch(self, points, randoms, sampled);
+    }
+
+    /// Chooses `COUNT` lights for `point`, at least one, by numbers at equal distances: light `k` is that of
+    /// [`sample`](Self::sample) by [`random.spaced(k, COUNT)`](Random64::spaced), with that pmf. Nodes that they share are
+    /// evaluated once.
+    ///
+    /// The expectation of the mean of f / pmf over them is the sum of f over all lights, as of independent samples; its variance
+    /// is smaller, for the numbers are in the order of lights.
+    #[inline(always)]
+    #[must_use]
+    pub fn sample_many<const COUNT: usize>(
+        &self,
+        point: &ShadingPoint,
+        random: impl Into<Random64>,
+    ) -> [SampledLight; COUNT] {
+        const { assert!(COUNT > 0, "at least one") };
+        widest::sample_many(self, point, random.into())
     }
 
     /// The probability with which [`sample`](Self::sample) returns light `light` of instance `instance`

@@ -47,6 +47,21 @@ impl Random64 {
         }
     }
 
+    /// Number `k` of `count` at equal distances, of which this one is the first: this number plus k / `count`, modulo 1, where
+    /// 1 / `count` is rounded down to a multiple of 2^-32 (systematic sampling). Each is as uniform as this one, and each of
+    /// `count` equal strata holds one of them, to `count` times 2^-32. 1 for a `count` of 0.
+    #[inline(always)]
+    #[must_use]
+    pub fn spaced(self, k: u32, count: u32) -> Self {
+        let count = if count > 0 { count } else { 1 };
+        // 2^32 / count rounded down, in 32 bits; 2^32 itself is 0, and k too.
+        let step = (count.wrapping_neg() / count).wrapping_add(1);
+        Self {
+            high: self.high.wrapping_add(k.wrapping_mul(step)),
+            low: self.low,
+        }
+    }
+
     /// The integer part of the number times `count`, below `count`, and what remains: again a uniform number.
     #[inline(always)]
     #[must_use]
@@ -94,6 +109,11 @@ mod tests {
             let wide = u128::from(bits) * u128::from(b);
             let (index, rest) = Random64::from(bits).pick(b);
             assert_eq!((index, rest), ((wide >> 64) as u32, Random64::from(wide as u64)));
+            for (k, count) in [(a, b), (a % 8, 8), (a % 5, 5), (0, 1), (7, 0), (a, 1 << 31)] {
+                let step = (1u64 << 32) / u64::from(count.max(1));
+                let moved = bits.wrapping_add((step << 32).wrapping_mul(u64::from(k)));
+                assert_eq!(Random64::from(bits).spaced(k, count), Random64::from(moved));
+            }
             for shift in 0..=22 {
                 assert_eq!(Random64::from(bits).shifted(shift), Random64::from(bits << shift));
             }

@@ -174,6 +174,54 @@ fn a_batch_has_the_words_of_single_samples() {
     }
 }
 
+/// Candidates are the samples of their numbers, and each node that they share is evaluated once.
+#[test]
+fn candidates_are_samples_of_their_numbers() {
+    let light = |weight: f32, light: u32| (weight, kind::LIGHT, light);
+    let nodes = [
+        node(&[(1.0, kind::INNER, 1), (6.0, kind::INNER, 2), light(1.0, 0)]),
+        node(&[light(1.0, 1), light(2.0, 2)]),
+        node(&[light(1.0, 3), (2.0, kind::INNER, 3)]),
+        node(&[light(1.0, 4), light(3.0, 5), light(1e-20, 6), light(0.0, 7)]),
+    ];
+    let tree = tree(&nodes, &[], &[0; 16], 3);
+    for seed in 0..200_u32 {
+        let random = Random64::from(crate::exact::hash(seed));
+        let many = tree.sample_many::<16>(&POINT, random);
+        for (k, found) in (0..).zip(many) {
+            assert_eq!(found, tree.sample(&POINT, random.spaced(k, 16)), "{k} of {seed}");
+        }
+        // The four nodes, for all sixteen.
+        assert_eq!(nodes_of(|| tree.sample_many::<16>(&POINT, random)), 4);
+        assert_eq!(
+            tree.sample_many::<1>(&POINT, random),
+            [tree.sample(&POINT, random)]
+        );
+    }
+    // Hostile words: weights of any sign, a ring.
+    let nodes = [node(&[
+        light(1.0, 0),
+        (-1.5, kind::INNER, 0),
+        light(1.0, 2),
+        (f32::NAN, kind::INNER, 9),
+    ])];
+    let ring = LightTree {
+        nodes: &nodes,
+        depth: u32::MAX,
+        ..tree
+    };
+    for seed in 0..200_u32 {
+        let random = Random64::from(crate::exact::hash(seed));
+        for (k, found) in (0..).zip(ring.sample_many::<32>(&POINT, random)) {
+            let expected = ring.sample(&POINT, random.spaced(k, 32));
+            assert_eq!(
+                (found.light, found.pmf.to_bits()),
+                (expected.light, expected.pmf.to_bits())
+            );
+        }
+    }
+}
+
 /// Lights of an instance times instances pass 2^32 in hostile words, and nearly in honest ones.
 #[test]
 fn uniform_probabilities_hold_for_any_counts() {

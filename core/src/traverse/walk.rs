@@ -1,6 +1,6 @@
 //! One walk from the root to a light, chosen by a number or along a known path.
 
-use super::choose::{FULL, FULL_BITS, choose};
+use super::choose::{FULL, FULL_BITS, Share, choose};
 use super::random::Random64;
 use crate::exact;
 use crate::importance::ImportanceModel;
@@ -31,13 +31,13 @@ pub(super) struct Walk {
     position: u32,
     /// The path to follow, with `follow`.
     path: Path,
-    follow: bool,
+    pub follow: bool,
     /// Its upper 22 bits are the number within the range.
-    number: Random64,
-    range: u32,
+    pub number: Random64,
+    pub range: u32,
     halvings: u32,
     /// The point in the space of the node.
-    point: ShadingPoint,
+    pub point: ShadingPoint,
     steps: u32,
 }
 
@@ -77,18 +77,46 @@ impl Walk {
         tree: &LightTree<'_, N, I, W>,
         world: &ShadingPoint,
     ) {
-        // An index out of range (hostile words) reads node 0 and ends the walk.
-        let valid = self.index < tree.nodes.len() as u32;
-        let node = &tree.nodes[if valid { self.index as usize } else { 0 }];
+        let node = self.node(tree);
         let weights = I::weights(node, &self.point);
-        let wanted = self.path.slot::<W>(self.position);
-        let number = self.number.high >> (32 - FULL_BITS);
-        let share = choose(&weights, self.range, number, self.follow, wanted);
+        let share = choose(
+            &weights,
+            self.range,
+            leading(self.number),
+            self.follow,
+            self.wanted::<W>(),
+        );
+        self.descend(tree, world, node, share);
+    }
+
+    /// The node to look at. An index out of range (hostile words) reads node 0.
+    #[inline(always)]
+    pub fn node<'a, N, I, const W: usize>(&self, tree: &LightTree<'a, N, I, W>) -> &'a N {
+        let valid = self.index < tree.nodes.len() as u32;
+        &tree.nodes[if valid { self.index as usize } else { 0 }]
+    }
+
+    /// The child that the path to follow takes.
+    #[inline(always)]
+    pub fn wanted<const W: usize>(&self) -> u32 {
+        self.path.slot::<W>(self.position)
+    }
+
+    /// Goes to the child of `node` that has `share`. An index out of range ends the walk. Returns how often the range was doubled.
+    #[inline(always)]
+    pub fn descend<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+        &mut self,
+        tree: &LightTree<'_, N, I, W>,
+        world: &ShadingPoint,
+        node: &N,
+        share: Share,
+    ) -> u32 {
+        let valid = self.index < tree.nodes.len() as u32;
         let slot = share.slot as usize;
         let (to, link) = (node.kind(slot), node.link(slot));
         let passes = valid & (share.count > 0) & (share.count <= self.range);
         let count = if passes { share.count } else { 1 };
-        self.narrow(share.first, count);
+        let doublings = self.narrow(share.first, count);
 
         let levels = max_levels(W);
         // Running off the end of a tree's levels (hostile words only) must not look like the next tree's first level.
@@ -110,22 +138,20 @@ impl Walk {
             self.index = if descends { link } else { self.index };
             self.position += u32::from(descends);
         }
+        doublings
     }
 
-    /// Cuts the range down to `count` numbers from `first` on, and doubles it to its usual length.
+    /// Cuts the range down to `count` numbers from `first` on, and doubles it to its usual length. Returns how often.
     #[inline(always)]
-    fn narrow(&mut self, first: u32, count: u32) {
+    fn narrow(&mut self, first: u32, count: u32) -> u32 {
         // As many doublings as make the greatest number, `count` − 1, one of 22 bits.
         let greatest = count.wrapping_sub(1) & (FULL - 1);
         let unused = greatest.leading_zeros() - (32 - FULL_BITS);
         let missing = if unused < FULL_BITS { unused } else { FULL_BITS };
-        let rest = Random64 {
-            high: self.number.high.wrapping_sub(first << (32 - FULL_BITS)),
-            low: self.number.low,
-        };
-        self.number = rest.shifted(missing);
+        self.number = narrowed(self.number, first, missing);
         self.range = count << missing;
         self.halvings += missing;
+        missing
     }
 
     /// The probability of having come here, by the tree: the share of all numbers that lead here.
@@ -138,6 +164,22 @@ impl Walk {
         };
         (self.range as i32 as f32) * exact::pow2(-((FULL_BITS + halvings) as i32))
     }
+}
+
+/// The part of a number that chooses at the node to look at, one of the range there.
+#[inline(always)]
+pub(super) fn leading(number: Random64) -> u32 {
+    number.high >> (32 - FULL_BITS)
+}
+
+/// A number within the numbers from `first` on, which are doubled `doublings` times.
+#[inline(always)]
+pub(super) fn narrowed(number: Random64, first: u32, doublings: u32) -> Random64 {
+    let rest = Random64 {
+        high: number.high.wrapping_sub(first << (32 - FULL_BITS)),
+        low: number.low,
+    };
+    rest.shifted(doublings)
 }
 
 /// Numbers below this choose among all lights alike, out of [`FULL`].

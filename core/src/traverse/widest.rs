@@ -5,7 +5,7 @@ mod dispatched {
     use crate::importance::ImportanceModel;
     use crate::node::LightNode;
     use crate::point::ShadingPoint;
-    use crate::traverse::{Random64, SampledLight, batch, sample};
+    use crate::traverse::{Random64, SampledLight, batch, many, sample};
     use crate::tree::LightTree;
     use crate::widest::widest;
 
@@ -32,6 +32,17 @@ mod dispatched {
         )
     }
 
+    pub fn sample_many<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, const COUNT: usize>(
+        tree: &LightTree<'_, N, I, W>,
+        point: &ShadingPoint,
+        random: Random64,
+    ) -> [SampledLight; COUNT] {
+        widest(
+            #[inline(always)]
+            || many::sample_many(tree, point, random),
+        )
+    }
+
     pub fn sample_batch<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         tree: &LightTree<'_, N, I, W>,
         points: &[ShadingPoint],
@@ -46,9 +57,11 @@ mod dispatched {
 }
 
 #[cfg(feature = "simd")]
-pub(super) use dispatched::{pmf, sample, sample_batch};
+pub(super) use dispatched::{pmf, sample, sample_batch, sample_many};
 
 #[cfg(not(feature = "simd"))]
 pub(super) use super::batch::sample_batch;
+#[cfg(not(feature = "simd"))]
+pub(super) use super::many::sample_many;
 #[cfg(not(feature = "simd"))]
 pub(super) use super::sample::{pmf, sample};

@@ -11,8 +11,10 @@ use lightbvh_kernels::render::RenderParams;
 
 use super::Timed;
 
-/// Most light samples of a pixel in one invocation. A sample walks a light BVH and a ray BVH: some hundred turns each.
+/// Most light samples of a pixel in one invocation. A sample walks a ray BVH: some hundred turns.
 const MAX_SAMPLES_PER_INVOCATION: u32 = 8;
+/// Most candidates of them all, but always one sample's. A candidate walks a light BVH: about ten turns.
+const MAX_CANDIDATES_PER_INVOCATION: u32 = 64;
 /// Most surfaces that the paths of a pixel meet in one invocation, but always one path: each surface costs two rays, a
 /// sampled light and a pmf.
 const MAX_SURFACES_PER_INVOCATION: u32 = 16;
@@ -30,10 +32,12 @@ pub enum Integrator {
 }
 
 impl Integrator {
-    /// Most light samples, or paths, of a pixel in one invocation.
-    pub fn samples_per_invocation(self) -> u32 {
+    /// Most light samples of `candidates` each, or paths, of a pixel in one invocation.
+    pub fn samples_per_invocation(self, candidates: u32) -> u32 {
         match self {
-            Self::Direct => MAX_SAMPLES_PER_INVOCATION,
+            Self::Direct => {
+                (MAX_CANDIDATES_PER_INVOCATION / candidates.max(1)).clamp(1, MAX_SAMPLES_PER_INVOCATION)
+            }
             Self::Path { bounces } => (MAX_SURFACES_PER_INVOCATION / bounces.saturating_add(1)).max(1),
         }
     }
@@ -84,6 +88,7 @@ mod tests {
             width: 1,
             height: 1,
             samples,
+            candidates: 1,
             seed: 5,
             jitter: 3,
             background: [0.0; 3],
@@ -129,8 +134,12 @@ mod tests {
     fn long_paths_go_alone() {
         assert_eq!(
             [0, 1, 5, 7, 15, 64, u32::MAX]
-                .map(|bounces| Integrator::Path { bounces }.samples_per_invocation()),
+                .map(|bounces| Integrator::Path { bounces }.samples_per_invocation(1)),
             [16, 8, 2, 2, 1, 1, 1]
+        );
+        assert_eq!(
+            [0, 1, 2, 8, 9, 256].map(|candidates| Integrator::Direct.samples_per_invocation(candidates)),
+            [8, 8, 8, 8, 7, 1]
         );
     }
 }

@@ -69,19 +69,23 @@ impl<C: Choice<W>, const W: usize> Backend for CpuBackend<C, W> {
         integrator: Integrator,
     ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
         let view = self.view(scene, sampler);
-        in_batches(params, integrator.samples_per_invocation(), |params| {
-            let image = Image {
-                scene: &view,
-                camera: &scene.camera,
-                params,
-                integrator,
-            };
-            Ok(Timed::of(|| match sampler {
-                Sampler::Uniform => image.by(&uniform(scene)),
-                Sampler::Power => image.by(&power(scene)),
-                Sampler::SingleLevel | Sampler::TwoLevel => image.by(&self.bvh.tree()),
-            }))
-        })
+        in_batches(
+            params,
+            integrator.samples_per_invocation(params.candidates),
+            |params| {
+                let image = Image {
+                    scene: &view,
+                    camera: &scene.camera,
+                    params,
+                    integrator,
+                };
+                Ok(Timed::of(|| match sampler {
+                    Sampler::Uniform => image.by(&uniform(scene)),
+                    Sampler::Power => image.by(&power(scene)),
+                    Sampler::SingleLevel | Sampler::TwoLevel => image.by(&self.bvh.tree()),
+                }))
+            },
+        )
     }
 
     fn restir(

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
+use lightbvh_kernels::shading::pixel::MAX_CANDIDATES;
 use serde_json::{Value, json};
 
 use super::range::{self, Given, MAX_SIDE, given};
@@ -49,6 +50,10 @@ pub(super) struct Args {
     /// How lights are chosen. ReSTIR runs through up to 8 earlier frames before the first one shown.
     #[arg(long, value_enum, default_value_t = Method::TwoLevelMoments)]
     sampler: Method,
+    /// Candidates that each light sample is one of, 1 to 256, chosen by what they would contribute; one shadow ray as ever
+    /// [default: 1; of two-level-moments-resampled, 8].
+    #[arg(long)]
+    candidates: Option<u32>,
     /// How ReSTIR combines samples of other pixels and frames: without bias, or biased (darker where pixels do not see the
     /// same lights) with fewer shadow rays [default: unbiased].
     #[arg(long, value_enum)]
@@ -114,6 +119,15 @@ fn recipe(args: &Args) -> Result<Recipe, HostError> {
         }
         recipe.reuse = Some(combination);
     }
+    if let Some(candidates) = args.candidates {
+        if recipe.reuse.is_some() || args.integrator == IntegratorName::Path {
+            return Err(HostError::Usage {
+                option: "--candidates",
+                needs: "--integrator direct and a --sampler without ReSTIR",
+            });
+        }
+        recipe.candidates = candidates;
+    }
     if args.integrator == IntegratorName::Path {
         if recipe.reuse.is_some() {
             return Err(HostError::Usage {
@@ -142,6 +156,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             ..given("--spp", samples, 1..=most.into())
         },
         given("--bounces", args.bounces, 1..=MAX_BOUNCES.into()),
+        given("--candidates", recipe.candidates, 1..=MAX_CANDIDATES.into()),
     ])?;
     let scene = Scene::open(&args.scene)?;
     for warning in scene.warnings() {
@@ -184,6 +199,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         }
         .into();
         report["integrator"] = json!(args.integrator);
+        if recipe.reuse.is_none() && args.integrator == IntegratorName::Direct {
+            report["candidates"] = recipe.candidates.into();
+        }
         if let Some(options) = recipe.restir() {
             report["restir"] = json!({
                 "mode": options.combination.name(),

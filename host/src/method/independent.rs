@@ -74,7 +74,8 @@ impl<C: Choice<W>, const W: usize> Runner for Independent<'_, C, W> {
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
         let recipe = self.recipe;
         recipe.require_power_table(step, arrays)?;
-        let all = settings.params(step.scene.data().background);
+        let mut all = settings.params(step.scene.data().background);
+        all.candidates = recipe.candidates;
         let mut render = |params| {
             self.backend
                 .render(arrays, &params, recipe.lights, recipe.integrator)
@@ -82,7 +83,7 @@ impl<C: Choice<W>, const W: usize> Runner for Independent<'_, C, W> {
         match recipe.budget {
             SampleBudget::ShadowRays => Ok(render(all)?),
             SampleBudget::CameraRays => {
-                let parts = parts(recipe.integrator, settings.samples);
+                let parts = parts(recipe.integrator, settings.samples, recipe.candidates);
                 mean_of(parts, settings, |part| {
                     let mut params = all;
                     params.samples = settings.samples / parts;
@@ -106,8 +107,8 @@ impl<C: Choice<W>, const W: usize> Runner for Independent<'_, C, W> {
 
 /// Into how many parts the samples of a pixel are shared out, each with a camera ray of its own: of light samples, as few as
 /// make edges smooth; of paths, one part each. A part is one invocation on a device.
-fn parts(integrator: Integrator, samples: u32) -> u32 {
-    let most = integrator.samples_per_invocation();
+fn parts(integrator: Integrator, samples: u32, candidates: u32) -> u32 {
+    let most = integrator.samples_per_invocation(candidates);
     let fits = |&parts: &u32| samples.is_multiple_of(parts) && samples / parts <= most;
     match integrator {
         Integrator::Direct if samples > MAX_CAMERA_RAYS => {

@@ -8,6 +8,9 @@ use strum::{IntoStaticStr, VariantArray};
 use super::SampleBudget;
 use crate::backend::{Combination, Integrator, RestirOptions, Sampler};
 
+/// Candidates of a resampled method.
+const DEFAULT_CANDIDATES: u32 = 8;
+
 /// A method of the paper's comparison, or a baseline.
 #[derive(
     Clone,
@@ -44,6 +47,8 @@ pub enum Method {
     /// Two levels by the default importance, built by the default criterion.
     #[value(alias = "two-level")]
     TwoLevelMoments,
+    /// The same, with each sample one of several candidates, by what they would contribute.
+    TwoLevelMomentsResampled,
     /// Spatiotemporal reservoirs (Bitterli et al. 2020).
     Restir,
     /// The same with candidates from the paper's two-level light BVH.
@@ -89,6 +94,8 @@ pub struct Recipe {
     pub builder: Builder,
     /// Whether a single level is built anew by every frame, which waits for it.
     pub rebuilt: bool,
+    /// Candidates that each sample of direct light is one of; 1 for lights as picked. ReSTIR has its own number.
+    pub candidates: u32,
     /// How samples are reused by ReSTIR, if they are.
     pub reuse: Option<Combination>,
     /// What light is followed; ReSTIR follows direct light.
@@ -116,6 +123,7 @@ impl Method {
             importance,
             builder: importance.builder(),
             rebuilt: false,
+            candidates: 1,
             reuse: None,
             integrator: Integrator::Direct,
             budget: SampleBudget::ShadowRays,
@@ -140,6 +148,10 @@ impl Method {
             },
             Self::TwoLevelSaoh => by(TwoLevel, Eq4),
             Self::TwoLevelMoments => by(TwoLevel, Moments),
+            Self::TwoLevelMomentsResampled => Recipe {
+                candidates: DEFAULT_CANDIDATES,
+                ..by(TwoLevel, Moments)
+            },
             Self::Restir => restir(Power, Moments),
             Self::TwoLevelRestir => restir(TwoLevel, Eq4),
             Self::TwoLevelMomentsRestir => restir(TwoLevel, Moments),

@@ -9,6 +9,8 @@
 //! | [`emitters`] | the lights, read through their instances |
 //! | [`area`] | a point on the chosen light, and what it contributes |
 //! | [`pick`] | the choice of a light: the trait, uniform and by power |
+//! | [`candidates`] | one light out of several, by what they would contribute |
+//! | [`numbers`] | the numbers that lights and points on them are drawn by |
 //! | [`pixel`] | all of it together, for one pixel |
 //! | [`lobe`], [`mis`] | directions with a known density; weights of two ways to find a light |
 //! | [`path`] | light along whole paths |
@@ -20,11 +22,13 @@
 
 pub mod area;
 pub mod camera;
+pub mod candidates;
 pub mod emitters;
 pub mod grid;
 pub mod lobe;
 pub mod material;
 pub mod mis;
+pub mod numbers;
 pub mod path;
 pub mod pick;
 pub mod pixel;

@@ -2,9 +2,9 @@
 //! (pbrt-v4, sections 13.2 to 13.4; weights by [`mis`](super::mis)).
 
 use glam::Vec3;
-use lightbvh::ShadingPoint;
 use lightbvh::exact::{div, floor_u32, flush, hash, max, min, unit_f32};
 use lightbvh::vector::{dot, length_squared};
+use lightbvh::{Random64, ShadingPoint};
 
 use super::area::{connect, light_density};
 use super::grid::{STEP, TINY, bounded_product, flush_vector};
@@ -75,7 +75,10 @@ pub fn path_radiance<P: PickLight>(
         alive = bounce < bounces && length_squared(n) > 0.0 && seen.material < scene.materials.len() as u32;
         if alive {
             let material = load_material(scene.materials, seen.material);
-            let picked = picker.pick(&seen.point, hash(random.wrapping_add(RANDOM_LIGHT)));
+            let picked = picker.pick(
+                &seen.point,
+                Random64::from(hash(random.wrapping_add(RANDOM_LIGHT))),
+            );
             if picked.pmf > 0.0 {
                 let light = scene.emitters.light(picked.light, picked.instance);
                 let uv = [draw(random, RANDOM_LIGHT + 1), draw(random, RANDOM_LIGHT + 2)];

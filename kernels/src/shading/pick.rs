@@ -1,14 +1,14 @@
 //! The choice of a light for a shading point.
 
 use lightbvh::exact::pow2;
-use lightbvh::{INVALID, SampledLight, ShadingPoint};
+use lightbvh::{INVALID, Random64, SampledLight, ShadingPoint};
 
 use super::trace::NONE;
 
 /// A way to choose lights.
 pub trait PickLight {
-    /// Chooses a light for `point` with 32 uniformly distributed random bits.
-    fn pick(&self, point: &ShadingPoint, random: u32) -> SampledLight;
+    /// Chooses a light for `point` by a uniformly distributed number.
+    fn pick(&self, point: &ShadingPoint, random: Random64) -> SampledLight;
 
     /// The probability with which [`pick`](Self::pick) returns `light` for `point`: to the bit the pmf that comes with the
     /// light when it is picked, 0 where it never is. `instance` is the light's;
@@ -44,9 +44,9 @@ impl Uniform {
 impl PickLight for Uniform {
     /// Light `floor(r n / 2^24)` for the random number `r`.
     #[inline]
-    fn pick(&self, point: &ShadingPoint, random: u32) -> SampledLight {
+    fn pick(&self, point: &ShadingPoint, random: Random64) -> SampledLight {
         let count = self.pickable();
-        let light = multiply_shift(random >> (32 - RANDOM_BITS), count);
+        let light = multiply_shift(random.high >> (32 - RANDOM_BITS), count);
         SampledLight {
             instance: INVALID,
             light: if count == 0 { NONE } else { light },
@@ -108,9 +108,9 @@ pub struct Power<'a> {
 
 impl PickLight for Power<'_> {
     #[inline]
-    fn pick(&self, point: &ShadingPoint, random: u32) -> SampledLight {
+    fn pick(&self, point: &ShadingPoint, random: Random64) -> SampledLight {
         let entries = self.thresholds.len() as u32;
-        let random = random >> (32 - RANDOM_BITS);
+        let random = random.high >> (32 - RANDOM_BITS);
         let mut low = 0;
         let mut high = if entries > 1 { entries - 1 } else { 1 };
         // thresholds[low] <= random < thresholds[high]; 32 halvings end in one light, whatever the table holds.

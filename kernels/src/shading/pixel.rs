@@ -1,20 +1,24 @@
 //! One pixel: what the camera sees, lit by sampled lights.
 
 use glam::Vec3;
-use lightbvh::exact::{div, hash, recip, sqrt, unit_f32};
+use lightbvh::exact::{div, hash, recip, sqrt};
 use lightbvh::vector::{cross, dot, length_squared};
 use lightbvh::{EmissiveTriangle, Instance, ShadingPoint};
 
 use super::area::{connect, offset_distance};
+use super::candidates::{Candidates, resampled};
 use super::emitters::Emitters;
 use super::grid::{TINY, TINY_AREA, flush_vector};
 use super::material::Material;
+use super::numbers::Numbers;
 use super::pick::PickLight;
 use super::ray::Ray;
+use super::restir::surface::Surface;
+use super::restir::target::{lit, visible, weighted};
 use super::trace::{NONE, RayNode, SurfaceTriangle, Surfaces, any_hit, closest_hit, vertex};
 
-/// Random numbers that one light sample uses.
-const RANDOM_PER_SAMPLE: u32 = 3;
+/// Most candidates of a sample.
+pub const MAX_CANDIDATES: u32 = 1 << 8;
 
 /// Everything that light meets.
 #[derive(Clone, Copy)]
@@ -158,23 +162,40 @@ fn emitted(emitters: &Emitters<'_>, light: u32, instance: u32, front: bool) -> V
 }
 
 /// Estimates the light that `seen` reflects to its viewer: the mean of `samples` lights chosen by `picker`, each with
-/// one point on it and one shadow ray. `seed` chooses the random numbers.
+/// one point on it and one shadow ray. With more than one of `candidates`, at most [`MAX_CANDIDATES`], each is one out of so many
+/// ([`resampled`]). `seed` chooses the random numbers.
 #[inline]
 #[must_use]
-pub fn reflected<P: PickLight>(scene: &Scene<'_>, seen: &Seen, picker: &P, samples: u32, seed: u32) -> Vec3 {
+pub fn reflected<P: PickLight>(
+    scene: &Scene<'_>,
+    seen: &Seen,
+    picker: &P,
+    samples: u32,
+    candidates: u32,
+    seed: u32,
+) -> Vec3 {
+    let sum = if candidates > 1 {
+        one_of_many(scene, seen, picker, samples, candidates, seed)
+    } else {
+        one_by_one(scene, seen, picker, samples, seed)
+    };
+    let count = if samples == 0 { 1 } else { samples };
+    flush_vector(sum * div(1.0, count as i32 as f32), TINY)
+}
+
+/// The sum of samples that are lights as picked.
+#[inline]
+fn one_by_one<P: PickLight>(scene: &Scene<'_>, seen: &Seen, picker: &P, samples: u32, seed: u32) -> Vec3 {
     let n = seen.point.normal();
     let mut sum = Vec3::ZERO;
     if length_squared(n) > 0.0 && seen.material < scene.materials.len() as u32 {
         let material = load_material(scene.materials, seen.material);
+        let numbers = Numbers::of(seed);
         for sample in 0..samples {
-            let random = seed.wrapping_add(sample.wrapping_mul(RANDOM_PER_SAMPLE));
-            let picked = picker.pick(&seen.point, hash(random));
+            let picked = picker.pick(&seen.point, numbers.light(sample, samples));
             if picked.pmf > 0.0 {
                 let light = scene.emitters.light(picked.light, picked.instance);
-                let uv = [
-                    unit_f32(hash(random.wrapping_add(1))),
-                    unit_f32(hash(random.wrapping_add(2))),
-                ];
+                let uv = numbers.uv(sample);
                 let connection = connect(&seen.point, seen.wo, &material, &light, picked.pmf, uv);
                 if connection.contribution.x + connection.contribution.y + connection.contribution.z > 0.0 {
                     let origin = seen.point.position();
@@ -186,8 +207,53 @@ pub fn reflected<P: PickLight>(scene: &Scene<'_>, seen: &Seen, picker: &P, sampl
             }
         }
     }
-    let count = if samples == 0 { 1 } else { samples };
-    flush_vector(sum * div(1.0, count as i32 as f32), TINY)
+    sum
+}
+
+/// The sum of samples that are each one of several candidates.
+#[inline]
+fn one_of_many<P: PickLight>(
+    scene: &Scene<'_>,
+    seen: &Seen,
+    picker: &P,
+    samples: u32,
+    candidates: u32,
+    seed: u32,
+) -> Vec3 {
+    let count = if candidates < MAX_CANDIDATES {
+        candidates
+    } else {
+        MAX_CANDIDATES
+    };
+    let surface = Surface::new(seen, seen.point.position());
+    let mut sum = Vec3::ZERO;
+    if surface.is_lit() && surface.material < scene.materials.len() as u32 {
+        let numbers = Numbers::of(seed);
+        for sample in 0..samples {
+            let which = Candidates {
+                first: sample.wrapping_mul(count),
+                count,
+                all: samples.wrapping_mul(count),
+            };
+            let random = hash(seed.wrapping_add(Numbers::USED + sample));
+            let chosen = resampled(
+                scene.materials,
+                &scene.emitters,
+                picker,
+                &surface,
+                &numbers,
+                which,
+                random,
+            );
+            if chosen.weight > 0.0 {
+                let arriving = lit(scene.materials, &scene.emitters, &surface, &chosen.sample);
+                if visible(&scene.surfaces, &surface, arriving.end, chosen.sample.light) {
+                    sum += weighted(arriving.contribution, chosen.weight);
+                }
+            }
+        }
+    }
+    sum
 }
 
 #[inline]

@@ -62,7 +62,7 @@ fn one_bounce_is_direct_lighting() {
                 count: world.lights.len() as u32,
             };
             for sample in 0..120_000 {
-                let value = reflected(&world.scene(), &seen, &uniform, 1, exact::hash(sample));
+                let value = reflected(&world.scene(), &seen, &uniform, 1, 1, exact::hash(sample));
                 direct.add(f64::from(value.x));
             }
             for (name, mean) in world.each_picker(&ray, 1, 120_000) {

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use lightbvh::{
-    BuildParams, EmissiveTriangle, Instance, LightBvh, Lights, SampledLight, ShadingPoint, exact,
+    BuildParams, EmissiveTriangle, Instance, LightBvh, Lights, Random64, SampledLight, ShadingPoint, exact,
 };
 use lightbvh_host::render::{RayBvh, power_thresholds};
 use lightbvh_kernels::shading::emitters::{Emitters, listed};
@@ -24,7 +24,7 @@ pub const RENDERER_ERROR: f64 = 1e-3;
 pub struct Nothing;
 
 impl PickLight for Nothing {
-    fn pick(&self, _point: &ShadingPoint, _random: u32) -> SampledLight {
+    fn pick(&self, _point: &ShadingPoint, _random: Random64) -> SampledLight {
         SampledLight {
             light: NONE,
             instance: NONE,

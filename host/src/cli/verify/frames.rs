@@ -118,7 +118,9 @@ impl Lane<'_> {
             let (scene, frame) = (step.scene.name(), step.frame);
             format!("{scene} {} frame {frame} {kernel}", recipe.name)
         };
+        // Candidates change the image alone.
         if recipe.is_light_bvh()
+            && recipe.candidates == 1
             && let Some(cpu) = self.cpu.backend()
         {
             let record = cpu.node_record();

@@ -2,18 +2,17 @@
 //! shadows it (visibility reuse, Algorithm 5).
 
 use glam::Vec3;
-use lightbvh::exact::{hash, unit_f32};
-use lightbvh::reservoir::{LightSample, Resampling, Reservoir};
+use lightbvh::exact::hash;
+use lightbvh::reservoir::Reservoir;
 
 use super::super::camera::Camera;
+use super::super::candidates::{Candidates, resampled};
+use super::super::numbers::Numbers;
 use super::super::pick::PickLight;
 use super::super::pixel::{Scene, see};
 use super::surface::Surface;
 use super::target::{lit, visible};
 use super::{INITIAL, PixelReservoir, RestirParams, step_seed};
-
-/// Random numbers that one candidate uses.
-const RANDOM_PER_CANDIDATE: u32 = 4;
 
 /// What pixel `index` sees: the same point for every seed.
 #[inline]
@@ -51,22 +50,20 @@ pub fn first_reservoir<P: PickLight>(
     };
     if surface.is_lit() {
         let seed = step_seed(params, index, INITIAL);
-        let mut stream = Resampling::EMPTY;
-        for candidate in 0..params.candidates {
-            let random = seed.wrapping_add(candidate.wrapping_mul(RANDOM_PER_CANDIDATE));
-            let picked = picker.pick(&surface.point, hash(random));
-            let sample = LightSample {
-                light: picked.light,
-                instance: picked.instance,
-                uv: [
-                    unit_f32(hash(random.wrapping_add(1))),
-                    unit_f32(hash(random.wrapping_add(2))),
-                ],
-            };
-            let arriving = lit(scene.materials, &scene.emitters, surface, &sample);
-            stream.candidate(sample, arriving.target, picked.pmf, hash(random.wrapping_add(3)));
-        }
-        found.reservoir = stream.finish_equal();
+        let which = Candidates {
+            first: 0,
+            count: params.candidates,
+            all: params.candidates,
+        };
+        found.reservoir = resampled(
+            scene.materials,
+            &scene.emitters,
+            picker,
+            surface,
+            &Numbers::of(seed),
+            which,
+            hash(seed.wrapping_add(Numbers::USED)),
+        );
         if found.reservoir.weight > 0.0 {
             let sample = found.reservoir.sample;
             let end = lit(scene.materials, &scene.emitters, surface, &sample).end;

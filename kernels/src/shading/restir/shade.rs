@@ -2,16 +2,11 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use lightbvh::exact::{flush, min, pow2};
 
-use super::super::grid::TINY;
 use super::super::pixel::Scene;
 use super::surface::Surface;
-use super::target::{lit, visible};
+use super::target::{lit, visible, weighted};
 use super::{PixelReservoir, RestirParams};
-
-/// Contributions count as at most this, W/(m² sr), so that their product with any weight is finite.
-const MAX_CONTRIBUTION: f32 = pow2(60);
 
 /// A pixel of the image; 16 bytes.
 #[repr(C)]
@@ -46,9 +41,7 @@ pub fn shade(
             seen = visible(&scene.surfaces, surface, arriving.end, sample.light);
         }
         if seen {
-            let w = last.reservoir.weight;
-            let c = arriving.contribution;
-            reflected = Vec3::new(weighted(c.x, w), weighted(c.y, w), weighted(c.z, w));
+            reflected = weighted(arriving.contribution, last.reservoir.weight);
         }
         if !seen && params.drops_occluded != 0 {
             kept.reservoir = last.reservoir.occluded();
@@ -63,9 +56,4 @@ pub fn shade(
         shadow_rays: kept.shadow_rays,
     };
     (shaded, kept)
-}
-
-#[inline]
-fn weighted(contribution: f32, weight: f32) -> f32 {
-    flush(min(contribution, MAX_CONTRIBUTION) * weight, TINY)
 }

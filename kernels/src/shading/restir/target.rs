@@ -1,15 +1,20 @@
 //! p̂, the target that samples are resampled by: the luminance of the unshadowed contribution (ReSTIR section 3).
 
 use glam::Vec3;
+use lightbvh::exact::{flush, min, pow2};
 use lightbvh::reservoir::{LightSample, target};
 
 use super::super::area::{connect, luminance};
 use super::super::emitters::Emitters;
+use super::super::grid::TINY;
 use super::super::material::Material;
 use super::super::pixel::load_material;
 use super::super::ray::Ray;
 use super::super::trace::{NONE, Surfaces, any_hit};
 use super::surface::Surface;
+
+/// Contributions count as at most this, W/(m² sr), so that their product with any weight is finite.
+const MAX_CONTRIBUTION: f32 = pow2(60);
 
 /// What a light sample contributes to a surface if nothing is between.
 #[derive(Clone, Copy, Debug)]
@@ -57,4 +62,15 @@ pub fn visible(surfaces: &Surfaces<'_>, surface: &Surface, end: Vec3, light: u32
     let origin = surface.point.position();
     let ray = Ray::new(origin, end - origin, 1.0);
     !any_hit(surfaces, &ray, light)
+}
+
+/// A contribution times a reservoir's weight, by components.
+#[inline]
+#[must_use]
+pub fn weighted(contribution: Vec3, weight: f32) -> Vec3 {
+    Vec3::new(
+        flush(min(contribution.x, MAX_CONTRIBUTION) * weight, TINY),
+        flush(min(contribution.y, MAX_CONTRIBUTION) * weight, TINY),
+        flush(min(contribution.z, MAX_CONTRIBUTION) * weight, TINY),
+    )
 }

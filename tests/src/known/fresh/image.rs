@@ -92,6 +92,7 @@ pub fn image() -> (&'static str, Vec<Table>) {
         width: SIZE,
         height: SIZE,
         samples: 2,
+        candidates: 1,
         seed: 1,
         jitter: 7,
         background: [0.02, 0.03, 0.05],
@@ -108,7 +109,7 @@ pub fn image() -> (&'static str, Vec<Table>) {
     let tables = vec![
         array(
             "params",
-            "width height samples seed jitter background[3]",
+            "width height samples candidates seed jitter background[3]",
             &[params],
         ),
         array(
