@@ -1,22 +1,20 @@
 //! The self-test: known answers that tell whether a device's arithmetic is the CPU's.
 //!
 //! The host runs this kernel before any other, calls the same function on the CPU and compares word by word. Each
-//! word stands for one defect ([`CHECKS`]); a device with a differing word that counts is named with that defect
+//! word stands for one defect (`lightbvh_gpu::self_test::CHECKS`); a device with a differing word that counts is named with that defect
 //! and never called exact. Words that do not count describe freedoms which Vulkan leaves to every device and which
 //! shared code never leans on (denormals, the sign of zero, wide integer conversions): they are reported only.
 //!
-//! One invocation takes one triple of operands and writes [`CHECKS`]`.len()` words. The operands come from a buffer
+//! One invocation takes one triple of operands and writes [`CHECK_COUNT`] words. The operands come from a buffer
 //! ([`operands`] makes the standard set on the host), so that no compiler on the way can compute the answers ahead.
 //!
 //! What a word can reveal, and what it cannot: the operations here are the ones the rules for shared code permit, on
 //! operands that make contraction, re-association and another rounding mode change the result. Equal words do not
 //! prove a driver right in every expression; the comparison of whole results (`lightbvh verify`) goes beyond this.
 
-mod checks;
 #[cfg(not(target_arch = "spirv"))]
 mod operands;
 
-pub use checks::{CHECK_COUNT, CHECKS, Check};
 #[cfg(not(target_arch = "spirv"))]
 pub use operands::operands;
 
@@ -25,6 +23,9 @@ use bytemuck::{Pod, Zeroable};
 use glam::UVec3;
 use lightbvh::exact;
 use spirv_std::spirv;
+
+/// Words per operand triple.
+pub const CHECK_COUNT: u32 = 38;
 
 /// Three operands as `f32` bit patterns, so that loading them changes no bit.
 #[repr(C)]
@@ -46,7 +47,7 @@ pub struct SelfTestPush {
     pub count: u32,
 }
 
-/// Writes the answers for triple `i` to `answers[i * CHECK_COUNT ..][.. CHECK_COUNT]`, in the order of [`CHECKS`].
+/// Writes the answers for triple `i` to `answers[i * CHECK_COUNT ..][.. CHECK_COUNT]`, in the order of `lightbvh_gpu::self_test::CHECKS`.
 #[spirv(compute(threads(64), entry_point_name = "self_test"))]
 pub fn self_test(
     #[spirv(global_invocation_id)] id: UVec3,

@@ -4,11 +4,14 @@
 //! - `cargo run -p lightbvh-tests --example known_answers -- overwrite-answers`: new answers to the inputs that are there.
 //! - `cargo run -p lightbvh-tests --example known_answers -- overwrite-inputs FILE...`: new inputs too, of the files named
 //!   (without folder and ending), or of `all`.
+//! - `cargo run -p lightbvh-tests --example known_answers -- overwrite-self-test`: the answers that `lightbvh-gpu` carries.
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use lightbvh::node::NODE_FORMAT;
 use lightbvh_tests::known::{FILES, File, Subject, answer, changes_to_bits, fresh};
+use lightbvh_tests::self_test;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -20,8 +23,11 @@ fn main() -> ExitCode {
     {
         ["overwrite-answers"] => overwrite_answers(),
         ["overwrite-inputs", names @ ..] if !names.is_empty() => overwrite_inputs(names),
+        ["overwrite-self-test"] => overwrite_self_test(),
         _ => {
-            eprintln!("say `overwrite-answers`, or `overwrite-inputs` and names of files or `all`");
+            eprintln!(
+                "say `overwrite-self-test`, `overwrite-answers`, or `overwrite-inputs` and names of files or `all`"
+            );
             ExitCode::FAILURE
         }
     }
@@ -57,6 +63,19 @@ fn overwrite_inputs(names: &[&str]) -> ExitCode {
         }
     }
     ExitCode::SUCCESS
+}
+
+fn overwrite_self_test() -> ExitCode {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("..")
+        .join(self_test::FILE);
+    match std::fs::write(&path, self_test::words()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{}: {error}", path.display());
+            ExitCode::FAILURE
+        }
+    }
 }
 
 fn write(file: &File, subject: Subject) {

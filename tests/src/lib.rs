@@ -10,6 +10,7 @@ pub mod known;
 pub mod layouts;
 pub mod oracle;
 pub mod placing;
+pub mod self_test;
 pub mod slowed;
 pub mod soup;
 pub mod statistics;

@@ -10,6 +10,7 @@ use lightbvh_kernels::bvh::{Choice, Paper, Standard, WIDTH};
 use lightbvh_tests::devices::on_each_device;
 use lightbvh_tests::known::tree::{Tree, light_of};
 use lightbvh_tests::known::{FILES, File, Subject, answer, answer_on, changes_to_bits, stated_node_format};
+use lightbvh_tests::self_test;
 
 /// How a difference is to be taken.
 const ADVICE: &str = "Results have changed. If that is wanted: an entry under \"Changes to bits\" in CHANGELOG.md, then \
@@ -26,6 +27,15 @@ fn the_cpu_reproduces_every_word() {
         differences.extend(lines);
     }
     assert!(differences.is_empty(), "{}\n{ADVICE}", differences.join("\n"));
+}
+
+#[test]
+fn the_self_test_that_engines_run_has_the_answers_of_this_build() {
+    let words = self_test::words();
+    let (operands, answers) = words.split_at(lightbvh_gpu::self_test::operands().len());
+    assert_eq!(lightbvh_gpu::self_test::operands(), operands);
+    assert_eq!(answers.len(), lightbvh_gpu::self_test::ANSWERS_BYTES);
+    assert_eq!(lightbvh_gpu::self_test::defect(answers), None, "{ADVICE}");
 }
 
 #[test]

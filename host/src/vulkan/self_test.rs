@@ -4,7 +4,8 @@ use super::device::Device;
 use super::error::VulkanError;
 use super::pass::Pass;
 use glam::UVec3;
-use lightbvh_kernels::self_test::{CHECKS, Operands, SelfTestPush, operands, self_test};
+use lightbvh_gpu::self_test::CHECKS;
+use lightbvh_kernels::self_test::{Operands, SelfTestPush, operands, self_test};
 use serde::Serialize;
 use std::fmt;
 

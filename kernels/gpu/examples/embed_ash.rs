@@ -19,7 +19,7 @@ use common::pipeline::Pipeline;
 use common::words::compare;
 use common::world::{World, points};
 use lightbvh::{LightBvh, Random64, SampledLight};
-use lightbvh_gpu::{Buffer as Array, Frame, MOMENTS, Mirror, Pass, Query, query_push};
+use lightbvh_gpu::{Buffer as Array, Frame, MOMENTS, Mirror, Pass, Query, query_push, self_test};
 
 const FRAMES: u16 = 20;
 const QUERIES: u32 = 10_000;
@@ -151,8 +151,25 @@ fn kernel(gpu: &Rc<Gpu>, kernel: &lightbvh_gpu::Kernel) -> Result<Pipeline> {
     Pipeline::new(gpu, &kernel.words(), kernel.name, names, push, width)
 }
 
+/// Does the device calculate exactly? An engine asks once for each device and driver.
+fn check(gpu: &Rc<Gpu>) -> Result<()> {
+    let operands = Buffer::staged(gpu, self_test::operands())?;
+    let answers = Buffer::storage(gpu, self_test::ANSWERS_BYTES as u64)?;
+    let back = Buffer::staging(gpu, answers.bytes)?;
+    let kernel = kernel(gpu, &self_test::SELF_TEST)?;
+    kernel.bind(|name| if name == "operands" { &operands } else { &answers });
+    gpu.run(|commands| {
+        kernel.dispatch(commands, &self_test::PUSH, self_test::INVOCATIONS);
+        gpu.barrier(commands);
+        answers.copy_to(commands, 0, &back, 0, answers.bytes);
+        gpu.barrier(commands);
+    })?;
+    Ok(self_test::defect(&back.read()?).map_or(Ok(()), Err)?)
+}
+
 /// Runs all frames on one device. Returns how many words were compared.
 fn run(gpu: &Rc<Gpu>) -> Result<u64> {
+    check(gpu)?;
     let mut world = World::new()?;
     let mut lights = DeviceLights::new(gpu)?;
     let mut words = 0;

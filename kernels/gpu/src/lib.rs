@@ -16,6 +16,8 @@ mod memory_model;
 mod query;
 mod refit;
 #[cfg(feature = "kernels")]
+pub mod self_test;
+#[cfg(feature = "kernels")]
 mod set;
 // For the kernels' builder and the host.
 #[doc(hidden)]
@@ -31,6 +33,7 @@ pub use query::{Query, query_push};
 pub use refit::{Dispatch, Pass, Refit};
 #[cfg(feature = "kernels")]
 pub use set::{EQ4, KernelSet, MOMENTS};
+pub use spirv::ModuleError;
 #[cfg(feature = "kernels")]
 #[doc(inline)]
 pub use table::{KERNELS, LIGHT_POINTS};

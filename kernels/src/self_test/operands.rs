@@ -119,9 +119,10 @@ fn hash(x: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::self_test::{CHECK_COUNT, CHECKS, SelfTestPush, self_test};
+    use crate::self_test::{CHECK_COUNT, SelfTestPush, self_test};
     use glam::UVec3;
     use lightbvh::exact;
+    use lightbvh_gpu::self_test::CHECKS;
 
     fn answers(set: &[Operands]) -> Vec<u32> {
         let push = SelfTestPush {

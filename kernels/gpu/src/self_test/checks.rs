@@ -1,6 +1,6 @@
 //! What each word of the self-test means.
 
-/// The meaning of one answer word.
+/// The meaning of one answer of the [self-test](super).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Check {
     /// Short name, for tables and JSON.
@@ -10,9 +10,6 @@ pub struct Check {
     /// Whether a difference forbids calling the device exact.
     pub counts: bool,
 }
-
-/// Words per operand triple.
-pub const CHECK_COUNT: u32 = 38;
 
 const fn counted(name: &'static str, defect: &'static str) -> Check {
     Check {
@@ -34,8 +31,8 @@ const CONTRACTS: &str = "fuses a product and a sum into one rounding (contractio
 const RE_ASSOCIATES: &str = "rearranges sums or products as if they were not rounded (re-association)";
 const ROUNDS: &str = "does not round to nearest, ties to even";
 
-/// The answer words in the order in which the kernel writes them.
-pub const CHECKS: [Check; CHECK_COUNT as usize] = [
+/// The answers to three operands in the order in which the kernel writes them.
+pub const CHECKS: [Check; 38] = [
     counted("multiply_add", CONTRACTS),
     counted("multiply_subtract", CONTRACTS),
     counted("negated_multiply_add", CONTRACTS),
