@@ -23,7 +23,9 @@ use crate::node::{DefaultNode, LightNode};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Swap {
-    /// In the frame that is due or the first one after it that finds the worker done; never waits.
+    /// In the frame that is due or the first one after it that finds the worker done; never waits. Where frames are shorter than a
+    /// rebuild, the top level grows by one node in depth with each batch of added instances until then, and samples get slower: four
+    /// times at 21 levels, where 2,000 lamps of which 20 come and 20 go in every frame need 6.
     #[default]
     WhenReady,
     /// In the very frame that is due, waiting for the worker if it is not done: trees depend on the edits alone, never on
@@ -31,7 +33,7 @@ pub enum Swap {
     Deterministic,
 }
 
-/// How a [`Rebuilder`] works.
+/// How a [`Rebuilder`] works. By default due after 1 frame, [`Swap::WhenReady`], [`RebuildParams`]'s defaults.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RebuilderParams {
     /// Frames from the end of the one that starts a rebuild to the start of the one in which it is due, at least 1; 0 is

@@ -85,7 +85,7 @@ impl<'a, N, I, const W: usize> LightTree<'a, N, I, W> {
     /// Indices out of range give a path that leads elsewhere; no access is out of range.
     #[inline]
     #[must_use]
-    pub fn path_of(&self, triangle: u32, instance: u32) -> Path {
+    pub(crate) fn path_of(&self, triangle: u32, instance: u32) -> Path {
         if instance < self.instances.len() as u32 {
             Path {
                 top: self.instances[instance as usize].trail(),

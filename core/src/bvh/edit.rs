@@ -98,7 +98,8 @@ pub enum Edit {
         /// At least one.
         triangles: Vec<EmissiveTriangle>,
     },
-    /// A mesh put into the world.
+    /// A mesh put into the world. Costs as much as all instances together, but once for a batch: see
+    /// [`apply`](crate::Bvh::apply).
     AddInstance {
         /// Which mesh; [`MeshId::added`] for one that the same batch adds.
         mesh: MeshId,

@@ -102,7 +102,10 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// Numbers of lights that are no more, until [`take_removed_lights`](Self::take_removed_lights), in the order in which they went;
     /// ranges do not overlap but for the first of those below. Every other light keeps its number. A temporal method replaces each
     /// [`Reservoir`](crate::reservoir::Reservoir) of such a light by its [`occluded`](crate::reservoir::Reservoir::occluded): the
-    /// light sends nothing any more, but the samples that it stands for still count; an empty reservoir in its place is biased.
+    /// light sends nothing any more, but the samples that it stands for still count; an empty reservoir in its place is biased. Its
+    /// sample still names the light: a weight of 0 says not to look it up. In a frame: [`apply`](Self::apply), take the removed lights,
+    /// replace their reservoirs, then resample; old surfaces are asked for old lights, so copies of the last frame's
+    /// [`triangles`](Self::triangles) and [`instances`](Self::instances) are kept for [`world_light`](crate::refit::world_light).
     ///
     /// No new light gets such a number before it is taken. The exception keeps numbers from running out where they never are: once more
     /// than 65,536 wait, and more than there are lights, all of them are free, and the first range is that of every number there was.
@@ -112,7 +115,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     /// Takes the [numbers of lights that are no more](Self::removed_lights) since they were taken last. From now on new lights may
-    /// get them.
+    /// get them. An engine that keeps no numbers over frames calls this too, for what it leaves waits in memory and in files: 16 bytes
+    /// for each removed instance, up to the limit above.
     pub fn take_removed_lights(&mut self) -> Vec<Range<u32>> {
         let removed = core::mem::take(&mut self.removed_lights);
         let given_back = usize::from(core::mem::take(&mut self.forgotten));

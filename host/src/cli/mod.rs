@@ -48,7 +48,8 @@ enum Command {
     Demo(demo::Args),
     /// Render a frame of a scene.
     Render(render::Args),
-    /// Compare refit, sample, pmf, render and ReSTIR on every device with the CPU, word for word.
+    /// Compare refit, sample, pmf, render and ReSTIR on every device with the CPU, word for word. Without a device there is
+    /// nothing to compare: a note says so, or with LIGHTBVH_REQUIRE_VULKAN=1 an error.
     Verify(verify::Args),
     /// Time build, refit, sample and pmf, and measure what accuracy costs.
     Bench(bench::Args),

@@ -24,6 +24,8 @@ const WARM_UP: u32 = 8;
 const SEQUENCE: SequenceId = 0;
 /// Most final samples of ReSTIR per pixel: each keeps a history of its own, about 80 bytes per pixel.
 const MAX_HISTORIES: u32 = 64;
+/// Most reflections of a path.
+const DEFAULT_BOUNCES: u32 = 8;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -61,9 +63,9 @@ pub(super) struct Args {
     /// Light reflected once, or along whole paths.
     #[arg(long, value_enum, default_value_t = IntegratorName::Direct)]
     integrator: IntegratorName,
-    /// Most reflections of a path, 1 to 64, with --integrator path; 1 is direct lighting.
-    #[arg(long, default_value_t = 8)]
-    bounces: u32,
+    /// Most reflections of a path, 1 to 64, with --integrator path; 1 is direct lighting [default: 8].
+    #[arg(long)]
+    bounces: Option<u32>,
     /// What lights of a BVH are chosen by: moments, or the paper's Eq. 4 [default: that of the sampler].
     #[arg(long, value_enum)]
     importance: Option<Importance>,
@@ -94,7 +96,7 @@ enum IntegratorName {
     Path,
 }
 
-#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+#[derive(PartialEq, Clone, Copy, Debug, clap::ValueEnum)]
 enum BackendName {
     Cpu,
     Vulkan,
@@ -119,30 +121,40 @@ fn recipe(args: &Args) -> Result<Recipe, HostError> {
         }
         recipe.reuse = Some(combination);
     }
+    let usage = |option, needs| Err(HostError::Usage { option, needs });
     if let Some(candidates) = args.candidates {
-        if recipe.reuse.is_some() || args.integrator == IntegratorName::Path {
-            return Err(HostError::Usage {
-                option: "--candidates",
-                needs: "--integrator direct and a --sampler without ReSTIR",
-            });
+        if recipe.reuse.is_some() {
+            return usage("--candidates", "a --sampler without ReSTIR");
         }
         recipe.candidates = candidates;
     }
     if args.integrator == IntegratorName::Path {
         if recipe.reuse.is_some() {
-            return Err(HostError::Usage {
-                option: "--integrator path",
-                needs: "a --sampler without ReSTIR",
-            });
+            return usage("--integrator path", "a --sampler without ReSTIR");
         }
-        let bounces = args.bounces;
-        recipe.integrator = Integrator::Path { bounces };
+        if recipe.candidates > 1 {
+            return usage(
+                "--integrator path",
+                "a --sampler without candidates, and no --candidates",
+            );
+        }
+        recipe.integrator = Integrator::Path {
+            bounces: args.bounces.unwrap_or(DEFAULT_BOUNCES),
+        };
+    } else if args.bounces.is_some() {
+        return usage("--bounces", "--integrator path");
     }
     Ok(recipe)
 }
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     let recipe = recipe(args)?;
+    if context.device.is_some() && args.backend == BackendName::Cpu {
+        return Err(HostError::Usage {
+            option: "--device",
+            needs: "--backend vulkan",
+        });
+    }
     let (most, of, default) = match recipe.reuse {
         None => (65_536, "", 16),
         Some(_) => (MAX_HISTORIES, " with ReSTIR", 1),
@@ -155,7 +167,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             of,
             ..given("--spp", samples, 1..=most.into())
         },
-        given("--bounces", args.bounces, 1..=MAX_BOUNCES.into()),
+        given("--bounces", args.bounces.unwrap_or(1), 1..=MAX_BOUNCES.into()),
         given("--candidates", recipe.candidates, 1..=MAX_CANDIDATES.into()),
     ])?;
     let scene = Scene::open(&args.scene)?;

@@ -20,12 +20,12 @@ use crate::words::{Field, Record};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, clap::ValueEnum, strum::IntoStaticStr)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Combination {
-    /// The expectation is the direct light (under the conditions in [`lightbvh_kernels::shading::restir`]); one shadow ray
-    /// for each reservoir merged.
+    /// The expectation is the direct light; one shadow ray for each reservoir merged.
+    // Under the conditions in `lightbvh_kernels::shading::restir`.
     Unbiased,
     /// Biased: darker where pixels that reuse each other's samples do not see the same lights; two shadow rays in all.
-    /// Measured: 6 % of the light of the scene `street` is missing (`tests/tests/restir_error.rs`), a quarter in a scene
-    /// made of penumbrae (`restir_unbiased.rs`).
+    /// Measured: 6 % of the light of the scene `street` is missing, a quarter in a scene made of penumbrae.
+    // `tests/tests/restir_error.rs`, `restir_unbiased.rs`.
     Biased,
 }
 
