@@ -99,7 +99,10 @@ pub struct Bvh<N, I, const W: usize> {
     live: Vec<u32>,
     lights: Ranges,
     top: Top,
-    work: RefitPlan,
+    /// The lists of the last plan.
+    planned: RefitPlan,
+    /// Those of the last refit, where they are others.
+    done: Option<RefitPlan>,
     changes: changes::Changes,
     /// Numbers of lights that are no more, not yet taken by the caller nor given again.
     removed_lights: Vec<Range<u32>>,
@@ -163,7 +166,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             live: Vec::new(),
             lights: Ranges::default(),
             top: Top::default(),
-            work: RefitPlan::default(),
+            planned: RefitPlan::default(),
+            done: None,
             changes: changes::Changes::default(),
             removed_lights: Vec::new(),
             waiting_lights: 0,

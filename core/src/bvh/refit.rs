@@ -63,9 +63,10 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         self.changes.unrefitted.join(new.clone());
         told.join(new);
         self.bound_changes();
-        self.work = self.gather(told);
+        self.planned = self.gather(told);
+        self.done = None;
         self.changes.is_fresh = is_whole;
-        &self.work
+        &self.planned
     }
 
     /// A refit of everything, for a mirror that has just taken all arrays over.
@@ -88,10 +89,12 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         let mut pending = core::mem::take(&mut self.changes.unrefitted);
         let is_listed = self.changes.is_fresh && new.is_empty();
         self.changes.is_fresh = false;
+        // A mirror that follows without plans takes the lists of refits.
+        let is_told = !self.changes.is_planned && !new.is_empty();
         if self.changes.is_planned {
             self.changes.unplanned.join(new.clone());
         } else {
-            self.changes.plans += u64::from(!new.is_empty());
+            self.changes.plans += u64::from(is_told);
         }
         self.bound_changes();
         pending.join(new);
@@ -100,7 +103,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             self.blases[blas as usize].changed = self.epoch + 1;
         }
         let work = if is_listed {
-            core::mem::take(&mut self.work)
+            core::mem::take(&mut self.planned)
         } else {
             self.gather(pending)
         };
@@ -118,13 +121,26 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 &work.top.nodes()[range],
             );
         }
-        self.work = work;
+        // The lists of the last plan stay, for mirrors that follow it later.
+        if is_listed || is_told {
+            self.planned = work;
+            self.done = None;
+        } else {
+            self.done = Some(work);
+        }
     }
 
     /// The last lists: what the last [`plan`](Self::plan) said, or the last [`refit`](Self::refit) did.
     #[must_use]
     pub fn work(&self) -> &RefitPlan {
-        &self.work
+        self.done.as_ref().unwrap_or(&self.planned)
+    }
+
+    /// The lists of the plan that [`last_plan`](Self::last_plan) numbers, whatever was refitted since.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn planned(&self) -> &RefitPlan {
+        &self.planned
     }
 
     /// By what mirrors tell plans apart: the number of this BVH, and that of its last plan; and whether that plan says all.

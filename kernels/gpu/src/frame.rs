@@ -74,7 +74,7 @@ impl Mirror {
             none = RefitPlan::default();
             &none
         } else {
-            bvh.work()
+            bvh.planned()
         };
         let mut frame = Frame {
             refit: Refit::new(work),

@@ -212,6 +212,47 @@ fn a_device_follows_a_scene_that_is_never_refitted_itself() {
     }
 }
 
+/// Refits on the CPU between a plan and those who follow it, or before the plan, or none: all the same.
+#[test]
+fn refits_at_any_time_leave_a_plan_whole() {
+    let mut scene = Bvh::<MomentNode<4>, (), 4>::default();
+    let (mut devices, mut ids) = (<[Device; 2]>::default(), Default::default());
+    edit(&mut scene, &mut ids, 0);
+    let mut random = 1_u32;
+    let mut next = |below: u32| {
+        random = random.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+        (random >> 16) % below
+    };
+    for frame in 0..400 {
+        // Frames 0 to 99 are those of mirrors that follow without any plan.
+        let plans = frame >= 100;
+        for _ in 0..next(3) {
+            for _ in 0..next(2) {
+                edit(&mut scene, &mut ids, next(30));
+            }
+            for _ in 0..next(3) {
+                scene.refit();
+            }
+        }
+        if plans {
+            scene.plan();
+        } else {
+            scene.refit();
+        }
+        for device in &mut devices {
+            for _ in 0..next(3) {
+                scene.refit();
+            }
+            if next(4) > 0 {
+                device.follow(&scene);
+                let mut twin = scene.clone();
+                twin.refit();
+                device.assert_is(&twin, frame);
+            }
+        }
+    }
+}
+
 /// The copy that a rebuild takes has the CPU's roots, which only a device has refitted since.
 #[test]
 fn a_rebuild_swapped_in_reaches_a_device_that_alone_refits() {
