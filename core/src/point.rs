@@ -20,7 +20,7 @@ pub const MAX_REACH: f32 = exact::pow2(60);
 pub struct ShadingPoint {
     /// Position, metres, magnitude at most 2^40 ([`ShadingPoint::checked`]).
     pub p: [f32; 3],
-    /// Unit normal of an opaque surface, its length within 2^-8 of 1: only light from its side counts. Zero for a point in a
+    /// Unit normal of an opaque surface, its squared length within 2^-7 of 1: only light from its side counts. Zero for a point in a
     /// volume, which receives from everywhere.
     pub n: [f32; 3],
 }

@@ -196,8 +196,8 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
     }
 
     /// Starts the next rebuild, unless one is under way or there is nothing to build. Comes after the frame's
-    /// [`Bvh::refit`]. What it copies takes time in proportion to the instances and to the meshes deformed since the last rebuild
-    /// started.
+    /// [`Bvh::refit`]. Takes time in proportion to the meshes, to the instances if the top level is rebuilt, and to the triangles of
+    /// the meshes deformed since the last rebuild started.
     pub fn end_frame<I>(&mut self, scene: &Bvh<N, I, W>) {
         let now = scene.now();
         if self.flight.is_some() || self.taken == Some(now) {

@@ -5,6 +5,7 @@ use crate::importance::ImportanceModel;
 use crate::node::LightNode;
 use crate::point::ShadingPoint;
 use crate::traverse::{Random64, SampledLight};
+use crate::tree::INVALID;
 #[cfg(doc)]
 use crate::tree::LightTree;
 
@@ -36,7 +37,8 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
     }
 
     /// Probability with which [`sample`](Self::sample) returns `light` of `instance`, as a [`SampledLight`] names them, at `point`:
-    /// to the bit the one that comes with the sample. 0 where there is no such light.
+    /// to the bit the one that comes with the sample. 0 where there is no such light. A single level has one instance, whichever is
+    /// named.
     ///
     /// For multiple importance sampling, where a ray of the caller's hits triangle `k` of an instance's mesh, the light is
     /// [`lights_of`](Self::lights_of)`(id).start + k`, and the instance `id.index()`.
@@ -46,6 +48,8 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
             point.is_within_reach(),
             "not a shading point: {point:?}; `ShadingPoint::checked` says why"
         );
-        self.tree().pmf(point, light, instance)
+        let tree = self.tree();
+        let instance = if tree.live > 0 { instance } else { INVALID };
+        tree.pmf(point, light, instance)
     }
 }

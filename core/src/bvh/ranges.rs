@@ -1,6 +1,6 @@
 //! Ranges of an index space that grows: handed out first fit, taken back and joined.
 
-use alloc::collections::BTreeMap;
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -9,6 +9,8 @@ use core::ops::Range;
 pub(super) struct Ranges {
     /// Length by start; no two touch.
     free: BTreeMap<u32, u32>,
+    /// Length and start of the same.
+    by_length: BTreeSet<(u32, u32)>,
     end: u32,
 }
 
@@ -19,14 +21,14 @@ impl Ranges {
         used.retain(|range| !range.is_empty());
         used.sort_unstable_by_key(|range| range.start);
         let mut ranges = Self {
-            free: BTreeMap::new(),
             end,
+            ..Self::default()
         };
         let mut start = 0;
         for range in used.into_iter().chain(core::iter::once(end..end)) {
             let gap = range.start.checked_sub(start)?;
             if gap > 0 {
-                ranges.free.insert(start, gap);
+                ranges.insert(start, gap);
             }
             start = range.end;
         }
@@ -38,13 +40,24 @@ impl Ranges {
         self.end
     }
 
-    /// Takes `count` indices without a gap: the first that fit, so that equal edits get equal indices.
+    /// Takes `count` indices without a gap: the first that fit, so that equal edits get equal indices. Looks at one free range
+    /// of each length that there is: few, and never more than the root of twice the indices.
     pub fn take(&mut self, count: u32) -> Range<u32> {
-        let fit = self.free.iter().find(|&(_, &length)| length >= count);
-        if let Some((&start, &length)) = fit {
-            self.free.remove(&start);
+        if count == 0 {
+            return 0..0;
+        }
+        let mut first: Option<(u32, u32)> = None;
+        let mut least = count;
+        while let Some(&(length, start)) = self.by_length.range((least, 0)..).next() {
+            if first.is_none_or(|(found, _)| start < found) {
+                first = Some((start, length));
+            }
+            least = length + 1;
+        }
+        if let Some((start, length)) = first {
+            self.remove(start);
             if length > count {
-                self.free.insert(start + count, length - count);
+                self.insert(start + count, length - count);
             }
             start..start + count
         } else {
@@ -56,7 +69,7 @@ impl Ranges {
                 .map(|(&start, &length)| (start, length));
             let start = match last {
                 Some((start, length)) if start + length == self.end => {
-                    self.free.remove(&start);
+                    self.remove(start);
                     start
                 }
                 _ => self.end,
@@ -74,14 +87,24 @@ impl Ranges {
         let (mut start, mut length) = (range.start, range.end - range.start);
         let before = self.free.range(..start).next_back();
         if let Some((&before, &size)) = before.filter(|&(before, size)| before + size == start) {
-            self.free.remove(&before);
+            self.remove(before);
             start = before;
             length += size;
         }
-        if let Some(size) = self.free.remove(&range.end) {
-            length += size;
-        }
+        length += self.remove(range.end);
+        self.insert(start, length);
+    }
+
+    fn insert(&mut self, start: u32, length: u32) {
         self.free.insert(start, length);
+        self.by_length.insert((length, start));
+    }
+
+    /// Returns the length of the free range that begins there: 0 if none does.
+    fn remove(&mut self, start: u32) -> u32 {
+        let length = self.free.remove(&start).unwrap_or(0);
+        self.by_length.remove(&(length, start));
+        length
     }
 }
 
@@ -103,6 +126,38 @@ mod tests {
         ranges.give(0..2);
         ranges.give(2..11);
         assert_eq!(ranges.take(11), 0..11);
+    }
+
+    /// The same as a search from the first index on, and no search at all where a million holes are too small.
+    #[test]
+    fn the_first_that_fit() {
+        let mut ranges = Ranges::default();
+        let mut used: Vec<bool> = Vec::new();
+        let mut held: Vec<Range<u32>> = Vec::new();
+        for i in 0..4000 {
+            let random = crate::exact::hash(i);
+            if random % 5 < 2 && !held.is_empty() {
+                let range = held.swap_remove(random as usize / 8 % held.len());
+                used[range.start as usize..range.end as usize].fill(false);
+                ranges.give(range);
+            } else {
+                let count = 1 + (random >> 8) % 9;
+                let fits = |start: u32| {
+                    (start..start + count).all(|at| !used.get(at as usize).is_some_and(|&used| used))
+                };
+                let first = (0..).find(|&start| fits(start)).expect("at the end");
+                let range = ranges.take(count);
+                assert_eq!(range, first..first + count);
+                used.resize(used.len().max(range.end as usize), false);
+                used[range.start as usize..range.end as usize].fill(true);
+                held.push(range);
+            }
+            assert_eq!(ranges.free.len(), ranges.by_length.len());
+        }
+        let mut ranges = Ranges::default();
+        ranges.take(2_000_000);
+        (0..1_000_000).for_each(|i| ranges.give(2 * i..2 * i + 1));
+        (0..1_000_000).for_each(|i| assert_eq!(ranges.take(2).start, 2_000_000 + 2 * i));
     }
 
     #[test]
