@@ -245,3 +245,123 @@ fn a_mesh_says_its_triangles() {
     assert_eq!(bvh.mesh_triangles(second).expect("there")[1].p, lamp(0).p);
     assert_eq!(bvh.clone().mesh_triangles(second), None, "an id of another");
 }
+
+/// What comes in the place of what went has another id; the old one stays refused.
+#[test]
+fn an_id_is_never_given_twice() {
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(vec![lamp(0)]).expect("a mesh");
+    let (mut meshes, mut instances) = (vec![mesh], Vec::new());
+    for round in 0..5 {
+        let instance = bvh
+            .add_instance(*meshes.last().unwrap(), Transform::IDENTITY)
+            .expect("there");
+        assert!(!instances.contains(&instance), "{round}");
+        bvh.remove_instance(instance).expect("there");
+        bvh.remove_mesh(*meshes.last().unwrap()).expect("unused");
+        instances.push(instance);
+        let mesh = bvh.add_mesh(vec![lamp(0)]).expect("a mesh");
+        assert!(!meshes.contains(&mesh), "{round}");
+        for &old in &instances {
+            assert_eq!(bvh.set_radiance(old, 1.0), Err(EditReason::UnknownInstance(old)));
+            assert!(bvh.lights_of(old).is_none());
+        }
+        for &old in &meshes {
+            assert_eq!(
+                bvh.add_instance(old, Transform::IDENTITY),
+                Err(EditReason::UnknownMesh(old))
+            );
+        }
+        meshes.push(mesh);
+    }
+}
+
+#[test]
+fn flags_that_mean_nothing_are_refused() {
+    for bit in 0..32 {
+        let triangle = EmissiveTriangle {
+            flags: 1 << bit,
+            ..lamp(0)
+        };
+        let known = triangle.flags == EmissiveTriangle::TWO_SIDED;
+        assert_eq!(triangle.checked().is_ok(), known, "bit {bit}");
+    }
+}
+
+/// A mirror image shines to the mirrored side, and only there.
+#[test]
+fn a_mirrored_lamp_shines_to_its_mirrored_side() {
+    let mut bvh = LightBvh::default();
+    let down = EmissiveTriangle {
+        p: [[0.0, 3.0, 0.0], [0.1, 3.0, 0.0], [0.0, 3.0, 0.1]],
+        ..lamp(0)
+    };
+    let mesh = bvh.add_mesh(vec![down]).expect("a mesh");
+    let id = bvh.add_instance(mesh, Transform::IDENTITY).expect("there");
+    let normal = |bvh: &LightBvh| {
+        let light = bvh.lights_of(id).expect("there").start;
+        let [a, b, c] = bvh.tree().triangle(bvh.triangles(), light, id.index()).p;
+        let [u, v] = [b, c].map(|q| [q[0] - a[0], q[1] - a[1], q[2] - a[2]]);
+        u[2] * v[0] - u[0] * v[2]
+    };
+    bvh.refit();
+    let before = normal(&bvh);
+    for (diagonal, side) in [
+        ([-1.0, 1.0, 1.0], 1.0),
+        ([1.0, -1.0, 1.0], -1.0),
+        ([1.0, 1.0, -1.0], 1.0),
+    ] {
+        let mut rows = [[0.0; 4]; 3];
+        for (k, factor) in diagonal.into_iter().enumerate() {
+            rows[k][k] = factor;
+        }
+        bvh.set_transform(id, Transform::from_rows(rows))
+            .expect("a transform");
+        bvh.refit();
+        assert!(normal(&bvh) * side * before > 0.0, "{diagonal:?}");
+    }
+}
+
+/// The recipe for multiple importance sampling holds in a single level too.
+#[test]
+fn a_single_level_has_one_instance_whichever_is_named() {
+    let lights = Lights::new(vec![lamp(0), lamp(0)]).expect("lights");
+    let bvh = LightBvh::single_level(&lights, &Default::default());
+    let id = bvh.instance_id(0).expect("the one");
+    let first = bvh.lights_of(id).expect("there").start;
+    for k in 0..2 {
+        let pmf = bvh.pmf(&POINT, first + k, id.index());
+        assert!(pmf > 0.0);
+        assert_eq!(pmf, bvh.pmf(&POINT, first + k, INVALID));
+    }
+    assert_eq!(bvh.pmf(&POINT, 2, id.index()), 0.0);
+}
+
+/// Each number of triangles but the right one is refused.
+#[test]
+fn following_takes_as_many_triangles() {
+    let of = |count: u32| Lights::new((0..count).map(|_| lamp(0)).collect()).expect("lights");
+    let mut bvh = LightBvh::single_level(&of(3), &Default::default());
+    for count in 1..6 {
+        assert_eq!(bvh.follow(&of(count)).is_ok(), count == 3, "{count}");
+    }
+}
+
+/// Lights of another instance are not this one's.
+#[test]
+fn a_light_has_the_triangle_of_its_own_instance_alone() {
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(vec![lamp(0), lamp(0)]).expect("a mesh");
+    let ids = [0.0, 5.0].map(|x| {
+        bvh.add_instance(mesh, Transform::at([x, 0.0, 0.0]))
+            .expect("there")
+    });
+    bvh.refit();
+    for (k, &id) in ids.iter().enumerate() {
+        let own = bvh.lights_of(id).expect("there");
+        for light in 0..8 {
+            let found = bvh.tree().triangle(bvh.triangles(), light, id.index());
+            assert_eq!(found.radiance != [0.0; 3], own.contains(&light), "{light} of {k}");
+        }
+    }
+}

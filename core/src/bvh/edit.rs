@@ -228,7 +228,10 @@ impl fmt::Display for EditReason {
             Self::InUse { instances } => {
                 write!(f, "the mesh still has {instances} instances; remove them first")
             }
-            Self::TooMany => write!(f, "more than 2^30 triangles or lights; numbers of removed lights count until `take_removed_lights`; or split the scene"),
+            Self::TooMany => write!(
+                f,
+                "more than 2^30 triangles or lights; numbers of removed lights count until `take_removed_lights`; or split the scene"
+            ),
             Self::SingleLevel => write!(
                 f,
                 "a single-level light BVH takes new triangles of its mesh and nothing else; build one of two levels"
