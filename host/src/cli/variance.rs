@@ -1,16 +1,18 @@
 //! `lightbvh variance`: the exact relative variance of one light sample, scene by scene.
 //!
 //! At each point the unshadowed diffuse light of every triangle is computed in closed form, and its probability is asked of the
-//! tree: no sampling is involved, so the figure has no noise but that of the choice of points.
+//! tree: no sampling is involved, so the figure has no noise but that of the choice of points. Of several candidates by numbers at
+//! equal distances the mean squared error is measured, by as many trials at each point.
 
 pub(super) mod irradiance;
 mod points;
 
 use std::time::Instant;
 
+use lightbvh::exact::hash;
 use lightbvh::{
     BuildParams, Bvh, CompactNode, Defensive, Eq4, FluxOverDistance, FullMomentNode, Heuristic,
-    ImportanceModel, LeanMomentNode, LightNode, Lights, MomentNode, Moments, ShadingPoint,
+    ImportanceModel, LeanMomentNode, LightNode, Lights, MomentNode, Moments, SampledLight, ShadingPoint,
 };
 use serde::Serialize;
 use serde_json::json;
@@ -20,6 +22,9 @@ use super::{Context, Outcome, table};
 use crate::backend::Sampler;
 use crate::error::HostError;
 use crate::workload::{build, instance_of};
+
+/// Trials of several candidates at each point.
+const TRIALS: u32 = 64;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -52,6 +57,12 @@ struct Row {
     mean: f64,
     median: f64,
     p95: f64,
+    /// Mean over the points of the squared error of the mean of 8 candidates ([`LightTree::sample_many`]), over mean².
+    ///
+    /// [`LightTree::sample_many`]: lightbvh::LightTree::sample_many
+    of_8: f64,
+    /// Of 32.
+    of_32: f64,
     /// Share of samples that contribute nothing: no light, or one that sends nothing to the point.
     nothing: f64,
 }
@@ -156,6 +167,8 @@ impl Measured<'_> {
                 mean: variances.iter().sum::<f64>() / count,
                 median: part(0.5),
                 p95: part(0.95),
+                of_8: error_of_many::<N, I, W, 8>(&bvh, self.subject, self.light),
+                of_32: error_of_many::<N, I, W, 32>(&bvh, self.subject, self.light),
                 nothing,
             }
         })
@@ -191,6 +204,32 @@ fn variances<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     (variances, nothing / count)
 }
 
+/// The squared error of the mean of `COUNT` candidates relative to the squared mean, over trials and points that any light reaches.
+fn error_of_many<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, const COUNT: usize>(
+    bvh: &Bvh<N, I, W>,
+    subject: &Subject,
+    light: &[Vec<f64>],
+) -> f64 {
+    let (mut error, mut points) = (0.0, 0_u32);
+    for (number, (point, light)) in (0u32..).zip(subject.points.iter().zip(light)) {
+        let mean: f64 = light.iter().sum();
+        if mean > 0.0 {
+            points += 1;
+            for trial in 0..TRIALS {
+                let candidates = bvh.sample_many::<COUNT>(point, hash(number * TRIALS + trial));
+                let sent = |found: &SampledLight| light.get(found.light as usize).copied().unwrap_or(0.0);
+                let sum: f64 = candidates
+                    .iter()
+                    .filter(|found| found.pmf > 0.0)
+                    .map(|found| sent(found) / f64::from(found.pmf))
+                    .sum();
+                error += (sum / (COUNT as f64 * mean) - 1.0).powi(2);
+            }
+        }
+    }
+    error / (f64::from(TRIALS) * f64::from(points.max(1)))
+}
+
 fn print(rows: &[Row]) -> Result<(), HostError> {
     Ok(table::print(
         rows,
@@ -203,6 +242,8 @@ fn print(rows: &[Row]) -> Result<(), HostError> {
             ("mean", |r| format!("{:.3}", r.mean)),
             ("median", |r| format!("{:.3}", r.median)),
             ("p95", |r| format!("{:.3}", r.p95)),
+            ("of 8", |r| format!("1/{:.1}", r.mean / r.of_8)),
+            ("of 32", |r| format!("1/{:.1}", r.mean / r.of_32)),
             ("nothing", |r| format!("{:.1} %", 100.0 * r.nothing)),
         ],
     )?)
