@@ -45,12 +45,12 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> LightTree<'_, N,
         widest::sample_batch(self, points, randoms, sampled);
     }
 
-    /// Chooses `COUNT` lights for `point`, at least one, by numbers at equal distances: light `k` is that of
+    /// Chooses `COUNT` lights for `point`, 1 to 256, by numbers at equal distances: light `k` is that of
     /// [`sample`](Self::sample) by [`random.spaced(k, COUNT)`](Random64::spaced), with that pmf. Nodes that they share are
     /// evaluated once.
     ///
     /// The expectation of the mean of f / pmf over them is the sum of f over all lights, as of independent samples; its variance
-    /// is smaller, for the numbers are in the order of lights.
+    /// is smaller as a rule, for the numbers are in the order of lights. At most `COUNT` nodes are evaluated on each level.
     #[inline(always)]
     #[must_use]
     pub fn sample_many<const COUNT: usize>(
@@ -58,7 +58,8 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> LightTree<'_, N,
         point: &ShadingPoint,
         random: impl Into<Random64>,
     ) -> [SampledLight; COUNT] {
-        const { assert!(COUNT > 0, "at least one") };
+        // All walks are on the stack.
+        const { assert!(COUNT > 0 && COUNT <= 256, "1 to 256") };
         widest::sample_many(self, point, random.into())
     }
 

@@ -15,6 +15,7 @@ mod render;
 mod stability;
 mod table;
 mod times;
+mod trade;
 mod validate;
 mod variance;
 mod verify;
@@ -55,6 +56,8 @@ enum Command {
     Bench(bench::Args),
     /// Compute the variance of one light sample exactly, scene by scene.
     Variance(variance::Args),
+    /// Measure speed against accuracy for each choice: structure, importance, width, builder, candidates.
+    Trade(trade::Args),
     /// Compare stratified and low-discrepancy numbers with independent ones.
     Numbers(numbers::Args),
     /// Compare the methods over an animation as the paper does: errors, times, graphs and close-ups.
@@ -113,6 +116,7 @@ pub fn main() -> ExitCode {
         Command::Verify(args) => verify::run(&context, args),
         Command::Bench(args) => bench::run(&context, args),
         Command::Variance(args) => variance::run(&context, args),
+        Command::Trade(args) => trade::run(&context, args),
         Command::Numbers(args) => numbers::run(&context, args),
         Command::Compare(args) => compare::run(&context, args),
         Command::Stability(args) => stability::run(&context, args),

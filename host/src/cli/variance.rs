@@ -5,7 +5,7 @@
 //! equal distances the mean squared error is measured, by as many trials at each point.
 
 pub(super) mod irradiance;
-mod points;
+pub(super) mod points;
 
 use std::time::Instant;
 

@@ -69,7 +69,9 @@ pub enum Importance {
 }
 
 /// How light BVHs are built.
-#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum, IntoStaticStr)]
+#[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum Builder {
     /// The surface area heuristic.
     Sah,
@@ -194,6 +196,11 @@ impl Importance {
 }
 
 impl Builder {
+    /// As on the command line.
+    pub fn name(self) -> &'static str {
+        self.into()
+    }
+
     /// Parameters of the build.
     pub fn params(self) -> BuildParams {
         match self {

@@ -36,6 +36,47 @@ fn verify_compares_words_on_every_device() {
     }
 }
 
+/// Three widths: the default is one of them, and some choice is on the front.
+#[test]
+fn trade_measures_each_choice() {
+    let report = json("trade --json --quick --axes width");
+    let points = report["points"].as_array().expect("points");
+    assert_eq!(points.len(), 3);
+    let defaults: Vec<bool> = points.iter().map(|point| point["default"] == true).collect();
+    assert_eq!(defaults, [true, false, false]);
+    assert!(points.iter().any(|point| point["pareto"] == true));
+    for point in points {
+        for figure in [
+            "variance",
+            "error",
+            "error_equal_time",
+            "ns_per_sample",
+            "build_ms",
+            "refit_ms",
+            "bytes_per_light",
+        ] {
+            assert!(
+                point[figure].as_f64().is_some_and(|figure| figure > 0.0),
+                "{figure}: {point}"
+            );
+        }
+        // One candidate has the variance of the tree; the image's error is that of unbiased samples.
+        assert!(
+            point["variance"].as_f64().is_some_and(|variance| variance < 5.0),
+            "{point}"
+        );
+        let bias = point["bias"]["mean"].as_f64().expect("several images");
+        assert!(bias.abs() < 0.2, "{point}");
+        let [low, high] = ["low", "high"].map(|end| point["time_ratio"][end].as_f64().expect("an interval"));
+        assert!(low <= high && low > 0.0);
+    }
+    let steps = report["steps"].as_array().expect("sentences").len();
+    assert_eq!(
+        steps + 1,
+        points.iter().filter(|point| point["pareto"] == true).count()
+    );
+}
+
 #[test]
 fn bench_reports_every_case() {
     let report = json("bench --json --lights 2000 --queries 5000 --no-trade");

@@ -11,7 +11,7 @@ use crate::workload::lights_at;
 
 /// The lights of a scene, and points on the front sides of its surfaces, spread evenly over their area; in the scene `random`
 /// points anywhere with any normal.
-pub(super) fn of(
+pub(in crate::cli) fn of(
     name: &str,
     lights: u32,
     frame: u32,

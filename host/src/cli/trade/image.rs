@@ -1,0 +1,177 @@
+//! The error of the real renderer's images, at equal samples and at equal time.
+
+use lightbvh_kernels::render::RenderParams;
+use serde::Serialize;
+
+use super::choices::Subject;
+use super::quantile::Interval;
+use crate::backend::SceneArrays;
+use crate::cli::times::ms;
+use crate::error::HostError;
+use crate::metrics::{Estimate, mean_squared_error};
+use crate::render::Film;
+
+/// Seeds from here on belong to the reference.
+const REFERENCE_SEED: u32 = 1 << 31;
+
+/// How much is measured.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Budget {
+    pub turns: u32,
+    /// Times each point is sampled in a turn.
+    pub passes: u32,
+    pub points: u32,
+    pub width: u32,
+    pub height: u32,
+    /// Shadow rays of a pixel where all have as many; the default's time by so many is the time that all have.
+    pub samples: u32,
+    /// Images of each configuration, each with its own random numbers.
+    pub seeds: u32,
+    /// Shadow rays of a pixel of the reference.
+    pub reference: u32,
+}
+
+impl Budget {
+    pub const FULL: Self = Self {
+        turns: 21,
+        passes: 20,
+        points: 200,
+        width: 192,
+        height: 108,
+        samples: 12,
+        seeds: 7,
+        reference: 1024,
+    };
+    pub const QUICK: Self = Self {
+        turns: 7,
+        passes: 10,
+        points: 100,
+        width: 96,
+        height: 54,
+        samples: 12,
+        seeds: 3,
+        reference: 512,
+    };
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Images {
+    /// Time of an image by the same shadow rays over the default's, seed by seed.
+    pub time_ratio: Interval,
+    /// Mean squared error of such images as displayed, in squared steps of a byte, without the reference's own.
+    pub error: f64,
+    /// The error by as many shadow rays as fit into the default's time: between the errors of images by the whole numbers beside that.
+    pub error_equal_time: f64,
+    /// How many those are.
+    pub samples_equal_time: f64,
+    /// The mean of all pixels over the reference's, less 1: of images by equal rays, each a measurement.
+    pub bias: Option<Estimate>,
+}
+
+pub(super) fn images(
+    subjects: &mut [Box<dyn Subject>],
+    arrays: &SceneArrays,
+    background: [f32; 3],
+    budget: &Budget,
+) -> Result<Vec<Images>, HostError> {
+    let params = |samples, seed| RenderParams {
+        width: budget.width,
+        height: budget.height,
+        samples,
+        candidates: 1,
+        seed,
+        jitter: 0,
+        background,
+    };
+    let reference = Reference::of(subjects, arrays, budget, params)?;
+    let (mut times, mut errors) = (vec![Vec::new(); subjects.len()], vec![0.0; subjects.len()]);
+    let mut biases = vec![Vec::new(); subjects.len()];
+    for seed in 0..budget.seeds {
+        for k in 0..subjects.len() {
+            let at = (k + seed as usize) % subjects.len();
+            let image = subjects[at].render(arrays, params(budget.samples, seed))?;
+            times[at].push(ms(image.time));
+            biases[at].push(mean(&image.value) / reference.mean - 1.0);
+            errors[at] += reference.error(image.value, budget)? / f64::from(budget.seeds);
+        }
+    }
+    let default = times[0].clone();
+    let mut out = Vec::new();
+    let measured = times.into_iter().zip(errors).zip(biases);
+    for (subject, ((times, error), biases)) in subjects.iter_mut().zip(measured) {
+        let time_ratio = Interval::of_ratios(&times, &default);
+        let fits = f64::from(budget.samples) / time_ratio.median;
+        let fewer = (fits.floor() as u32).max(1);
+        let mut beside = [0.0; 2];
+        for (error, samples) in beside.iter_mut().zip([fewer, fewer + 1]) {
+            for seed in 0..budget.seeds {
+                let image = subject.render(arrays, params(samples, budget.seeds + seed))?;
+                *error += reference.error(image.value, budget)? / f64::from(budget.seeds);
+            }
+        }
+        // Errors fall by powers of the samples between them; by their inverse below one.
+        let [a, b] = beside.map(|error: f64| error.max(1e-9));
+        let (low, high) = (f64::from(fewer), f64::from(fewer + 1));
+        let share = (fits.max(1.0) / low).ln() / (high / low).ln();
+        out.push(Images {
+            time_ratio,
+            error,
+            error_equal_time: a * (b / a).powf(share) / fits.min(1.0),
+            samples_equal_time: fits,
+            bias: Estimate::of(&biases),
+        });
+    }
+    Ok(out)
+}
+
+/// An image of many samples by the default, as displayed.
+struct Reference {
+    shown: Vec<u8>,
+    exposure: f32,
+    noise: f64,
+    mean: f64,
+}
+
+impl Reference {
+    fn of(
+        subjects: &mut [Box<dyn Subject>],
+        arrays: &SceneArrays,
+        budget: &Budget,
+        params: impl Fn(u32, u32) -> RenderParams,
+    ) -> Result<Self, HostError> {
+        let mut half = |seed| {
+            let params = params(budget.reference / 2, REFERENCE_SEED + seed);
+            subjects[0].render(arrays, params).map(|image| image.value)
+        };
+        let halves = [half(0)?, half(1)?];
+        let pairs = halves[0].iter().zip(&halves[1]);
+        let both = pairs.map(|(a, b)| std::array::from_fn(|k| 0.5 * (a[k] + b[k])));
+        let whole = Film::new(budget.width, budget.height, both.collect())?;
+        let exposure = whole.auto_exposure();
+        let mean = mean(whole.pixels());
+        let mut shown = Vec::new();
+        for half in halves {
+            shown.push(Film::new(budget.width, budget.height, half)?.shown(exposure));
+        }
+        Ok(Self {
+            shown: whole.shown(exposure),
+            exposure,
+            noise: difference(&shown[0], &shown[1]) / 4.0,
+            mean,
+        })
+    }
+
+    fn error(&self, image: Vec<[f32; 3]>, budget: &Budget) -> Result<f64, HostError> {
+        let film = Film::new(budget.width, budget.height, image)?;
+        Ok(difference(&film.shown(self.exposure), &self.shown) - self.noise)
+    }
+}
+
+fn mean(image: &[[f32; 3]]) -> f64 {
+    let sum: f64 = image.iter().flatten().map(|&c| f64::from(c)).sum();
+    sum / (3.0 * image.len() as f64)
+}
+
+fn difference(a: &[u8], b: &[u8]) -> f64 {
+    mean_squared_error(a.as_chunks::<3>().0, b.as_chunks::<3>().0)
+}

@@ -1,0 +1,154 @@
+//! `lightbvh trade`: speed against accuracy, measured for what a user can choose: times, bytes, variance, and the error of images at
+//! equal samples and at equal time.
+
+mod choices;
+mod front;
+mod image;
+mod quantile;
+mod structure;
+
+use std::time::Instant;
+
+use serde::Serialize;
+use serde_json::json;
+
+use self::choices::{Axis, Config, Subject, all};
+use self::front::{Front, fronts};
+use self::image::{Budget, Images, images};
+use self::quantile::Interval;
+use self::structure::{Structure, structures};
+use super::variance::points;
+use super::{Context, Outcome, table};
+use crate::error::HostError;
+use crate::scene::Scene;
+use crate::workload::{arrays_at, lights_at};
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// Scenes: street, square, carousel, or .gltf and .glb files; the first three if none is named.
+    #[arg(long)]
+    scene: Vec<String>,
+    /// Only these axes, beside the default; all if none is named.
+    #[arg(long, value_enum)]
+    axes: Vec<Axis>,
+    /// Frame of the animation.
+    #[arg(long, default_value_t = 50)]
+    frame: u32,
+    /// One scene, fewer turns, smaller images: within a minute.
+    #[arg(long)]
+    quick: bool,
+}
+
+/// A configuration in a scene.
+#[derive(Clone, Debug, Serialize)]
+struct Point {
+    scene: String,
+    config: Config,
+    default: bool,
+    #[serde(flatten)]
+    structure: Structure,
+    #[serde(flatten)]
+    images: Images,
+    /// Whether nothing else takes less time for an image of the same rays and has less error in it.
+    pareto: bool,
+}
+
+pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
+    let budget = if args.quick { Budget::QUICK } else { Budget::FULL };
+    let named: Vec<String> = match (&args.scene[..], args.quick) {
+        ([], true) => vec!["street".to_owned()],
+        ([], false) => ["street", "square", "carousel"].map(String::from).into(),
+        (named, _) => named.to_vec(),
+    };
+    let mut all_points = Vec::new();
+    let mut steps = Vec::new();
+    for name in named {
+        let start = Instant::now();
+        let points = scene_points(&name, args, &budget)?;
+        let Front { pareto, sentences } = fronts(&points);
+        steps.extend(
+            sentences
+                .into_iter()
+                .map(|sentence| format!("{name}: {sentence}")),
+        );
+        all_points.extend(
+            points
+                .into_iter()
+                .zip(pareto)
+                .map(|(point, pareto)| Point { pareto, ..point }),
+        );
+        eprintln!("{name}: {:.1} s", start.elapsed().as_secs_f64());
+    }
+    if context.json {
+        table::print_json(&json!({
+            "frame": args.frame, "samples": budget.samples, "width": budget.width, "height": budget.height,
+            "turns": budget.turns, "threads": rayon::current_num_threads(), "points": all_points, "steps": steps,
+        }))?;
+    } else {
+        print(&all_points)?;
+        for step in steps {
+            println!("{step}");
+        }
+    }
+    Ok(Outcome::Good)
+}
+
+fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<Vec<Point>, HostError> {
+    let scene = Scene::open(name)?;
+    for warning in scene.warnings() {
+        eprintln!("{name}: {warning}");
+    }
+    let lights = lights_at(&scene, args.frame)?;
+    let later = lights_at(&scene, args.frame + 1)?;
+    let (_, points) = points::of(name, 0, args.frame, budget.points)?;
+    let arrays = arrays_at(&scene, args.frame, budget.width, budget.height)?;
+    let mut subjects: Vec<Box<dyn Subject>> = all(&lights)
+        .into_iter()
+        .filter(|subject| {
+            let axis = subject.config().axis;
+            axis == Axis::Default || args.axes.is_empty() || args.axes.contains(&axis)
+        })
+        .collect();
+    let structures = structures(&mut subjects, &lights, &later, &points, budget)?;
+    let images = images(&mut subjects, &arrays, scene.frame(args.frame).background, budget)?;
+    let both = structures.into_iter().zip(images);
+    Ok(subjects
+        .iter()
+        .zip(both)
+        .map(|(subject, (structure, images))| Point {
+            scene: name.to_owned(),
+            config: subject.config(),
+            default: subject.config().axis == Axis::Default,
+            structure,
+            images,
+            pareto: false,
+        })
+        .collect())
+}
+
+fn ratio(interval: &Interval) -> String {
+    format!(
+        "{:.2} [{:.2}, {:.2}]",
+        interval.median, interval.low, interval.high
+    )
+}
+
+fn print(points: &[Point]) -> Result<(), HostError> {
+    Ok(table::print(
+        points,
+        &[
+            ("scene", |p| p.scene.clone()),
+            ("choice", |p| p.config.to_string()),
+            ("bytes/light", |p| format!("{:.1}", p.structure.bytes_per_light)),
+            ("build ms", |p| format!("{:.2}", p.structure.build_ms)),
+            ("refit ms", |p| format!("{:.2}", p.structure.refit_ms)),
+            ("sample ns", |p| format!("{:.0}", p.structure.ns_per_sample)),
+            ("to default", |p| ratio(&p.structure.sample_ratio)),
+            ("variance", |p| format!("{:.3}", p.structure.variance)),
+            ("image time", |p| ratio(&p.images.time_ratio)),
+            ("error", |p| format!("{:.0}", p.images.error)),
+            ("at equal time", |p| format!("{:.0}", p.images.error_equal_time)),
+            ("front", |p| table::yes(p.pareto)),
+        ],
+    )?)
+}
