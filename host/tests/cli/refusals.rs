@@ -19,11 +19,28 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
     assert!(said.contains("--spp 0"), "{said}");
     let said = refused(&format!("render street --width 100000 -o {image}"));
     assert!(said.contains("--width 100000"), "{said}");
-    let said = refused(&format!("render street --bounces 65 -o {image}"));
+    let said = refused(&format!(
+        "render street --integrator path --bounces 65 -o {image}"
+    ));
     assert!(
         said.contains("--bounces 65") && said.contains("1 to 64"),
         "{said}"
     );
+    // What would have no effect.
+    for (options, needs) in [
+        ("--bounces 3", "--integrator path"),
+        ("--device 0", "--backend vulkan"),
+        ("--sampler restir --candidates 4", "without ReSTIR"),
+        (
+            "--sampler two-level-moments-resampled --integrator path",
+            "without candidates",
+        ),
+    ] {
+        let said = refused(&format!("render street {options} -o {image}"));
+        assert!(said.contains(needs), "{options}: {said}");
+    }
+    let said = refused(&format!("render street --candidates 257 -o {image}"));
+    assert!(said.contains("1 to 256"), "{said}");
     let said = refused(&format!("demo --height 0 --out {}", folder.file("images")));
     assert!(
         said.contains("--height 0") && !folder.0.join("images").exists(),
