@@ -24,8 +24,7 @@ use crate::node::{DefaultNode, LightNode};
 #[non_exhaustive]
 pub enum Swap {
     /// In the frame that is due or the first one after it that finds the worker done; never waits. Where frames are shorter than a
-    /// rebuild, the top level grows by one node in depth with each batch of added instances until then, and samples get slower: four
-    /// times at 21 levels, where 2,000 lamps of which 20 come and 20 go in every frame need 6.
+    /// rebuild, the top level grows by one node in depth with each batch of added instances until then, and samples get slower with it.
     #[default]
     WhenReady,
     /// In the very frame that is due, waiting for the worker if it is not done: trees depend on the edits alone, never on

@@ -109,7 +109,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     ///
     /// No new light gets such a number before it is taken. The exception keeps numbers from running out where they never are: once more
     /// than 65,536 wait, and more than there are lights, all of them are free, and the first range is that of every number there was.
-    /// The edit at which that happens takes time in proportion to all that waited (50 ms for 500,000).
+    /// The edit at which that happens takes time in proportion to all that waited.
     #[must_use]
     pub fn removed_lights(&self) -> &[Range<u32>] {
         &self.removed_lights

@@ -96,7 +96,7 @@ enum IntegratorName {
     Path,
 }
 
-#[derive(PartialEq, Clone, Copy, Debug, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum BackendName {
     Cpu,
     Vulkan,
