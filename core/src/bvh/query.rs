@@ -5,7 +5,6 @@ use crate::importance::ImportanceModel;
 use crate::node::LightNode;
 use crate::point::ShadingPoint;
 use crate::traverse::{Random64, SampledLight};
-use crate::tree::INVALID;
 #[cfg(doc)]
 use crate::tree::LightTree;
 
@@ -48,8 +47,6 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
             point.is_within_reach(),
             "not a shading point: {point:?}; `ShadingPoint::checked` says why"
         );
-        let tree = self.tree();
-        let instance = if tree.live > 0 { instance } else { INVALID };
-        tree.pmf(point, light, instance)
+        self.tree().pmf(point, light, instance)
     }
 }

@@ -64,7 +64,7 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> LightTree<'_, N,
     }
 
     /// The probability with which [`sample`](Self::sample) returns light `light` of instance `instance`
-    /// ([`SampledLight::INVALID`] in a single-level tree) at `point`: 0 if there is no such light.
+    /// at `point`: 0 if there is no such light. A single level has one instance, whichever is named.
     #[inline(always)]
     #[must_use]
     pub fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {

@@ -120,6 +120,8 @@ pub(super) fn pmf<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     light: u32,
     instance: u32,
 ) -> f32 {
+    // A single level has one instance, whichever is named.
+    let instance = if tree.live > 0 { instance } else { INVALID };
     let triangle = triangle_of(tree, light, instance);
     let path = tree.path_of(triangle, instance);
     let number = Random64 { high: 0, low: 0 };
@@ -219,7 +221,7 @@ fn is_light<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>, light: u32, ins
             known = light.wrapping_sub(own.first) < own.count;
         }
     } else {
-        known = (light < tree.lights) & (instance == INVALID);
+        known = light < tree.lights;
     }
     known
 }
