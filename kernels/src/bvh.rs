@@ -79,4 +79,16 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> PickLight for Li
     fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {
         LightTree::pmf(self, point, light, instance)
     }
+
+    #[cfg(not(target_arch = "spirv"))]
+    fn pick_spaced(
+        &self,
+        point: &ShadingPoint,
+        random: Random64,
+        first: u32,
+        count: u32,
+        picked: &mut [SampledLight],
+    ) {
+        self.sample_spaced(point, random, first, count, picked);
+    }
 }

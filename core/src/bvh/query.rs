@@ -35,6 +35,18 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
         self.tree().sample_many(point, random)
     }
 
+    /// Chooses a light for each place of `sampled` by numbers at equal distances; see [`LightTree::sample_spaced`].
+    pub fn sample_spaced(
+        &self,
+        point: &ShadingPoint,
+        random: impl Into<Random64>,
+        first: u32,
+        count: u32,
+        sampled: &mut [SampledLight],
+    ) {
+        self.tree().sample_spaced(point, random, first, count, sampled);
+    }
+
     /// Probability with which [`sample`](Self::sample) returns `light` of `instance`, as a [`SampledLight`] names them, at `point`:
     /// to the bit the one that comes with the sample. 0 where there is no such light. A single level has one instance, whichever is
     /// named.

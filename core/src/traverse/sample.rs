@@ -203,7 +203,11 @@ fn triangle_of<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>, light: u32, 
 }
 
 #[inline(always)]
-fn light_of<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>, triangle: u32, instance: u32) -> u32 {
+pub(super) fn light_of<N, I, const W: usize>(
+    tree: &LightTree<'_, N, I, W>,
+    triangle: u32,
+    instance: u32,
+) -> u32 {
     if instance < tree.instances.len() as u32 {
         tree.instances[instance as usize].light_of(triangle)
     } else {
