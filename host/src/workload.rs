@@ -33,6 +33,7 @@ impl RenderSettings {
             height: self.height,
             samples: self.samples,
             candidates: 1,
+            scattered: 0,
             seed: self.seed,
             jitter: 0,
             background,

@@ -12,11 +12,11 @@ use crate::invocation;
 use crate::shading::camera::Camera;
 use crate::shading::material::Material;
 use crate::shading::pick::{PickLight, Power, Uniform};
-use crate::shading::pixel::{Scene, reflected, see};
+use crate::shading::pixel::{Samples, Scene, reflected, see};
 use crate::shading::trace::{RayNode, SurfaceTriangle};
 use lightbvh::TreeWords;
 
-/// What all pixels of an image have in common besides the scene; push constants, 36 bytes.
+/// What all pixels of an image have in common besides the scene; push constants, 40 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct RenderParams {
@@ -29,6 +29,9 @@ pub struct RenderParams {
     /// Candidates of each light sample, at most [`MAX_CANDIDATES`](crate::shading::pixel::MAX_CANDIDATES); 0 and 1 for a
     /// light as picked. Paths take no candidates.
     pub candidates: u32,
+    /// Directions that the surface reflects into whose lights join the candidates of each light sample, at most
+    /// [`MAX_SCATTERED`](crate::shading::candidates::MAX_SCATTERED). Paths take none.
+    pub scattered: u32,
     /// Chooses the random numbers of the lights. Images that differ in nothing else show the same surfaces.
     pub seed: u32,
     /// Chooses the points within the pixels that camera rays go through: the mean over several is smooth at edges.
@@ -37,7 +40,7 @@ pub struct RenderParams {
     pub background: [f32; 3],
 }
 
-const _: () = assert!(size_of::<RenderParams>() == 36);
+const _: () = assert!(size_of::<RenderParams>() == 40);
 
 /// The radiance that reaches the camera through pixel `index`, linear RGB, W/(m² sr). Pixels are numbered by rows from
 /// the upper left.
@@ -58,7 +61,12 @@ pub fn render_pixel<P: PickLight>(
     let background = Vec3::new(params.background[0], params.background[1], params.background[2]);
     let seen = see(scene, &ray, background);
     let seed = hash(pixel.wrapping_add(hash(params.seed)));
-    let radiance = seen.direct + reflected(scene, &seen, picker, params.samples, params.candidates, seed);
+    let samples = Samples {
+        count: params.samples,
+        candidates: params.candidates,
+        scattered: params.scattered,
+    };
+    let radiance = seen.direct + reflected(scene, &seen, picker, samples, seed);
     [radiance.x, radiance.y, radiance.z]
 }
 

@@ -29,6 +29,7 @@ const PARAMS: RenderParams = RenderParams {
     height: SIZE.1,
     samples: 4,
     candidates: 3,
+    scattered: 0,
     seed: 11,
     jitter: 2,
     background: [0.1, 0.2, 0.3],

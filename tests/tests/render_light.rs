@@ -9,7 +9,7 @@ use lightbvh_kernels::shading::area::{connect, offset_distance};
 use lightbvh_kernels::shading::emitters::{Emitters, listed};
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pick::{Power, Uniform};
-use lightbvh_kernels::shading::pixel::{Scene, see};
+use lightbvh_kernels::shading::pixel::{Samples, Scene, reflected, see};
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 use lightbvh_tests::generate::Random;
 use lightbvh_tests::soup::in_cube;
@@ -205,6 +205,7 @@ fn params(samples: u32) -> RenderParams {
         height: 4,
         samples,
         candidates: 1,
+        scattered: 0,
         seed: 1,
         jitter: 2,
         background: [0.5, 0.25, 0.125],
@@ -283,8 +284,7 @@ fn walls_shadow_and_lights_do_not_shadow_themselves() {
         ..room.scene()
     };
     let seen = see(&room.scene(), &camera.ray(1, 1, 4, 4, 0), Vec3::ZERO);
-    let unshadowed =
-        lightbvh_kernels::shading::pixel::reflected(&alone, &seen, &Uniform { count: 2 }, 1 << 16, 1, 9);
+    let unshadowed = reflected(&alone, &seen, &Uniform { count: 2 }, Samples::of(1 << 16), 9);
     assert!(
         (mean(&lit).x / f64::from(unshadowed.x) - 1.0).abs() < 1e-2,
         "{} {}",

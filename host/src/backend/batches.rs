@@ -8,6 +8,8 @@ use std::time::Duration;
 
 use lightbvh::exact::hash;
 use lightbvh_kernels::render::RenderParams;
+use lightbvh_kernels::shading::candidates::MAX_SCATTERED;
+use lightbvh_kernels::shading::pixel::MAX_CANDIDATES;
 
 use super::Timed;
 
@@ -18,6 +20,15 @@ const MAX_CANDIDATES_PER_INVOCATION: u32 = 64;
 /// Most surfaces that the paths of a pixel meet in one invocation, but always one path: each surface costs two rays, a
 /// sampled light and a pmf.
 const MAX_SURFACES_PER_INVOCATION: u32 = 16;
+
+/// A direction that joins the candidates takes a ray to the nearest surface, as long as so many of them.
+const CANDIDATES_PER_DIRECTION: u32 = 8;
+
+/// Candidates of a sample and of its directions, all counted as candidates.
+pub fn all_candidates(candidates: u32, scattered: u32) -> u32 {
+    let directions = scattered.min(MAX_SCATTERED) * CANDIDATES_PER_DIRECTION;
+    candidates.clamp(1, MAX_CANDIDATES) + directions
+}
 
 /// What light is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,6 +100,7 @@ mod tests {
             height: 1,
             samples,
             candidates: 1,
+            scattered: 0,
             seed: 5,
             jitter: 3,
             background: [0.0; 3],

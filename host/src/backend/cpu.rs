@@ -11,7 +11,7 @@ use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use lightbvh_kernels::shading::pixel::Scene;
 use rayon::prelude::*;
 
-use super::batches::in_batches;
+use super::batches::{all_candidates, in_batches};
 use super::restir::cpu::resample;
 use super::{
     Backend, BackendError, Bvh, Follow, Integrator, Restir, RestirFrame, Sampler, SceneArrays, Timed,
@@ -71,7 +71,7 @@ impl<C: Choice<W>, const W: usize> Backend for CpuBackend<C, W> {
         let view = self.view(scene, sampler);
         in_batches(
             params,
-            integrator.samples_per_invocation(params.candidates),
+            integrator.samples_per_invocation(all_candidates(params.candidates, params.scattered)),
             |params| {
                 let image = Image {
                     scene: &view,

@@ -14,9 +14,8 @@ use lightbvh_kernels::path::PathPush;
 use lightbvh_kernels::query::{Query, QueryPush};
 use lightbvh_kernels::render::{RenderParams, RenderPush};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
-use lightbvh_kernels::shading::pixel::MAX_CANDIDATES;
 
-use super::batches::in_batches;
+use super::batches::{all_candidates, in_batches};
 use super::device_arrays::{DeviceEmitters, DeviceScene, DeviceTree, device_time, kernel_name, own};
 use super::restir::device::resample;
 use super::{
@@ -181,13 +180,16 @@ impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
     ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
         let device = self.device;
         let tree = self.tree.push;
-        let most = integrator.samples_per_invocation(params.candidates);
+        let candidates = all_candidates(params.candidates, params.scattered);
+        let most = integrator.samples_per_invocation(candidates);
         let samples = params.samples.clamp(1, most) as usize;
         let (pass, per_pass) = match integrator {
             Integrator::Direct => {
                 // Eight candidates take about as long as the sample's ray.
-                let candidates = params.candidates.clamp(1, MAX_CANDIDATES).div_ceil(8) as usize;
-                ("render", SAMPLES_PER_PASS / (samples * candidates))
+                (
+                    "render",
+                    SAMPLES_PER_PASS / (samples * candidates.div_ceil(8) as usize),
+                )
             }
             Integrator::Path { bounces } => {
                 let surfaces = bounces.min(MAX_BOUNCES) as usize + 1;

@@ -12,7 +12,7 @@ mod record;
 mod restir;
 mod scene;
 
-pub use batches::Integrator;
+pub use batches::{Integrator, all_candidates};
 pub use cpu::CpuBackend;
 pub use device::DeviceBackend;
 pub use error::BackendError;

@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use lightbvh_kernels::shading::candidates::MAX_SCATTERED;
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 use lightbvh_kernels::shading::pixel::MAX_CANDIDATES;
 use serde_json::{Value, json};
@@ -56,6 +57,10 @@ pub(super) struct Args {
     /// [default: 1; of two-level-moments-resampled, 8].
     #[arg(long)]
     candidates: Option<u32>,
+    /// Directions that the surface reflects into, 0 to 16, one ray each: lights that lie there join the candidates of each light sample.
+    /// For lights seen in glossy surfaces.
+    #[arg(long, default_value_t = 0)]
+    scattered: u32,
     /// How ReSTIR combines samples of other pixels and frames: without bias, or biased (darker where pixels do not see the
     /// same lights) with fewer shadow rays [default: unbiased].
     #[arg(long, value_enum)]
@@ -128,6 +133,18 @@ fn recipe(args: &Args) -> Result<Recipe, HostError> {
         }
         recipe.candidates = candidates;
     }
+    if args.scattered > 0 {
+        if recipe.reuse.is_some() {
+            return usage("--scattered", "a --sampler without ReSTIR");
+        }
+        if args.integrator == IntegratorName::Path {
+            return usage(
+                "--scattered",
+                "--integrator direct: paths find such lights by themselves",
+            );
+        }
+        recipe.scattered = args.scattered;
+    }
     if args.integrator == IntegratorName::Path {
         if recipe.reuse.is_some() {
             return usage("--integrator path", "a --sampler without ReSTIR");
@@ -169,6 +186,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         },
         given("--bounces", args.bounces.unwrap_or(1), 1..=MAX_BOUNCES.into()),
         given("--candidates", recipe.candidates, 1..=MAX_CANDIDATES.into()),
+        given("--scattered", args.scattered, 0..=MAX_SCATTERED.into()),
     ])?;
     let scene = Scene::open(&args.scene)?;
     for warning in scene.warnings() {
@@ -213,6 +231,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         report["integrator"] = json!(args.integrator);
         if recipe.reuse.is_none() && args.integrator == IntegratorName::Direct {
             report["candidates"] = recipe.candidates.into();
+            report["scattered"] = recipe.scattered.into();
         }
         if let Some(options) = recipe.restir() {
             report["restir"] = json!({

@@ -8,7 +8,7 @@ use lightbvh_kernels::bvh::Choice;
 
 use super::moving::Moving;
 use super::{Recipe, Runner, SampleBudget, SequenceId, Step, Target, UpdateTimes, mean_of, time_power_table};
-use crate::backend::{Backend, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed};
+use crate::backend::{Backend, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, all_candidates};
 use crate::error::HostError;
 use crate::workload::{RenderSettings, build};
 
@@ -76,6 +76,7 @@ impl<C: Choice<W>, const W: usize> Runner for Independent<'_, C, W> {
         recipe.require_power_table(step, arrays)?;
         let mut all = settings.params(step.scene.data().background);
         all.candidates = recipe.candidates;
+        all.scattered = recipe.scattered;
         let mut render = |params| {
             self.backend
                 .render(arrays, &params, recipe.lights, recipe.integrator)
@@ -83,7 +84,11 @@ impl<C: Choice<W>, const W: usize> Runner for Independent<'_, C, W> {
         match recipe.budget {
             SampleBudget::ShadowRays => Ok(render(all)?),
             SampleBudget::CameraRays => {
-                let parts = parts(recipe.integrator, settings.samples, recipe.candidates);
+                let parts = parts(
+                    recipe.integrator,
+                    settings.samples,
+                    all_candidates(recipe.candidates, recipe.scattered),
+                );
                 mean_of(parts, settings, |part| {
                     let mut params = all;
                     params.samples = settings.samples / parts;

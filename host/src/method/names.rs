@@ -98,6 +98,8 @@ pub struct Recipe {
     pub rebuilt: bool,
     /// Candidates that each sample of direct light is one of; 1 for lights as picked. ReSTIR has its own number.
     pub candidates: u32,
+    /// Directions that the surface reflects into whose lights join the candidates of each sample of direct light.
+    pub scattered: u32,
     /// How samples are reused by ReSTIR, if they are.
     pub reuse: Option<Combination>,
     /// What light is followed; ReSTIR follows direct light.
@@ -126,6 +128,7 @@ impl Method {
             builder: importance.builder(),
             rebuilt: false,
             candidates: 1,
+            scattered: 0,
             reuse: None,
             integrator: Integrator::Direct,
             budget: SampleBudget::ShadowRays,

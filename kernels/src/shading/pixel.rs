@@ -1,12 +1,12 @@
 //! One pixel: what the camera sees, lit by sampled lights.
 
 use glam::Vec3;
-use lightbvh::exact::{div, hash, recip, sqrt};
+use lightbvh::exact::{div, hash, sqrt};
 use lightbvh::vector::{cross, dot, length_squared};
 use lightbvh::{EmissiveTriangle, Instance, ShadingPoint};
 
 use super::area::{connect, offset_distance};
-use super::candidates::{Candidates, resampled};
+use super::candidates::{Candidates, resampled, resampled_with_scattered};
 use super::emitters::Emitters;
 use super::grid::{TINY, TINY_AREA, flush_vector};
 use super::material::Material;
@@ -138,15 +138,11 @@ pub fn encounter(scene: &Scene<'_>, ray: &Ray, background: Vec3) -> Encounter {
 }
 
 /// The point where `ray` meets the plane of a triangle it is known to hit, from its barycentric coordinates: off the plane
-/// only by the rounding of the triangle's own coordinates, however far away the ray started. The coordinates within the
-/// plane need no exact division.
+/// only by the rounding of the triangle's own coordinates, however far away the ray started.
 #[inline]
 fn hit_point(ray: &Ray, p0: Vec3, e1: Vec3, e2: Vec3) -> Vec3 {
-    let pv = flush_vector(cross(ray.direction, e2), TINY_AREA);
-    let s = ray.origin - p0;
-    let qv = flush_vector(cross(s, e1), TINY_AREA);
-    let scale = recip(dot(e1, pv));
-    (p0 + e1 * (dot(s, pv) * scale)) + e2 * (dot(ray.direction, qv) * scale)
+    let [a, b] = ray.barycentric(p0, e1, e2);
+    (p0 + e1 * a) + e2 * b
 }
 
 /// The radiance of a light seen from its front or back; none where there is no such light.
@@ -162,25 +158,47 @@ fn emitted(emitters: &Emitters<'_>, light: u32, instance: u32, front: bool) -> V
     radiance
 }
 
-/// Estimates the light that `seen` reflects to its viewer: the mean of `samples` lights chosen by `picker`, each with
-/// one point on it and one shadow ray. With more than one of `candidates`, at most [`MAX_CANDIDATES`], each is one out of so many
-/// ([`resampled`]). `seed` chooses the random numbers.
+/// The light samples of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Samples {
+    /// How many, each with one point on a light and one shadow ray.
+    pub count: u32,
+    /// Lights that each is one of, at most [`MAX_CANDIDATES`]; 0 and 1 for a light as picked.
+    pub candidates: u32,
+    /// Directions that the surface reflects into, each with a ray, whose lights join the candidates of each sample; at most
+    /// [`MAX_SCATTERED`](super::candidates::MAX_SCATTERED).
+    pub scattered: u32,
+}
+
+impl Samples {
+    /// `count` lights as picked.
+    #[must_use]
+    pub const fn of(count: u32) -> Self {
+        Self {
+            count,
+            candidates: 1,
+            scattered: 0,
+        }
+    }
+}
+
+/// Estimates the light that `seen` reflects to its viewer: the mean of `samples`, of lights chosen by `picker`. With more than one
+/// candidate each is one out of so many ([`resampled`]). `seed` chooses the random numbers.
 #[inline]
 #[must_use]
 pub fn reflected<P: PickLight>(
     scene: &Scene<'_>,
     seen: &Seen,
     picker: &P,
-    samples: u32,
-    candidates: u32,
+    samples: Samples,
     seed: u32,
 ) -> Vec3 {
-    let sum = if candidates > 1 {
-        one_of_many(scene, seen, picker, samples, candidates, seed)
+    let sum = if samples.candidates > 1 || samples.scattered > 0 {
+        one_of_many(scene, seen, picker, samples, seed)
     } else {
-        one_by_one(scene, seen, picker, samples, seed)
+        one_by_one(scene, seen, picker, samples.count, seed)
     };
-    let count = if samples == 0 { 1 } else { samples };
+    let count = if samples.count == 0 { 1 } else { samples.count };
     flush_vector(sum * div(1.0, count as i32 as f32), TINY)
 }
 
@@ -217,34 +235,46 @@ fn one_of_many<P: PickLight>(
     scene: &Scene<'_>,
     seen: &Seen,
     picker: &P,
-    samples: u32,
-    candidates: u32,
+    samples: Samples,
     seed: u32,
 ) -> Vec3 {
-    let count = if candidates < MAX_CANDIDATES {
-        candidates
+    let most = if samples.candidates < MAX_CANDIDATES {
+        samples.candidates
     } else {
         MAX_CANDIDATES
     };
+    let count = if most == 0 { 1 } else { most };
     let surface = Surface::new(seen, seen.point.position());
     let mut sum = Vec3::ZERO;
     if surface.is_lit() && surface.material < scene.materials.len() as u32 {
-        let mut picks = Picks::new(Numbers::of(seed), samples.wrapping_mul(count));
-        for sample in 0..samples {
+        let mut picks = Picks::new(Numbers::of(seed), samples.count.wrapping_mul(count));
+        for sample in 0..samples.count {
             let which = Candidates {
                 first: sample.wrapping_mul(count),
                 count,
             };
             let random = hash(seed.wrapping_add(Numbers::USED + sample));
-            let chosen = resampled(
-                scene.materials,
-                &scene.emitters,
-                picker,
-                &surface,
-                &mut picks,
-                which,
-                random,
-            );
+            let chosen = if samples.scattered > 0 {
+                resampled_with_scattered(
+                    scene,
+                    picker,
+                    &surface,
+                    &mut picks,
+                    which,
+                    samples.scattered,
+                    random,
+                )
+            } else {
+                resampled(
+                    scene.materials,
+                    &scene.emitters,
+                    picker,
+                    &surface,
+                    &mut picks,
+                    which,
+                    random,
+                )
+            };
             if chosen.weight > 0.0 {
                 let arriving = lit(scene.materials, &scene.emitters, &surface, &chosen.sample);
                 if visible(&scene.surfaces, &surface, arriving.end, chosen.sample.light) {

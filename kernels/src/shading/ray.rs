@@ -1,7 +1,7 @@
 //! A ray against a box and against a triangle.
 
 use glam::Vec3;
-use lightbvh::exact::{abs, div, max, min, pow2};
+use lightbvh::exact::{abs, div, max, min, pow2, recip};
 use lightbvh::vector::{cross, dot};
 
 use super::grid::{STEP, TINY_AREA, flush_vector, snap_point};
@@ -86,6 +86,24 @@ impl Ray {
             div(t, determinant)
         } else {
             MISS
+        }
+    }
+
+    /// Where the ray meets the plane of a triangle at `p0` that it is known to hit: the parts of the edges `e1` and `e2`; zeros where
+    /// [`hit_triangle`](Self::hit_triangle) would see it edge-on. Coordinates within the plane need no exact division.
+    #[inline]
+    #[must_use]
+    pub fn barycentric(&self, p0: Vec3, e1: Vec3, e2: Vec3) -> [f32; 2] {
+        let pv = flush_vector(cross(self.direction, e2), TINY_AREA);
+        let s = self.origin - p0;
+        let qv = flush_vector(cross(s, e1), TINY_AREA);
+        let determinant = dot(e1, pv);
+        let counts = abs(determinant) > MIN_DETERMINANT;
+        let scale = recip(if counts { determinant } else { 1.0 });
+        if counts {
+            [dot(s, pv) * scale, dot(self.direction, qv) * scale]
+        } else {
+            [0.0; 2]
         }
     }
 }

@@ -5,7 +5,7 @@ use lightbvh::{ShadingPoint, exact};
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 use lightbvh_kernels::shading::pick::Uniform;
-use lightbvh_kernels::shading::pixel::{reflected, see};
+use lightbvh_kernels::shading::pixel::{Samples, reflected, see};
 use lightbvh_kernels::shading::ray::{FAR, Ray};
 use lightbvh_tests::direct::brute_force;
 use lightbvh_tests::generate::Random;
@@ -62,7 +62,13 @@ fn one_bounce_is_direct_lighting() {
                 count: world.lights.len() as u32,
             };
             for sample in 0..120_000 {
-                let value = reflected(&world.scene(), &seen, &uniform, 1, 1, exact::hash(sample));
+                let value = reflected(
+                    &world.scene(),
+                    &seen,
+                    &uniform,
+                    Samples::of(1),
+                    exact::hash(sample),
+                );
                 direct.add(f64::from(value.x));
             }
             for (name, mean) in world.each_picker(&ray, 1, 120_000) {

@@ -79,6 +79,7 @@ pub(super) fn images(
         height: budget.height,
         samples,
         candidates: 1,
+        scattered: 0,
         seed,
         jitter: 0,
         background,

@@ -4,9 +4,9 @@ use glam::Vec3;
 use lightbvh::exact::{flush, min, pow2};
 use lightbvh::reservoir::{LightSample, target};
 
-use super::super::area::{connect, luminance};
+use super::super::area::{Connection, connect, luminance};
 use super::super::emitters::Emitters;
-use super::super::grid::TINY;
+use super::super::grid::{TINY, bounded_quotient};
 use super::super::material::Material;
 use super::super::pixel::load_material;
 use super::super::ray::Ray;
@@ -16,6 +16,9 @@ use super::surface::Surface;
 /// Contributions count as at most this, W/(m² sr), so that their product with any weight is finite.
 const MAX_CONTRIBUTION: f32 = pow2(60);
 
+/// Densities over the unit square count as at most this, so that no weight is tiny.
+const MAX_SCATTERED: f32 = pow2(50);
+
 /// What a light sample contributes to a surface if nothing is between.
 #[derive(Clone, Copy, Debug)]
 pub struct Lit {
@@ -23,6 +26,8 @@ pub struct Lit {
     pub contribution: Vec3,
     /// p̂: zero where the contribution is, else in the range that [`target`] states.
     pub target: f32,
+    /// The density over the light's unit square with which [`Material::sample`] finds the point.
+    pub scattered: f32,
     /// The end of the shadow ray.
     pub end: Vec3,
 }
@@ -34,6 +39,7 @@ pub fn lit(materials: &[Material], emitters: &Emitters<'_>, surface: &Surface, s
     let mut lit = Lit {
         contribution: Vec3::ZERO,
         target: 0.0,
+        scattered: 0.0,
         end: Vec3::ZERO,
     };
     if sample.light != NONE && surface.material < materials.len() as u32 && surface.is_lit() {
@@ -50,9 +56,21 @@ pub fn lit(materials: &[Material], emitters: &Emitters<'_>, surface: &Surface, s
         let c = connection.contribution;
         lit.contribution = c;
         lit.target = target(luminance([c.x, c.y, c.z]));
+        lit.scattered = scattered(&connection);
         lit.end = connection.target;
     }
     lit
+}
+
+/// Over the unit square of its points a light has the density 1: over solid angle, that of the connection.
+#[inline]
+fn scattered(connection: &Connection) -> f32 {
+    let mut scattered = 0.0;
+    if connection.density > 0.0 {
+        let ratio = bounded_quotient(connection.scattering_density, connection.density);
+        scattered = min(ratio, MAX_SCATTERED);
+    }
+    scattered
 }
 
 /// Whether nothing lies between the surface and the point of `light` that `end` is just before: one shadow ray.

@@ -93,6 +93,7 @@ pub fn image() -> (&'static str, Vec<Table>) {
         height: SIZE,
         samples: 2,
         candidates: 1,
+        scattered: 0,
         seed: 1,
         jitter: 7,
         background: [0.02, 0.03, 0.05],
