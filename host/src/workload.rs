@@ -34,6 +34,8 @@ impl RenderSettings {
             samples: self.samples,
             candidates: 1,
             scattered: 0,
+            part: 0,
+            parts: 1,
             seed: self.seed,
             jitter: 0,
             background,

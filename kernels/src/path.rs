@@ -35,7 +35,7 @@ pub fn path_pixel<P: PickLight>(
     let y = index / width;
     let x = index - y * width;
     let pixel = hash(index);
-    let ray = camera.ray(x, y, width, params.height, pixel.wrapping_add(params.jitter));
+    let ray = camera.ray([x, y], [width, params.height], pixel, params.jitter);
     let background = Vec3::new(params.background[0], params.background[1], params.background[2]);
     let seed = hash(pixel.wrapping_add(hash(params.seed)));
     let mut sum = Vec3::ZERO;

@@ -11,12 +11,13 @@ use crate::bvh::{NodeOf, Paper, Standard, TreeOf};
 use crate::invocation;
 use crate::shading::camera::Camera;
 use crate::shading::material::Material;
+use crate::shading::numbers::Part;
 use crate::shading::pick::{PickLight, Power, Uniform};
 use crate::shading::pixel::{Samples, Scene, reflected, see};
 use crate::shading::trace::{RayNode, SurfaceTriangle};
 use lightbvh::TreeWords;
 
-/// What all pixels of an image have in common besides the scene; push constants, 40 bytes.
+/// What all pixels of an image have in common besides the scene; push constants, 48 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct RenderParams {
@@ -34,13 +35,18 @@ pub struct RenderParams {
     pub scattered: u32,
     /// Chooses the random numbers of the lights. Images that differ in nothing else show the same surfaces.
     pub seed: u32,
-    /// Chooses the points within the pixels that camera rays go through: the mean over several is smooth at edges.
+    /// Which of `parts` this image is, whose mean has the samples of all: their numbers lie between each other's. Paths have none.
+    pub part: u32,
+    /// How many such images there are; 0 counts as 1.
+    pub parts: u32,
+    /// Chooses the points within the pixels that camera rays go through, evenly spread for successive numbers: the mean over several is smooth at
+    /// edges.
     pub jitter: u32,
     /// Radiance of what no surface covers, linear RGB, W/(m² sr).
     pub background: [f32; 3],
 }
 
-const _: () = assert!(size_of::<RenderParams>() == 40);
+const _: () = assert!(size_of::<RenderParams>() == 48);
 
 /// The radiance that reaches the camera through pixel `index`, linear RGB, W/(m² sr). Pixels are numbered by rows from
 /// the upper left.
@@ -57,7 +63,7 @@ pub fn render_pixel<P: PickLight>(
     let y = index / width;
     let x = index - y * width;
     let pixel = hash(index);
-    let ray = camera.ray(x, y, width, params.height, pixel.wrapping_add(params.jitter));
+    let ray = camera.ray([x, y], [width, params.height], pixel, params.jitter);
     let background = Vec3::new(params.background[0], params.background[1], params.background[2]);
     let seen = see(scene, &ray, background);
     let seed = hash(pixel.wrapping_add(hash(params.seed)));
@@ -65,6 +71,10 @@ pub fn render_pixel<P: PickLight>(
         count: params.samples,
         candidates: params.candidates,
         scattered: params.scattered,
+        part: Part {
+            index: params.part,
+            of: params.parts,
+        },
     };
     let radiance = seen.direct + reflected(scene, &seen, picker, samples, seed);
     [radiance.x, radiance.y, radiance.z]

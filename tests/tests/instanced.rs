@@ -30,6 +30,8 @@ const PARAMS: RenderParams = RenderParams {
     samples: 4,
     candidates: 3,
     scattered: 0,
+    part: 0,
+    parts: 1,
     seed: 11,
     jitter: 2,
     background: [0.1, 0.2, 0.3],

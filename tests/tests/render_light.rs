@@ -206,6 +206,8 @@ fn params(samples: u32) -> RenderParams {
         samples,
         candidates: 1,
         scattered: 0,
+        part: 0,
+        parts: 1,
         seed: 1,
         jitter: 2,
         background: [0.5, 0.25, 0.125],
@@ -283,7 +285,7 @@ fn walls_shadow_and_lights_do_not_shadow_themselves() {
         surfaces: nothing.surfaces(),
         ..room.scene()
     };
-    let seen = see(&room.scene(), &camera.ray(1, 1, 4, 4, 0), Vec3::ZERO);
+    let seen = see(&room.scene(), &camera.ray([1, 1], [4, 4], 0, 0), Vec3::ZERO);
     let unshadowed = reflected(&alone, &seen, &Uniform { count: 2 }, Samples::of(1 << 16), 9);
     assert!(
         (mean(&lit).x / f64::from(unshadowed.x) - 1.0).abs() < 1e-2,

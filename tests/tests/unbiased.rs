@@ -8,6 +8,7 @@ use lightbvh::{
 use lightbvh_host::render::{RayBvh, power_thresholds};
 use lightbvh_kernels::shading::emitters::{Emitters, listed};
 use lightbvh_kernels::shading::material::Material;
+use lightbvh_kernels::shading::numbers::Part;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use lightbvh_kernels::shading::pixel::{Samples, Scene, Seen, reflected};
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
@@ -189,6 +190,7 @@ fn surfaces_converge(seed: u32, walls: bool) {
                         count,
                         candidates,
                         scattered,
+                        part: Part::WHOLE,
                     };
                     let value = reflected(&scene, &seen, &By(pick), samples, seed);
                     mean.add(f64::from(value.x) * std::f64::consts::PI);
@@ -271,6 +273,7 @@ fn scattered_candidates_agree_with_lights_as_picked() {
                     count: 1,
                     candidates,
                     scattered,
+                    part: Part::WHOLE,
                 });
                 let what = format!("2^{exponent_log2}, {candidates} and {scattered} at {point:?} from {wo}");
                 lit += u32::from(agrees(&what, &with, plain.mean(), plain.error()));

@@ -54,13 +54,15 @@ impl Integrator {
     }
 }
 
-/// The image of `params` from images of at most `most` samples each, which differ in their seed. Up to `most` samples it is
+/// The image of `params` from images of at most `most` samples each, which are parts of one another's or, of paths, differ in their
+/// seed. Up to `most` samples it is
 /// `image` itself; beyond, the mean over all samples, added in order in `f64` and rounded once.
 pub(super) fn in_batches<E>(
     params: &RenderParams,
-    most: u32,
+    integrator: Integrator,
     mut image: impl FnMut(&RenderParams) -> Result<Timed<Vec<[f32; 3]>>, E>,
 ) -> Result<Timed<Vec<[f32; 3]>>, E> {
+    let most = integrator.samples_per_invocation(all_candidates(params.candidates, params.scattered));
     if params.samples <= most {
         return image(params);
     }
@@ -69,10 +71,18 @@ pub(super) fn in_batches<E>(
     let mut time = Duration::ZERO;
     for part in 0..parts {
         let samples = params.samples / parts + u32::from(part < params.samples % parts);
-        let part = image(&RenderParams {
-            samples,
-            seed: hash(hash(params.seed).wrapping_add(part)),
-            ..*params
+        let part = image(&match integrator {
+            Integrator::Direct => RenderParams {
+                samples,
+                part: params.part.wrapping_mul(parts).wrapping_add(part),
+                parts: params.parts.max(1).wrapping_mul(parts),
+                ..*params
+            },
+            Integrator::Path { .. } => RenderParams {
+                samples,
+                seed: hash(hash(params.seed).wrapping_add(part)),
+                ..*params
+            },
         })?;
         time += part.time;
         for (sum, pixel) in sum.iter_mut().flatten().zip(part.value.iter().flatten()) {
@@ -92,6 +102,7 @@ pub(super) fn in_batches<E>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lightbvh_kernels::shading::numbers::Part;
     use std::collections::BTreeSet;
 
     fn params(samples: u32) -> RenderParams {
@@ -101,6 +112,8 @@ mod tests {
             samples,
             candidates: 1,
             scattered: 0,
+            part: 0,
+            parts: 1,
             seed: 5,
             jitter: 3,
             background: [0.0; 3],
@@ -108,9 +121,9 @@ mod tests {
     }
 
     /// What is asked of an image of `samples` samples in parts of 8, each of which returns its share as its pixel.
-    fn asked(samples: u32) -> (Vec<RenderParams>, [f32; 3]) {
+    fn asked(samples: u32, integrator: Integrator) -> (Vec<RenderParams>, [f32; 3]) {
         let mut asked = Vec::new();
-        let image = in_batches(&params(samples), 8, |part| {
+        let image = in_batches(&params(samples), integrator, |part| {
             asked.push(*part);
             Ok::<_, ()>(Timed {
                 value: vec![[1.0, part.samples as f32, asked.len() as f32]],
@@ -123,18 +136,35 @@ mod tests {
     #[test]
     fn few_samples_are_left_alone() {
         for samples in [0, 1, 8] {
-            assert_eq!(asked(samples).0, [params(samples)]);
+            for integrator in [Integrator::Direct, PATHS] {
+                assert_eq!(asked(samples, integrator).0, [params(samples)]);
+            }
         }
     }
 
+    /// One surface each, so that eight paths are one part, as of direct light.
+    const PATHS: Integrator = Integrator::Path { bounces: 1 };
+
     #[test]
     fn all_samples_are_taken_and_count_alike() {
-        for samples in [9, 16, 17, 1000, 4099] {
-            let (asked, pixel) = asked(samples);
+        for (samples, integrator) in [9, 16, 17, 1000, 4099]
+            .into_iter()
+            .flat_map(|n| [(n, Integrator::Direct), (n, PATHS)])
+        {
+            let (asked, pixel) = asked(samples, integrator);
             assert!(asked.iter().all(|part| (1..=8).contains(&part.samples)));
             assert_eq!(asked.iter().map(|part| part.samples).sum::<u32>(), samples);
-            let seeds: BTreeSet<u32> = asked.iter().map(|part| part.seed).collect();
-            assert_eq!(seeds.len(), asked.len(), "no sample is taken twice");
+            let numbers: BTreeSet<_> = asked
+                .iter()
+                .flat_map(|p| {
+                    let part = Part {
+                        index: p.part,
+                        of: p.parts,
+                    };
+                    (0..p.samples).map(move |k| (p.seed, part.number(k)))
+                })
+                .collect();
+            assert_eq!(numbers.len(), samples as usize, "no sample is taken twice");
             assert!(asked.iter().all(|part| part.jitter == 3));
             assert_eq!(pixel[0], 1.0);
             let squares: u32 = asked.iter().map(|part| part.samples * part.samples).sum();

@@ -11,7 +11,7 @@ use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use lightbvh_kernels::shading::pixel::Scene;
 use rayon::prelude::*;
 
-use super::batches::{all_candidates, in_batches};
+use super::batches::in_batches;
 use super::restir::cpu::resample;
 use super::{
     Backend, BackendError, Bvh, Follow, Integrator, Restir, RestirFrame, Sampler, SceneArrays, Timed,
@@ -69,23 +69,19 @@ impl<C: Choice<W>, const W: usize> Backend for CpuBackend<C, W> {
         integrator: Integrator,
     ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
         let view = self.view(scene, sampler);
-        in_batches(
-            params,
-            integrator.samples_per_invocation(all_candidates(params.candidates, params.scattered)),
-            |params| {
-                let image = Image {
-                    scene: &view,
-                    camera: &scene.camera,
-                    params,
-                    integrator,
-                };
-                Ok(Timed::of(|| match sampler {
-                    Sampler::Uniform => image.by(&uniform(scene)),
-                    Sampler::Power => image.by(&power(scene)),
-                    Sampler::SingleLevel | Sampler::TwoLevel => image.by(&self.bvh.tree()),
-                }))
-            },
-        )
+        in_batches(params, integrator, |params| {
+            let image = Image {
+                scene: &view,
+                camera: &scene.camera,
+                params,
+                integrator,
+            };
+            Ok(Timed::of(|| match sampler {
+                Sampler::Uniform => image.by(&uniform(scene)),
+                Sampler::Power => image.by(&power(scene)),
+                Sampler::SingleLevel | Sampler::TwoLevel => image.by(&self.bvh.tree()),
+            }))
+        })
     }
 
     fn restir(

@@ -201,7 +201,7 @@ impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
         let scene = DeviceScene::upload(device, scene, self.emitters(sampler))?;
         let inputs = scene.with_lights(sampler, &self.tree);
         let pixels = params.width as usize * params.height as usize;
-        in_batches(params, most, |&params| {
+        in_batches(params, integrator, |&params| {
             let mut all = Timed {
                 value: Vec::with_capacity(pixels),
                 time: Duration::ZERO,

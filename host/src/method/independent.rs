@@ -92,8 +92,11 @@ impl<C: Choice<W>, const W: usize> Runner for Independent<'_, C, W> {
                 mean_of(parts, settings, |part| {
                     let mut params = all;
                     params.samples = settings.samples / parts;
-                    params.seed = hash(settings.seed).wrapping_add(part);
                     params.jitter = part;
+                    match recipe.integrator {
+                        Integrator::Direct => (params.part, params.parts) = (part, parts),
+                        Integrator::Path { .. } => params.seed = hash(settings.seed).wrapping_add(part),
+                    }
                     Ok(render(params)?)
                 })
             }

@@ -2,8 +2,9 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
-use lightbvh::exact::{div, hash, unit_f32};
+use lightbvh::exact::{div, hash};
 
+use super::numbers::r2;
 use super::ray::{FAR, Ray};
 
 /// A camera as the frame of its image plane at distance 1; 48 bytes. The host computes it, trigonometry and all.
@@ -23,22 +24,23 @@ pub struct Camera {
 const _: () = assert!(size_of::<Camera>() == 48);
 
 impl Camera {
-    /// The ray through a random point of the pixel in column `x` and row `y` (row 0 on top), the same for the same
-    /// `random`.
+    /// The ray through a random point of the pixel in column `x` and row `y` (row 0 on top), the same for the same `random` and
+    /// `jitter`. Points of successive `jitter` fill the pixel evenly.
     #[inline]
     #[must_use]
-    pub fn ray(&self, x: u32, y: u32, width: u32, height: u32, random: u32) -> Ray {
-        let across = plane_coordinate(x, width, hash(random));
-        let down = plane_coordinate(y, height, hash(random.wrapping_add(1)));
+    pub fn ray(&self, [x, y]: [u32; 2], [width, height]: [u32; 2], random: u32, jitter: u32) -> Ray {
+        let [across, down] = r2([hash(random), hash(random.wrapping_add(1))], jitter);
+        let across = plane_coordinate(x, width, across);
+        let down = plane_coordinate(y, height, down);
         let direction = (vector(self.forward) + vector(self.right) * across) - vector(self.up) * down;
         Ray::new(vector(self.origin), direction, FAR)
     }
 }
 
-/// Where in [-1, 1) a random point of pixel `i` of `count` lies.
+/// Where in [-1, 1) the point at `within` of pixel `i` of `count` lies.
 #[inline]
-fn plane_coordinate(i: u32, count: u32, random: u32) -> f32 {
-    (i as i32 as f32 + unit_f32(random)) * div(2.0, count as i32 as f32) - 1.0
+fn plane_coordinate(i: u32, count: u32, within: f32) -> f32 {
+    (i as i32 as f32 + within) * div(2.0, count as i32 as f32) - 1.0
 }
 
 #[inline]

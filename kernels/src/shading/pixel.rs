@@ -10,7 +10,7 @@ use super::candidates::{Candidates, resampled, resampled_with_scattered};
 use super::emitters::Emitters;
 use super::grid::{TINY, TINY_AREA, flush_vector};
 use super::material::Material;
-use super::numbers::Numbers;
+use super::numbers::{Numbers, Part};
 use super::pick::PickLight;
 use super::picks::Picks;
 use super::ray::Ray;
@@ -168,6 +168,8 @@ pub struct Samples {
     /// Directions that the surface reflects into, each with a ray, whose lights join the candidates of each sample; at most
     /// [`MAX_SCATTERED`](super::candidates::MAX_SCATTERED).
     pub scattered: u32,
+    /// Which of the pixel's samples these are.
+    pub part: Part,
 }
 
 impl Samples {
@@ -178,6 +180,7 @@ impl Samples {
             count,
             candidates: 1,
             scattered: 0,
+            part: Part::WHOLE,
         }
     }
 }
@@ -196,21 +199,26 @@ pub fn reflected<P: PickLight>(
     let sum = if samples.candidates > 1 || samples.scattered > 0 {
         one_of_many(scene, seen, picker, samples, seed)
     } else {
-        one_by_one(scene, seen, picker, samples.count, seed)
+        one_by_one(scene, seen, picker, samples, seed)
     };
     let count = if samples.count == 0 { 1 } else { samples.count };
     flush_vector(sum * div(1.0, count as i32 as f32), TINY)
 }
 
+#[inline]
+fn numbers(seed: u32, samples: Samples) -> Numbers {
+    Numbers::of_part(seed, samples.part, samples.count)
+}
+
 /// The sum of samples that are lights as picked.
 #[inline]
-fn one_by_one<P: PickLight>(scene: &Scene<'_>, seen: &Seen, picker: &P, samples: u32, seed: u32) -> Vec3 {
+fn one_by_one<P: PickLight>(scene: &Scene<'_>, seen: &Seen, picker: &P, samples: Samples, seed: u32) -> Vec3 {
     let n = seen.point.normal();
     let mut sum = Vec3::ZERO;
     if length_squared(n) > 0.0 && seen.material < scene.materials.len() as u32 {
         let material = load_material(scene.materials, seen.material);
-        let mut picks = Picks::new(Numbers::of(seed), samples);
-        for sample in 0..samples {
+        let mut picks = Picks::new(numbers(seed, samples), samples.count);
+        for sample in 0..samples.count {
             let picked = picks.next(picker, &seen.point, sample);
             if picked.pmf > 0.0 {
                 let light = scene.emitters.light(picked.light, picked.instance);
@@ -247,13 +255,16 @@ fn one_of_many<P: PickLight>(
     let surface = Surface::new(seen, seen.point.position());
     let mut sum = Vec3::ZERO;
     if surface.is_lit() && surface.material < scene.materials.len() as u32 {
-        let mut picks = Picks::new(Numbers::of(seed), samples.count.wrapping_mul(count));
+        let mut picks = Picks::new(numbers(seed, samples), samples.count.wrapping_mul(count));
         for sample in 0..samples.count {
             let which = Candidates {
                 first: sample.wrapping_mul(count),
                 count,
             };
-            let random = hash(seed.wrapping_add(Numbers::USED + sample));
+            let random = hash(
+                seed.wrapping_add(Numbers::USED)
+                    .wrapping_add(samples.part.number(sample)),
+            );
             let chosen = if samples.scattered > 0 {
                 resampled_with_scattered(
                     scene,

@@ -80,6 +80,8 @@ pub(super) fn images(
         samples,
         candidates: 1,
         scattered: 0,
+        part: 0,
+        parts: 1,
         seed,
         jitter: 0,
         background,

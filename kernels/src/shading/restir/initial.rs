@@ -22,13 +22,7 @@ pub fn first_surface(scene: &Scene<'_>, camera: &Camera, params: &RestirParams, 
     let width = if params.width == 0 { 1 } else { params.width };
     let y = index / width;
     let x = index - y * width;
-    let ray = camera.ray(
-        x,
-        y,
-        width,
-        params.height,
-        hash(index).wrapping_add(params.jitter),
-    );
+    let ray = camera.ray([x, y], [width, params.height], hash(index), params.jitter);
     let background = Vec3::new(params.background[0], params.background[1], params.background[2]);
     let seen = see(scene, &ray, background);
     let eye = Vec3::new(camera.origin[0], camera.origin[1], camera.origin[2]);

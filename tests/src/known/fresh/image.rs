@@ -94,6 +94,8 @@ pub fn image() -> (&'static str, Vec<Table>) {
         samples: 2,
         candidates: 1,
         scattered: 0,
+        part: 0,
+        parts: 1,
         seed: 1,
         jitter: 7,
         background: [0.02, 0.03, 0.05],
@@ -110,7 +112,7 @@ pub fn image() -> (&'static str, Vec<Table>) {
     let tables = vec![
         array(
             "params",
-            "width height samples candidates seed jitter background[3]",
+            "width height samples candidates scattered seed part parts jitter background[3]",
             &[params],
         ),
         array(
