@@ -184,13 +184,18 @@ fn surfaces_converge(seed: u32, walls: bool) {
                 [(1, 1, 0), (4, 1, 0), (1, 5, 0), (3, 5, 0), (2, 1, 1), (1, 3, 2)]
             {
                 let mut mean = Mean::default();
+                // Every third sample of three times as many: each by itself has the same mean.
+                let of = if scattered > 0 { 3 } else { 1 };
                 for sample in 0..SAMPLES / (count * (candidates + scattered)) {
                     let seed = exact::hash(sample ^ i << 20);
                     let samples = Samples {
                         count,
                         candidates,
                         scattered,
-                        part: Part::WHOLE,
+                        part: Part {
+                            index: sample % of,
+                            of,
+                        },
                     };
                     let value = reflected(&scene, &seen, &By(pick), samples, seed);
                     mean.add(f64::from(value.x) * std::f64::consts::PI);

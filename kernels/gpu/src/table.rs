@@ -33,7 +33,7 @@ pub static PATH_BVH: Kernel = Kernel {
         Binding { binding: 7, name: "trails", access: Read, stride: 4 },
         Binding { binding: 8, name: "results", access: Write, stride: 12 },
     ],
-    push_constants: 68,
+    push_constants: 80,
     workgroup: [64, 1, 1],
 };
 
@@ -52,7 +52,7 @@ pub static PATH_BVH_EQ4: Kernel = Kernel {
         Binding { binding: 7, name: "trails", access: Read, stride: 4 },
         Binding { binding: 8, name: "results", access: Write, stride: 12 },
     ],
-    push_constants: 68,
+    push_constants: 80,
     workgroup: [64, 1, 1],
 };
 
@@ -70,7 +70,7 @@ pub static PATH_POWER: Kernel = Kernel {
         Binding { binding: 6, name: "thresholds", access: Read, stride: 4 },
         Binding { binding: 7, name: "results", access: Write, stride: 12 },
     ],
-    push_constants: 68,
+    push_constants: 80,
     workgroup: [64, 1, 1],
 };
 
@@ -87,7 +87,7 @@ pub static PATH_UNIFORM: Kernel = Kernel {
         Binding { binding: 5, name: "camera", access: Read, stride: 48 },
         Binding { binding: 6, name: "results", access: Write, stride: 12 },
     ],
-    push_constants: 68,
+    push_constants: 80,
     workgroup: [64, 1, 1],
 };
 
@@ -216,7 +216,7 @@ pub static RENDER_BVH: Kernel = Kernel {
         Binding { binding: 7, name: "trails", access: Read, stride: 4 },
         Binding { binding: 8, name: "results", access: Write, stride: 12 },
     ],
-    push_constants: 64,
+    push_constants: 76,
     workgroup: [64, 1, 1],
 };
 
@@ -235,7 +235,7 @@ pub static RENDER_BVH_EQ4: Kernel = Kernel {
         Binding { binding: 7, name: "trails", access: Read, stride: 4 },
         Binding { binding: 8, name: "results", access: Write, stride: 12 },
     ],
-    push_constants: 64,
+    push_constants: 76,
     workgroup: [64, 1, 1],
 };
 
@@ -253,7 +253,7 @@ pub static RENDER_POWER: Kernel = Kernel {
         Binding { binding: 6, name: "thresholds", access: Read, stride: 4 },
         Binding { binding: 7, name: "results", access: Write, stride: 12 },
     ],
-    push_constants: 64,
+    push_constants: 76,
     workgroup: [64, 1, 1],
 };
 
@@ -270,7 +270,7 @@ pub static RENDER_UNIFORM: Kernel = Kernel {
         Binding { binding: 5, name: "camera", access: Read, stride: 48 },
         Binding { binding: 6, name: "results", access: Write, stride: 12 },
     ],
-    push_constants: 64,
+    push_constants: 76,
     workgroup: [64, 1, 1],
 };
 

@@ -5,12 +5,10 @@ use lightbvh::EmissiveTriangle;
 use lightbvh::exact::{clamp, hash, unit_f32};
 use lightbvh::reservoir::{LightSample, Resampling, Reservoir};
 
-use super::emitters::Emitters;
 use super::grid::{STEP, flush_vector, snap_point};
-use super::material::Material;
 use super::pick::PickLight;
 use super::picks::Picks;
-use super::pixel::{MAX_CANDIDATES, Scene, load_material};
+use super::pixel::{Scene, load_material};
 use super::ray::{FAR, Ray};
 use super::restir::surface::Surface;
 use super::restir::target::lit;
@@ -25,140 +23,119 @@ pub const MAX_SCATTERED: u32 = 1 << 4;
 pub struct Candidates {
     /// The first.
     pub first: u32,
-    /// How many.
+    /// How many, at least one.
     pub count: u32,
+    /// Directions besides, at most [`MAX_SCATTERED`]: the light that lies in each is a candidate too. The surface chooses them as it
+    /// reflects, so they find what a gloss mirrors.
+    pub scattered: u32,
 }
 
 /// One of the candidates of `picker` for `surface`. `picks` are all of the pixel, `seed` draws the one among these.
 ///
 /// Each candidate's own distribution is that of a single pick, and the expectation of a sum does not ask how its terms depend on
 /// each other, so the weight is that of independent candidates.
+///
+/// With directions, the balance heuristic shares each point of a light among both kinds (E. Veach and L. Guibas, "Optimally Combining
+/// Sampling Techniques for Monte Carlo Rendering", 1995, section 3; within resampling: D. Lin et al., "Generalized Resampled
+/// Importance Sampling", 2022, section 4): however it was found, its weight is p̂ / (n p + m q), where p and q are the densities of
+/// n picks and m directions. So the estimate stays unbiased, and no weight has a small density alone below it.
 #[inline]
 #[must_use]
 pub fn resampled<P: PickLight>(
-    materials: &[Material],
-    emitters: &Emitters<'_>,
-    picker: &P,
-    surface: &Surface,
-    picks: &mut Picks,
-    which: Candidates,
-    seed: u32,
-) -> Reservoir {
-    let mut stream = Resampling::EMPTY;
-    for candidate in 0..which.count {
-        let k = which.first.wrapping_add(candidate);
-        let picked = picks.next(picker, &surface.point, k);
-        let sample = LightSample {
-            light: picked.light,
-            instance: picked.instance,
-            uv: picks.uv(k),
-        };
-        let arriving = lit(materials, emitters, surface, &sample);
-        let random = hash(seed.wrapping_add(candidate));
-        stream.candidate(sample, arriving.target, picked.pmf, random);
-    }
-    stream.finish_equal()
-}
-
-/// [`resampled`] with `scattered` more candidates, at most [`MAX_SCATTERED`]: what lies in directions that the surface itself would
-/// reflect into, one ray each. A small bright light of a mirror is found by the first kind, a large one in a gloss by the second.
-///
-/// The balance heuristic shares each point of a light among both kinds (E. Veach and L. Guibas, "Optimally Combining Sampling
-/// Techniques for Monte Carlo Rendering", 1995, section 3; within resampling: ReSTIR section 2.4 and D. Lin et al., "Generalized
-/// Resampled Importance Sampling", 2022, section 4): its weight is p̂ / (n p + m q) by whichever it was found, with the
-/// probabilities p and q that each kind has for it. So the estimate stays unbiased, and no quotient has a small density alone
-/// below it.
-#[inline]
-#[must_use]
-pub fn resampled_with_scattered<P: PickLight>(
     scene: &Scene<'_>,
     picker: &P,
     surface: &Surface,
     picks: &mut Picks,
     which: Candidates,
-    scattered: u32,
     seed: u32,
 ) -> Reservoir {
-    let scattered = if scattered < MAX_SCATTERED {
-        scattered
+    let scattered = if which.scattered < MAX_SCATTERED {
+        which.scattered
     } else {
         MAX_SCATTERED
     };
-    let balance = Balance {
-        picked: which.count as i32 as f32,
-        scattered: scattered as i32 as f32,
-    };
+    let (n, m) = (which.count as i32 as f32, scattered as i32 as f32);
     let mut stream = Resampling::EMPTY;
-    for candidate in 0..which.count {
-        let k = which.first.wrapping_add(candidate);
-        let picked = picks.next(picker, &surface.point, k);
-        let sample = LightSample {
-            light: picked.light,
-            instance: picked.instance,
-            uv: picks.uv(k),
-        };
-        let arriving = lit(scene.materials, &scene.emitters, surface, &sample);
-        let density = if picked.pmf > 0.0 {
-            balance.density(picked.pmf, arriving.scattered)
+    for candidate in 0..which.count.wrapping_add(scattered) {
+        let found = if candidate < which.count {
+            let k = which.first.wrapping_add(candidate);
+            let picked = picks.next(picker, &surface.point, k);
+            Found {
+                sample: LightSample {
+                    light: picked.light,
+                    instance: picked.instance,
+                    uv: picks.uv(k),
+                },
+                pmf: picked.pmf,
+                counts: picked.pmf > 0.0,
+            }
         } else {
-            0.0
+            mirrored(scene, picker, surface, seed.wrapping_add(DIRECTIONS * candidate))
         };
-        stream.candidate(
-            sample,
-            arriving.target,
-            density,
-            hash(seed.wrapping_add(candidate)),
-        );
+        let arriving = lit(scene.materials, &scene.emitters, surface, &found.sample);
+        let mut density = found.pmf;
+        if scattered > 0 {
+            density = if found.counts {
+                n * found.pmf + m * arriving.scattered
+            } else {
+                0.0
+            };
+        }
+        let random = hash(seed.wrapping_add(candidate));
+        stream.candidate(found.sample, arriving.target, density, random);
     }
+    let whole = if scattered > 0 {
+        1.0
+    } else {
+        stream.count as i32 as f32
+    };
+    stream.finish_balanced(1.0, whole)
+}
+
+/// A candidate.
+struct Found {
+    sample: LightSample,
+    /// With which it is picked.
+    pmf: f32,
+    /// Whether there is one.
+    counts: bool,
+}
+
+/// The light in a direction that `surface` would reflect into, chosen by `numbers` and the two after it.
+#[inline]
+fn mirrored<P: PickLight>(scene: &Scene<'_>, picker: &P, surface: &Surface, numbers: u32) -> Found {
+    let mut found = Found {
+        sample: LightSample::NONE,
+        pmf: 0.0,
+        counts: false,
+    };
     let material = load_material(scene.materials, surface.material);
     let n = flush_vector(surface.point.normal(), STEP);
-    for k in 0..scattered {
-        let numbers = seed.wrapping_add(SCATTERED + 4 * k);
-        let u = [
-            draw(numbers),
-            draw(numbers.wrapping_add(1)),
-            draw(numbers.wrapping_add(2)),
-        ];
-        let ray = Ray::new(surface.point.position(), material.sample(n, surface.wo(), u), FAR);
-        let hit = closest_hit(&scene.surfaces, &ray);
-        let triangles = scene.surfaces.triangles;
-        if hit.triangle < triangles.len() as u32 {
-            let light = triangles[hit.triangle as usize].light;
-            let instance = triangles[hit.triangle as usize].instance;
-            if light != NONE {
-                let emitter = scene.emitters.light(light, instance);
-                let sample = LightSample {
-                    light,
-                    instance,
-                    uv: coordinates(&ray, &emitter),
-                };
-                let arriving = lit(scene.materials, &scene.emitters, surface, &sample);
-                let pmf = picker.pmf(&surface.point, light, instance);
-                let density = balance.density(pmf, arriving.scattered);
-                stream.candidate(sample, arriving.target, density, hash(numbers.wrapping_add(3)));
-            }
+    let u = [
+        draw(numbers),
+        draw(numbers.wrapping_add(1)),
+        draw(numbers.wrapping_add(2)),
+    ];
+    let ray = Ray::new(surface.point.position(), material.sample(n, surface.wo(), u), FAR);
+    let hit = closest_hit(&scene.surfaces, &ray);
+    let triangles = scene.surfaces.triangles;
+    if hit.triangle < triangles.len() as u32 {
+        let light = triangles[hit.triangle as usize].light;
+        let instance = triangles[hit.triangle as usize].instance;
+        if light != NONE {
+            let uv = coordinates(&ray, &scene.emitters.light(light, instance));
+            found = Found {
+                sample: LightSample { light, instance, uv },
+                pmf: picker.pmf(&surface.point, light, instance),
+                counts: true,
+            };
         }
     }
-    stream.finish_balanced(1.0, 1.0)
+    found
 }
 
-/// The first number of a sample that chooses directions.
-const SCATTERED: u32 = MAX_CANDIDATES;
-
-/// How many candidates there are of each kind.
-#[derive(Clone, Copy)]
-struct Balance {
-    picked: f32,
-    scattered: f32,
-}
-
-impl Balance {
-    /// n p + m q, for a light picked with probability `pmf`.
-    #[inline]
-    fn density(self, pmf: f32, scattered: f32) -> f32 {
-        self.picked * pmf + self.scattered * scattered
-    }
-}
+/// Numbers from one direction's to the next; beyond what draws among the candidates.
+const DIRECTIONS: u32 = 1 << 10;
 
 /// The numbers that choose the point of `light` which the ray hits.
 #[inline]

@@ -6,7 +6,7 @@ use lightbvh::vector::{cross, dot, length_squared};
 use lightbvh::{EmissiveTriangle, Instance, ShadingPoint};
 
 use super::area::{connect, offset_distance};
-use super::candidates::{Candidates, resampled, resampled_with_scattered};
+use super::candidates::{Candidates, resampled};
 use super::emitters::Emitters;
 use super::grid::{TINY, TINY_AREA, flush_vector};
 use super::material::Material;
@@ -260,32 +260,13 @@ fn one_of_many<P: PickLight>(
             let which = Candidates {
                 first: sample.wrapping_mul(count),
                 count,
+                scattered: samples.scattered,
             };
             let random = hash(
                 seed.wrapping_add(Numbers::USED)
                     .wrapping_add(samples.part.number(sample)),
             );
-            let chosen = if samples.scattered > 0 {
-                resampled_with_scattered(
-                    scene,
-                    picker,
-                    &surface,
-                    &mut picks,
-                    which,
-                    samples.scattered,
-                    random,
-                )
-            } else {
-                resampled(
-                    scene.materials,
-                    &scene.emitters,
-                    picker,
-                    &surface,
-                    &mut picks,
-                    which,
-                    random,
-                )
-            };
+            let chosen = resampled(scene, picker, &surface, &mut picks, which, random);
             if chosen.weight > 0.0 {
                 let arriving = lit(scene.materials, &scene.emitters, &surface, &chosen.sample);
                 if visible(&scene.surfaces, &surface, arriving.end, chosen.sample.light) {

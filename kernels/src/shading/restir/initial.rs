@@ -48,10 +48,10 @@ pub fn first_reservoir<P: PickLight>(
         let which = Candidates {
             first: 0,
             count: params.candidates,
+            scattered: 0,
         };
         found.reservoir = resampled(
-            scene.materials,
-            &scene.emitters,
+            scene,
             picker,
             surface,
             &mut Picks::new(Numbers::of(seed), params.candidates),
