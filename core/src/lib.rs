@@ -169,7 +169,9 @@ pub use bvh::{InstanceId, MeshId};
 #[doc(hidden)]
 pub use error::*;
 #[doc(hidden)]
-pub use importance::{Defensive, Eq4, FluxOverDistance, ImportanceModel, Moments};
+pub use importance::{
+    Cycles, Defensive, Eq4, Falcor, Flux, FluxOverDistance, ImportanceModel, Moments, Pbrt,
+};
 #[doc(hidden)]
 pub use node::{
     BoundsNode, CompactNode, FullMomentNode, FullNode, LeanMomentNode, LightBounds, LightMoments, LightNode,

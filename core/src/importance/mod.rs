@@ -3,16 +3,25 @@
 //! A weight need not be accurate. It is positive wherever there is flux, so that no light is ever lost, and it has the same
 //! bits on both processors. What is approximate about it costs variance.
 
+mod cycles;
 mod eq4;
+mod falcor;
 mod flux;
 mod moments;
+mod pbrt;
+mod phi;
+mod sight;
 #[cfg(test)]
 mod tests;
 
+pub use cycles::Cycles;
 pub use eq4::{Cluster, Eq4};
+pub use falcor::Falcor;
 pub use flux::FluxOverDistance;
 pub use moments::Moments;
 pub(crate) use moments::{Lobe, frame, recip_positive, side, weight};
+pub use pbrt::Pbrt;
+pub use phi::Flux;
 
 use crate::exact;
 use crate::point::ShadingPoint;

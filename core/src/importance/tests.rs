@@ -3,6 +3,7 @@
 //! What is compared is the weight of a child over that of a sibling whose weight the formula gives at sight: the scale that
 //! the children of a node share cancels.
 
+mod bounds;
 mod eq4;
 mod flux;
 mod moments;
