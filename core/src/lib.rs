@@ -170,7 +170,7 @@ pub use bvh::{InstanceId, MeshId};
 pub use error::*;
 #[doc(hidden)]
 pub use importance::{
-    Cycles, Defensive, Eq4, Falcor, Flux, FluxOverDistance, ImportanceModel, Moments, Pbrt,
+    Cycles, Defensive, Eq4, Falcor, Flux, FluxOverDistance, ImportanceModel, Moments, Pbrt, SphericalGaussian,
 };
 #[doc(hidden)]
 pub use node::{

@@ -6,12 +6,15 @@
 mod bounds;
 mod eq4;
 mod flux;
+mod gaussian;
 mod moments;
+#[cfg(feature = "alloc")]
+mod trees;
 
 use glam::Vec3;
 
 use crate::exact::pow2;
-use crate::kit::{Random, Wide, dot, minus, narrow, normalize, times, wide};
+use crate::kit::{Random, Wide, cross, dot, minus, narrow, normalize, times, wide};
 
 impl Random {
     fn below(&mut self, count: u32) -> u32 {
