@@ -156,7 +156,7 @@ pub use rebuilder::Rebuilder;
 pub use transform::Transform;
 
 pub use light::{EmissiveTriangle, LightPoint};
-pub use point::ShadingPoint;
+pub use point::{GlossyPoint, Receiver, ShadingPoint};
 pub use traverse::{Random64, SampledLight};
 
 // Short paths to what is documented in a module.
@@ -170,7 +170,8 @@ pub use bvh::{InstanceId, MeshId};
 pub use error::*;
 #[doc(hidden)]
 pub use importance::{
-    Cycles, Defensive, Eq4, Falcor, Flux, FluxOverDistance, ImportanceModel, Moments, Pbrt, SphericalGaussian,
+    Cycles, Defensive, Eq4, Falcor, Flux, FluxOverDistance, Glossy, ImportanceModel, Moments, Pbrt,
+    SphericalGaussian,
 };
 #[doc(hidden)]
 pub use node::{

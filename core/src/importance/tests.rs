@@ -7,6 +7,8 @@ mod bounds;
 mod eq4;
 mod flux;
 mod gaussian;
+#[cfg(feature = "alloc")]
+mod glossy;
 mod moments;
 #[cfg(feature = "alloc")]
 mod trees;
