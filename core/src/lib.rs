@@ -72,6 +72,7 @@ for frame in 0..3 {
 //! - P. Freire, J. M. Pereira. Dynamic many-light importance sampling for real-time ray tracing. 2023 ("the paper").
 //! - B. Bitterli, C. Wyman, M. Pharr, P. Shirley, A. Lefohn, W. Jarosz. Spatiotemporal reservoir resampling for real-time
 //!   ray tracing with dynamic direct lighting. 2020 ("ReSTIR").
+//! - Y. Tokuyoshi, S. Ikeda, P. Kulkarni, T. Harada. Hierarchical light sampling with accurate spherical Gaussian lighting. SIGGRAPH Asia 2024.
 //! - M. Pharr, W. Jakob, G. Humphreys. Physically based rendering, 4th edition, section 12.6. 2023.
 #![no_std]
 #![forbid(unsafe_code)]
