@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::{PointError, Receiver, ShadingPoint};
+use crate::exact;
 use crate::instance::Instance;
 
 /// Greatest exponent of a lobe.
@@ -46,7 +47,7 @@ impl GlossyPoint {
             if value.is_nan() {
                 Err(PointError::Reflectance { value })
             } else {
-                Ok(value.clamp(least, most))
+                Ok(exact::clamp(value, least, most))
             }
         };
         Ok(Self {

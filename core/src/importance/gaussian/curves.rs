@@ -3,14 +3,14 @@
 use crate::exact::{self, pow2, recip, rsqrt};
 
 /// log₂ e.
-const LOG2_E: f32 = 1.442_695;
+const LOG2_E: f32 = core::f32::consts::LOG2_E;
 /// Arguments of [`exp_minus`] count as at most this: e^-80 is 2^-115.
 const GREATEST: f32 = 80.0;
 /// 2^−f from f = 0 to 1, within 8e-8: coefficients of f^0 to f^5.
 const POWERS: [f32; 6] = [
     0.999_999_9,
     -0.693_142_2,
-    0.240_171_59,
+    0.240_171_6,
     -0.055_278_134,
     0.009_186_875,
     -0.000_938_116_5,

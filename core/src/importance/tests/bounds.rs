@@ -145,7 +145,7 @@ fn cycles_averages_two_probabilities() {
     let (mut by_least, mut alike) = (0, 0);
     for _ in 0..20_000 {
         let (first, point) = sight(random);
-        let size = (first.max - first.min).max_element().max(1e-3);
+        let size = exact::max((first.max - first.min).max_element(), 1e-3);
         let sets = [0; 4].map(|k| {
             let (other, _) = sight(random);
             let center = (first.min + first.max) * 0.5 + random.vector() * size * 2.0;

@@ -29,7 +29,7 @@ fn erfc(x: f64) -> f64 {
 
 /// The supplement's listings 5 to 7.
 fn integral(cosine: f64, s: f64) -> f64 {
-    let ratio = 0.5 * ((s + 2.736_083_161_127_255_8) * s + 17.021_297_781_741_875)
+    let ratio = 0.5 * ((s + 2.736_083_161_127_256) * s + 17.021_297_781_741_875)
         / (((s + 4.010_082_672_851_042) * s + 15.219_156_263_147_21) * s + 76.087_896_272_360_74);
     let t = s * ratio.sqrt();
     let tz = t * cosine;
@@ -195,7 +195,9 @@ fn check<N: MomentLayout<4>>(seed: u32) {
             low += u32::from(value < 0.5 * floor);
             near += u32::from(squared < 3.0 * f64::from(lights.across).powi(2));
             let x = lights.c - point.position();
-            away += u32::from(crate::vector::dot(x, lights.m) > 0.1 * x.length());
+            away += u32::from(
+                crate::vector::dot(x, lights.m) > 0.1 * exact::sqrt(crate::vector::length_squared(x)),
+            );
             volume += u32::from(point.n == [0.0; 3]);
         }
     }
