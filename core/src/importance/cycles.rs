@@ -106,18 +106,16 @@ impl Sight {
         let direction = v * inverse;
         // Of the corner that is the farthest off: its lengths along and across the direction. Opposite ones are as far across.
         let (mut cosine, mut sine) = (d_squared * inverse, 0.0);
-        for k in 0..4 {
-            let first = if k & 1 == 0 { e.x } else { -e.x };
-            let second = if k & 2 == 0 { e.y } else { -e.y };
+        for k in 0..8 {
+            let first = if k & 2 == 0 { e.x } else { -e.x };
+            let second = if k & 4 == 0 { e.y } else { -e.y };
             let corner = Vec3::new(first, second, e.z);
             let across = root(length_squared(cross(direction, corner)) + TINY_SQUARED);
-            for sign in [1.0, -1.0] {
-                let along = dot(direction, v + corner * sign);
-                // The sine of the difference of both angles.
-                let farther = across * cosine > sine * along;
-                cosine = if farther { along } else { cosine };
-                sine = if farther { across } else { sine };
-            }
+            let along = dot(direction, if k & 1 == 0 { v + corner } else { v - corner });
+            // The sine of the difference of both angles.
+            let farther = across * cosine > sine * along;
+            cosine = if farther { along } else { cosine };
+            sine = if farther { across } else { sine };
         }
         let to_distance = rsqrt_rough(exact::max(cosine * cosine + sine * sine, MIN_DISTANCE_SQUARED))
             * (d_squared * inverse);
