@@ -15,7 +15,7 @@ use crate::light::INVALID;
 use crate::light::{EmissiveTriangle, MAX_COORDINATE, MIN_COORDINATE};
 use crate::point::ShadingPoint;
 use crate::trail::BitTrail;
-use crate::vector::{dot, flush3, length_squared};
+use crate::vector::{dot, flush3, greatest_exponent, length_squared};
 
 /// Lengths below this in a mesh's space count as zero, metres: 2^-60. Entries of the maps are zero or at least 2^-60, so no
 /// product with them is subnormal.
@@ -183,6 +183,16 @@ impl Instance {
             mesh: index,
             flags: local.flags,
         }
+    }
+
+    /// A direction of the world in the space of the mesh, again of about unit length; zero where the map loses it.
+    #[inline(always)]
+    pub(crate) fn direction_to_local(&self, v: Vec3) -> Vec3 {
+        let back = (vector(&self.inverse[0]) * v.x + vector(&self.inverse[1]) * v.y)
+            + vector(&self.inverse[2]) * v.z;
+        let e = greatest_exponent(back, -100);
+        let scaled = flushed(back * pow2(-e));
+        scaled * exact::rsqrt(exact::max(length_squared(scaled), pow2(-60)))
     }
 
     /// A point of the world in the space of the mesh, its normal again of about unit length.

@@ -72,6 +72,7 @@ for frame in 0..3 {
 //! - P. Freire, J. M. Pereira. Dynamic many-light importance sampling for real-time ray tracing. 2023 ("the paper").
 //! - B. Bitterli, C. Wyman, M. Pharr, P. Shirley, A. Lefohn, W. Jarosz. Spatiotemporal reservoir resampling for real-time
 //!   ray tracing with dynamic direct lighting. 2020 ("ReSTIR").
+//! - Y. Tokuyoshi, S. Ikeda, P. Kulkarni, T. Harada. Hierarchical light sampling with accurate spherical Gaussian lighting. SIGGRAPH Asia 2024.
 //! - M. Pharr, W. Jakob, G. Humphreys. Physically based rendering, 4th edition, section 12.6. 2023.
 #![no_std]
 #![forbid(unsafe_code)]
@@ -156,7 +157,7 @@ pub use rebuilder::Rebuilder;
 pub use transform::Transform;
 
 pub use light::{EmissiveTriangle, LightPoint};
-pub use point::ShadingPoint;
+pub use point::{GlossyPoint, Receiver, ShadingPoint};
 pub use traverse::{Random64, SampledLight};
 
 // Short paths to what is documented in a module.
@@ -169,7 +170,10 @@ pub use bvh::{InstanceId, MeshId};
 #[doc(hidden)]
 pub use error::*;
 #[doc(hidden)]
-pub use importance::{Defensive, Eq4, FluxOverDistance, ImportanceModel, Moments};
+pub use importance::{
+    Cycles, Defensive, Eq4, Falcor, Flux, FluxOverDistance, Glossy, ImportanceModel, Moments, Pbrt,
+    SphericalGaussian,
+};
 #[doc(hidden)]
 pub use node::{
     BoundsNode, CompactNode, FullMomentNode, FullNode, LeanMomentNode, LightBounds, LightMoments, LightNode,

@@ -1,9 +1,14 @@
 //! The receiver of light.
 
+mod glossy;
+
+pub use glossy::GlossyPoint;
+
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use crate::exact;
+use crate::instance::Instance;
 use crate::light::{MAX_COORDINATE, MIN_COORDINATE};
 use crate::vector::length_squared;
 
@@ -83,6 +88,20 @@ impl ShadingPoint {
     }
 }
 
+/// What a walk may be told of a receiver, to be brought into the space of each instance that it enters: a [`ShadingPoint`], or a type that
+/// says more to an importance that asks for it.
+pub trait Receiver: Copy {
+    /// The receiver in the space of the instance's mesh.
+    fn to_local(&self, instance: &Instance) -> Self;
+}
+
+impl Receiver for ShadingPoint {
+    #[inline(always)]
+    fn to_local(&self, instance: &Instance) -> Self {
+        instance.to_local(self)
+    }
+}
+
 /// Why a shading point is refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -99,6 +118,16 @@ pub enum PointError {
         /// What was found.
         n: [f32; 3],
     },
+    /// The mirror direction of a [`GlossyPoint`] is neither of length 1 nor zero, or not finite.
+    Mirror {
+        /// What was found.
+        mirror: [f32; 3],
+    },
+    /// A reflectance or exponent of a [`GlossyPoint`] is NaN.
+    Reflectance {
+        /// What was found.
+        value: f32,
+    },
 }
 
 impl core::fmt::Display for PointError {
@@ -113,6 +142,14 @@ impl core::fmt::Display for PointError {
             Self::Normal { n: [x, y, z] } => write!(
                 f,
                 "the normal of a shading point is ({x}, {y}, {z}), expected length 1, or zero in a volume; normalize it"
+            ),
+            Self::Mirror { mirror: [x, y, z] } => write!(
+                f,
+                "the mirror direction of a glossy point is ({x}, {y}, {z}), expected length 1, or zero for none; normalize it"
+            ),
+            Self::Reflectance { value } => write!(
+                f,
+                "a reflectance or exponent of a glossy point is {value}, expected a number; compute it anew"
             ),
         }
     }

@@ -3,30 +3,45 @@
 //! A weight need not be accurate. It is positive wherever there is flux, so that no light is ever lost, and it has the same
 //! bits on both processors. What is approximate about it costs variance.
 
+mod cycles;
 mod eq4;
+mod falcor;
 mod flux;
+mod gaussian;
+mod glossy;
 mod moments;
+mod pbrt;
+mod phi;
+mod sight;
 #[cfg(test)]
 mod tests;
 
+pub use cycles::Cycles;
 pub use eq4::{Cluster, Eq4};
+pub use falcor::Falcor;
 pub use flux::FluxOverDistance;
+pub use gaussian::SphericalGaussian;
+pub use glossy::Glossy;
 pub use moments::Moments;
 pub(crate) use moments::{Lobe, frame, recip_positive, side, weight};
+pub use pbrt::Pbrt;
+pub use phi::Flux;
 
 use crate::exact;
 use crate::point::ShadingPoint;
 
 /// A measure of what the lights below each child of a node may contribute at a point. A type chooses it, so that kernels
 /// contain one only.
-pub trait ImportanceModel<N, const W: usize> {
+///
+/// `P` is what it is told of the receiver: a [`ShadingPoint`], or a type that says more.
+pub trait ImportanceModel<N, const W: usize, P = ShadingPoint> {
     /// Share of samples that choose among all lights alike, as the number of times that 1 is halved: 5 for 1/32. 0 is for none
     /// and costs nothing. See [`Defensive`].
     const UNIFORM_HALVINGS: u32;
 
     /// The weights of the children of `node` at `point`, a point in the node's space: each zero where the child has no flux,
     /// else positive and at most 2^120. Hostile words may give anything.
-    fn weights(node: &N, point: &ShadingPoint) -> [f32; W];
+    fn weights(node: &N, point: &P) -> [f32; W];
 }
 
 /// The importance `I` with a share of 2^-`HALVINGS` of samples that choose among all lights alike (a defensive mixture:
@@ -39,7 +54,7 @@ pub struct Defensive<I, const HALVINGS: u32>(core::marker::PhantomData<I>);
 /// What `LightBvh` chooses children by: moments, and a share of 1/64 of uniform choice.
 pub type DefaultImportance = Defensive<Moments, 6>;
 
-impl<N, I: ImportanceModel<N, W>, const HALVINGS: u32, const W: usize> ImportanceModel<N, W>
+impl<N, I: ImportanceModel<N, W, P>, P, const HALVINGS: u32, const W: usize> ImportanceModel<N, W, P>
     for Defensive<I, HALVINGS>
 {
     const UNIFORM_HALVINGS: u32 = {
@@ -51,7 +66,7 @@ impl<N, I: ImportanceModel<N, W>, const HALVINGS: u32, const W: usize> Importanc
     };
 
     #[inline(always)]
-    fn weights(node: &N, point: &ShadingPoint) -> [f32; W] {
+    fn weights(node: &N, point: &P) -> [f32; W] {
         I::weights(node, point)
     }
 }

@@ -3,14 +3,20 @@
 //! What is compared is the weight of a child over that of a sibling whose weight the formula gives at sight: the scale that
 //! the children of a node share cancels.
 
+mod bounds;
 mod eq4;
 mod flux;
+mod gaussian;
+#[cfg(feature = "alloc")]
+mod glossy;
 mod moments;
+#[cfg(feature = "alloc")]
+mod trees;
 
 use glam::Vec3;
 
 use crate::exact::pow2;
-use crate::kit::{Random, Wide, dot, minus, narrow, normalize, times, wide};
+use crate::kit::{Random, Wide, cross, dot, minus, narrow, normalize, times, wide};
 
 impl Random {
     fn below(&mut self, count: u32) -> u32 {

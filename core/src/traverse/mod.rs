@@ -25,7 +25,7 @@ pub use sample::SampledLight;
 
 use crate::importance::ImportanceModel;
 use crate::node::LightNode;
-use crate::point::ShadingPoint;
+use crate::point::{Receiver, ShadingPoint};
 use crate::tree::LightTree;
 
 impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> LightTree<'_, N, I, W> {
@@ -104,5 +104,29 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> LightTree<'_, N,
     #[must_use]
     pub fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {
         widest::pmf(self, point, light, instance)
+    }
+}
+
+impl<N: LightNode<W>, I, const W: usize> LightTree<'_, N, I, W> {
+    /// [`sample`](Self::sample) for a receiver of which an importance may know more than a [`ShadingPoint`] says, as
+    /// [`Glossy`](crate::importance::Glossy) does of a [`GlossyPoint`](crate::point::GlossyPoint). For a `ShadingPoint` to the same bits.
+    #[inline]
+    #[must_use]
+    pub fn sample_for<P: Receiver>(&self, receiver: &P, random: impl Into<Random64>) -> SampledLight
+    where
+        I: ImportanceModel<N, W, P>,
+    {
+        sample::sample(self, receiver, random.into())
+    }
+
+    /// The probability with which [`sample_for`](Self::sample_for) returns light `light` of instance `instance`: as
+    /// [`pmf`](Self::pmf).
+    #[inline]
+    #[must_use]
+    pub fn pmf_for<P: Receiver>(&self, receiver: &P, light: u32, instance: u32) -> f32
+    where
+        I: ImportanceModel<N, W, P>,
+    {
+        sample::pmf(self, receiver, light, instance)
     }
 }

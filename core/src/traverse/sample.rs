@@ -8,7 +8,7 @@ use super::walk::{Walk, uniform_numbers};
 use crate::exact;
 use crate::importance::ImportanceModel;
 use crate::node::LightNode;
-use crate::point::ShadingPoint;
+use crate::point::{Receiver, ShadingPoint};
 use crate::trail::Path;
 use crate::tree::{INVALID, LightTree};
 
@@ -39,9 +39,9 @@ impl SampledLight {
 
 /// See [`LightTree::sample`].
 #[inline(always)]
-pub(super) fn sample<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+pub(super) fn sample<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
     tree: &LightTree<'_, N, I, W>,
-    point: &ShadingPoint,
+    point: &P,
     random: Random64,
 ) -> SampledLight {
     let mut walk = begin(tree, point, random);
@@ -56,8 +56,8 @@ pub(super) fn sample<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 
 /// A walk, and what it was started for.
 #[derive(Clone, Copy)]
-pub(super) struct Started {
-    pub walk: Walk,
+pub(super) struct Started<P = ShadingPoint> {
+    pub walk: Walk<P>,
     /// The light of a uniform choice, or [`INVALID`].
     light: u32,
     /// Its instance, or [`INVALID`].
@@ -66,12 +66,12 @@ pub(super) struct Started {
 
 /// Starts a walk by a random number: down the tree, or for a share of the numbers along the path to a light out of all alike.
 #[inline(always)]
-pub(super) fn begin<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+pub(super) fn begin<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
     tree: &LightTree<'_, N, I, W>,
-    point: &ShadingPoint,
+    point: &P,
     random: Random64,
-) -> Started {
-    let taken = uniform_numbers::<N, I, W>();
+) -> Started<P> {
+    let taken = uniform_numbers::<N, I, P, W>();
     let (mut light, mut instance, mut path) = (INVALID, INVALID, Path::default());
     if taken > 0 && (random.high >> (32 - FULL_BITS)) < taken {
         // The numbers below `taken` are all numbers halved so often.
@@ -86,10 +86,10 @@ pub(super) fn begin<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     }
 }
 
-impl Started {
+impl<P: Receiver> Started<P> {
     /// The light at the end of the walk.
     #[inline(always)]
-    pub fn end<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    pub fn end<N: LightNode<W>, I: ImportanceModel<N, W, P>, const W: usize>(
         &self,
         tree: &LightTree<'_, N, I, W>,
     ) -> SampledLight {
@@ -103,7 +103,7 @@ impl Started {
             light_of(tree, walk.triangle, walk.instance)
         };
         let by_tree = if reached { walk.probability() } else { 0.0 };
-        let pmf = by_tree + uniform_probability(tree, instance);
+        let pmf = by_tree + uniform_probability::<N, I, P, W>(tree, instance);
         if chosen | reached {
             SampledLight { light, instance, pmf }
         } else {
@@ -114,9 +114,9 @@ impl Started {
 
 /// See [`LightTree::pmf`].
 #[inline(always)]
-pub(super) fn pmf<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+pub(super) fn pmf<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
     tree: &LightTree<'_, N, I, W>,
-    point: &ShadingPoint,
+    point: &P,
     light: u32,
     instance: u32,
 ) -> f32 {
@@ -125,7 +125,7 @@ pub(super) fn pmf<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     let triangle = triangle_of(tree, light, instance);
     let path = tree.path_of(triangle, instance);
     let number = Random64 { high: 0, low: 0 };
-    let taken = uniform_numbers::<N, I, W>();
+    let taken = uniform_numbers::<N, I, P, W>();
     let mut walk = Walk::start(tree, point, number, taken, true, path);
     let mut done = walk.done;
     while !done {
@@ -134,7 +134,7 @@ pub(super) fn pmf<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     }
     let found = (walk.triangle == triangle) & (walk.instance == instance) & (triangle != INVALID);
     let by_tree = if found { walk.probability() } else { 0.0 };
-    let uniform = uniform_probability(tree, instance);
+    let uniform = uniform_probability::<N, I, P, W>(tree, instance);
     if is_light(tree, light, instance) {
         by_tree + uniform
     } else {
@@ -167,11 +167,11 @@ fn uniform<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>, random: Random64
 
 /// The probability of a light of `instance` by a uniform choice, times the share of such choices.
 #[inline(always)]
-fn uniform_probability<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+fn uniform_probability<N: LightNode<W>, I: ImportanceModel<N, W, P>, P, const W: usize>(
     tree: &LightTree<'_, N, I, W>,
     instance: u32,
 ) -> f32 {
-    let taken = uniform_numbers::<N, I, W>();
+    let taken = uniform_numbers::<N, I, P, W>();
     let mut probability = 0.0;
     if taken > 0 {
         let within = tree.live > 0 && instance < tree.instances.len() as u32;

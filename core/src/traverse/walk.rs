@@ -5,7 +5,7 @@ use super::random::Random64;
 use crate::exact;
 use crate::importance::ImportanceModel;
 use crate::node::{LightNode, kind};
-use crate::point::ShadingPoint;
+use crate::point::{Receiver, ShadingPoint};
 use crate::trail::{Path, max_levels};
 use crate::tree::{INVALID, LightTree};
 
@@ -19,7 +19,7 @@ const MOST_HALVINGS: u32 = 98;
 /// (2^21, 2^22]. Each choice cuts the range down to the child's share and doubles it until it is that long again, bits of
 /// the number following in from below. So the range and the count of doublings are the probability, exactly.
 #[derive(Clone, Copy)]
-pub(super) struct Walk {
+pub(super) struct Walk<P = ShadingPoint> {
     /// The node to look at.
     pub index: u32,
     /// The triangle reached, or [`INVALID`].
@@ -37,16 +37,16 @@ pub(super) struct Walk {
     pub range: u32,
     halvings: u32,
     /// The point in the space of the node.
-    pub point: ShadingPoint,
+    pub point: P,
     steps: u32,
 }
 
-impl Walk {
+impl<P: Receiver> Walk<P> {
     /// At the root, with the numbers from `taken` on; the others chose another way to a light. With `follow` along `path`.
     #[inline(always)]
     pub fn start<N, I, const W: usize>(
         tree: &LightTree<'_, N, I, W>,
-        point: &ShadingPoint,
+        point: &P,
         number: Random64,
         taken: u32,
         follow: bool,
@@ -72,10 +72,10 @@ impl Walk {
 
     /// Goes one node down. `world` is the point in the world.
     #[inline(always)]
-    pub fn step<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    pub fn step<N: LightNode<W>, I: ImportanceModel<N, W, P>, const W: usize>(
         &mut self,
         tree: &LightTree<'_, N, I, W>,
-        world: &ShadingPoint,
+        world: &P,
     ) {
         let node = self.node(tree);
         let weights = I::weights(node, &self.point);
@@ -104,10 +104,10 @@ impl Walk {
 
     /// Goes to the child of `node` that has `share`. An index out of range ends the walk. Returns how often the range was doubled.
     #[inline(always)]
-    pub fn descend<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    pub fn descend<N: LightNode<W>, I: ImportanceModel<N, W, P>, const W: usize>(
         &mut self,
         tree: &LightTree<'_, N, I, W>,
-        world: &ShadingPoint,
+        world: &P,
         node: &N,
         share: Share,
     ) -> u32 {
@@ -133,7 +133,7 @@ impl Walk {
             self.instance = link;
             self.index = instance.root;
             self.position = levels;
-            self.point = instance.to_local(world);
+            self.point = world.to_local(instance);
         } else {
             self.index = if descends { link } else { self.index };
             self.position += u32::from(descends);
@@ -184,7 +184,7 @@ pub(super) fn narrowed(number: Random64, first: u32, doublings: u32) -> Random64
 
 /// Numbers below this choose among all lights alike, out of [`FULL`].
 #[inline(always)]
-pub(super) fn uniform_numbers<N, I: ImportanceModel<N, W>, const W: usize>() -> u32 {
+pub(super) fn uniform_numbers<N, I: ImportanceModel<N, W, P>, P, const W: usize>() -> u32 {
     if I::UNIFORM_HALVINGS > 0 {
         FULL >> I::UNIFORM_HALVINGS
     } else {

@@ -11,8 +11,9 @@ use std::time::Instant;
 
 use lightbvh::exact::hash;
 use lightbvh::{
-    BuildParams, Bvh, CompactNode, Defensive, Eq4, FluxOverDistance, FullMomentNode, Heuristic,
-    ImportanceModel, LeanMomentNode, LightNode, Lights, MomentNode, Moments, SampledLight, ShadingPoint,
+    BuildParams, Bvh, CompactNode, Cycles, Defensive, Eq4, Falcor, Flux, FluxOverDistance, FullMomentNode,
+    Heuristic, ImportanceModel, LeanMomentNode, LightNode, Lights, MomentNode, Moments, Pbrt, SampledLight,
+    ShadingPoint, SphericalGaussian,
 };
 use serde::Serialize;
 use serde_json::json;
@@ -138,6 +139,12 @@ fn measure(subject: &Subject, all: bool) -> Vec<Row> {
         rows.extend(of.both::<CompactNode<8>, Eq4, 8>("eq4", &saoh));
         rows.extend(of.both::<CompactNode<4>, Eq4, 4>("eq4, ward", &balanced));
         rows.extend(of.both::<CompactNode<4>, FluxOverDistance, 4>("flux/d²", &saoh));
+        rows.extend(of.both::<MomentNode<8>, FluxOverDistance, 8>("flux/d²", &balanced));
+        rows.extend(of.both::<MomentNode<8>, Flux, 8>("flux", &balanced));
+        rows.extend(of.both::<CompactNode<4>, Pbrt, 4>("pbrt", &saoh));
+        rows.extend(of.both::<CompactNode<4>, Falcor, 4>("falcor", &saoh));
+        rows.extend(of.both::<CompactNode<4>, Cycles, 4>("cycles", &saoh));
+        rows.extend(of.both::<MomentNode<8>, SphericalGaussian, 8>("gaussian", &balanced));
     }
     rows
 }

@@ -20,7 +20,7 @@ const ROUGH: f64 = 2.0 * (3e-3 + 7e-4);
 
 /// A point light straight above the point, in the direction that is up in a volume, that shines everywhere: its factor is
 /// 1 + 2^-8.
-fn known(point: &ShadingPoint, distance: f32) -> LightBounds {
+pub fn known(point: &ShadingPoint, distance: f32) -> LightBounds {
     let n = point.normal();
     let up = if n == Vec3::ZERO { Vec3::Z } else { n };
     let at = point.position() + up * distance;
@@ -45,7 +45,7 @@ fn weight<N: BoundsNode<2>>(bounds: &LightBounds, point: &ShadingPoint, distance
 }
 
 /// A set of lights, and a point near it or far off, above the horizon, below it, or in a volume.
-fn sight(random: &mut Random) -> (LightBounds, ShadingPoint) {
+pub fn sight(random: &mut Random) -> (LightBounds, ShadingPoint) {
     let size = random.power(-20, 20);
     let distance = size * random.power(-3, 6);
     let center = random.vector() * size;

@@ -3,10 +3,10 @@
 use glam::Vec3;
 
 use super::{Random, dot, minus, wide};
-use crate::importance::{FluxOverDistance, ImportanceModel};
+use crate::importance::{Flux, FluxOverDistance, ImportanceModel};
 use crate::node::{CompactNode, FullMomentNode, FullNode, LeanMomentNode, LightNode, MomentNode};
 use crate::point::ShadingPoint;
-use crate::{LightBounds, LightMoments};
+use crate::{LightBounds, LightMoments, Summary, exact};
 
 /// Two reciprocals, each within 3·10^-3.
 const ROUGH: f64 = 6.1e-3;
@@ -96,5 +96,39 @@ fn flux_over_distance_of_moments() {
         check::<FullMomentNode<4>>(random, &sets, size, of);
         check::<MomentNode<4>>(random, &sets, size, of);
         check::<LeanMomentNode<4>>(random, &sets, size, of);
+    }
+}
+
+/// Flux alone, on both kinds of layout, whatever the point.
+#[test]
+fn flux_alone_is_flux() {
+    fn check<N: LightNode<4>>(random: &mut Random, sets: &[N::Summary; 4]) {
+        let mut node = N::EMPTY;
+        for slot in 0..4 {
+            node.set_child(slot, crate::node::kind::LIGHT, slot as u32);
+        }
+        node.set_summaries(sets);
+        let expected = [0, 1, 2, 3].map(|slot| f64::from(node.summary(slot).phi()));
+        let found = Flux::weights(&node, &point(random, 1.0));
+        for slot in 0..4 {
+            let ratio = f64::from(found[slot]) / f64::from(found[0]);
+            assert_eq!(ratio, expected[slot] / expected[0], "{}", N::NAME);
+        }
+    }
+    let random = &mut Random(3);
+    for _ in 0..1000 {
+        let phi = [0; 4].map(|_| exact::pow2(random.below(40) as i32 - 20));
+        let bounds = phi.map(|phi| LightBounds {
+            phi,
+            ..LightBounds::EMPTY
+        });
+        check::<FullNode<4>>(random, &bounds);
+        check::<CompactNode<4>>(random, &bounds);
+        let moments = phi.map(|phi| LightMoments {
+            phi,
+            ..LightMoments::EMPTY
+        });
+        check::<FullMomentNode<4>>(random, &moments);
+        check::<MomentNode<4>>(random, &moments);
     }
 }

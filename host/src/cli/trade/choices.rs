@@ -8,8 +8,8 @@ use lightbvh::exact::hash;
 use lightbvh::importance::DefaultImportance;
 use lightbvh::node::{FullMomentNode, LeanMomentNode};
 use lightbvh::{
-    BuildParams, CompactNode, Eq4, FluxOverDistance, ImportanceModel, LightNode, Lights, MomentNode, Moments,
-    Random64, ShadingPoint,
+    BuildParams, CompactNode, Cycles, Eq4, Falcor, Flux, FluxOverDistance, ImportanceModel, LightNode,
+    Lights, MomentNode, Moments, Pbrt, Random64, ShadingPoint, SphericalGaussian,
 };
 use lightbvh_kernels::bvh::Choice;
 use lightbvh_kernels::render::RenderParams;
@@ -140,6 +140,12 @@ pub(super) fn all(lights: &Lights) -> Vec<Box<dyn Subject>> {
         with(A::Importance).of::<MomentNode<8>, Moments, 8>("moments"),
         builder(A::Importance, saoh).of::<CompactNode<4>, Eq4, 4>("eq4"),
         builder(A::Importance, saoh).of::<CompactNode<4>, FluxOverDistance, 4>("flux/d²"),
+        with(A::Importance).of::<MomentNode<8>, FluxOverDistance, 8>("flux/d²"),
+        with(A::Importance).of::<MomentNode<8>, Flux, 8>("flux"),
+        builder(A::Importance, saoh).of::<CompactNode<4>, Pbrt, 4>("pbrt"),
+        builder(A::Importance, saoh).of::<CompactNode<4>, Falcor, 4>("falcor"),
+        builder(A::Importance, saoh).of::<CompactNode<4>, Cycles, 4>("cycles"),
+        with(A::Importance).of::<MomentNode<8>, SphericalGaussian, 8>("gaussian"),
         with(A::Layout).of::<LeanMomentNode<8>, Moments, 8>("moments"),
         with(A::Layout).of::<FullMomentNode<8>, Moments, 8>("moments"),
         with(A::Width).of::<MomentNode<4>, D, 4>("moments+1/64"),

@@ -1,0 +1,319 @@
+//! The factor of a glossy receiver against its formula, and what it is worth.
+
+extern crate std;
+
+use std::vec::Vec;
+
+use super::{Random, cross, dot, minus, narrow, normalize, times, wide};
+use crate::importance::{Defensive, Eq4, Flux, Glossy, ImportanceModel, Moments};
+use crate::node::{CompactNode, FullMomentNode, LightNode, MomentNode, kind};
+use crate::point::{GlossyPoint, PointError, Receiver};
+use crate::{BuildParams, Bvh, EmissiveTriangle, INVALID, LightMoments, Lights, ShadingPoint, exact};
+
+/// A surface at the origin of a view `to` away from it.
+fn surface(p: [f32; 3], n: [f32; 3], to: [f64; 3], specular: f32, log2: u32) -> GlossyPoint {
+    let normal = n.map(f64::from);
+    let along = 2.0 * dot(normal, to);
+    GlossyPoint {
+        point: ShadingPoint { p, n },
+        mirror: narrow(minus(times(normal, along), to)).to_array(),
+        diffuse: 0.5 * (1.0 - specular),
+        specular,
+        exponent: exact::pow2(log2 as i32),
+    }
+}
+
+/// Within a cube of twice `size`.
+fn any_surface(random: &mut Random, size: f32) -> GlossyPoint {
+    let p = (random.vector() * size).to_array();
+    let n = random.direction();
+    let mut to = wide(random.direction());
+    if dot(to, wide(n)) < 0.0 {
+        to = times(to, -1.0);
+    }
+    let specular = [0.0, 0.3, 1.0][random.below(3) as usize];
+    let log2 = random.below(17);
+    surface(p, n.to_array(), to, specular, log2)
+}
+
+#[test]
+fn the_factor_is_its_formula() {
+    let random = &mut Random(1);
+    let (mut within, mut beside, mut wide_of) = (0, 0, 0);
+    for _ in 0..20_000 {
+        let size = random.power(-20, 20);
+        let receiver = any_surface(random, size);
+        let sets = [0; 4].map(|_| {
+            let mirror = glam::Vec3::from_array(receiver.mirror);
+            let to = if random.below(2) == 0 {
+                random.direction()
+            } else {
+                mirror + random.vector() * 0.2
+            };
+            LightMoments {
+                phi: 1.0,
+                c: receiver.point.position() + to * (size * random.power(-4, 4)),
+                across: size * random.power(-8, 1),
+                along: 0.0,
+                m: glam::Vec3::ZERO,
+                h: glam::Vec3::ZERO,
+            }
+        });
+        let mut node = FullMomentNode::<4>::EMPTY;
+        for slot in 0..4 {
+            node.set_child(slot, kind::LIGHT, slot as u32);
+        }
+        node.set_summaries(&sets);
+        let found = Glossy::<Flux>::weights(&node, &receiver);
+        for slot in 0..4 {
+            let away = minus(wide(sets[slot].c), wide(receiver.point.position()));
+            let d2 = dot(away, away);
+            let k = f64::from(receiver.exponent);
+            let spread = f64::from(sets[slot].across).powi(2) * 2.0;
+            let u2 = 0.5 * spread / d2.max(spread * 2f64.powi(-20));
+            let widened = 1.0 + 0.25 * k * u2;
+            let mirror = receiver.mirror.map(f64::from);
+            let z = 0.25 * k / widened * (1.0 - dot(mirror, away) / d2.sqrt());
+            let lobe = f64::from(receiver.specular) * (k + 6.0) / 8.0 / widened / (1.0 + z / 4.0).powi(4);
+            let expected = (f64::from(receiver.diffuse) + lobe).max(2f64.powi(-20));
+            assert!(
+                (f64::from(found[slot]) / expected - 1.0).abs() < 1e-3,
+                "{found:?}, {slot} expected {expected}: {sets:?} at {receiver:?}"
+            );
+            let lit = receiver.specular > 0.0 && k > 32.0;
+            within += u32::from(lit && z < 1.0 && u2 < 0.1);
+            beside += u32::from(lit && z > 5.0);
+            wide_of += u32::from(lit && widened > 2.0);
+        }
+    }
+    for seen in [within, beside, wide_of] {
+        assert!(seen > 500, "{within} {beside} {wide_of}");
+    }
+}
+
+/// 200 triangles of up to half a metre in a room of 10 m, in four meshes.
+fn room(random: &mut Random) -> Lights {
+    let triangle = |k: u32| {
+        let at = random.vector() * 5.0;
+        let corner = |random: &mut Random| (at + random.vector() * 0.5).to_array();
+        EmissiveTriangle {
+            p: [at.to_array(), corner(random), corner(random)],
+            radiance: [1.1 + random.signed(); 3],
+            mesh: k / 50,
+            flags: u32::from(k % 5 == 2) * EmissiveTriangle::TWO_SIDED,
+        }
+    };
+    Lights::new((0..200).map(triangle).collect()).expect("within the domain")
+}
+
+/// A walk that is told of a shading point alone is today's, to the bit.
+#[test]
+fn a_diffuse_receiver_is_a_shading_point() {
+    type D = Defensive<Moments, 6>;
+    let random = &mut Random(2);
+    let lights = room(random);
+    for two in [false, true] {
+        let bvh = if two {
+            Bvh::<MomentNode<8>, D, 8>::two_level(&lights, &BuildParams::default())
+        } else {
+            Bvh::<MomentNode<8>, D, 8>::single_level(&lights, &BuildParams::default())
+        };
+        for _ in 0..500 {
+            let glossy = any_surface(random, 5.0);
+            let number = (u64::from(random.below(1 << 20)) << 44) + 12_345;
+            let sampled = bvh.sample(&glossy.point, number);
+            let again = bvh.tree().sample_for(&glossy.point, number);
+            assert_eq!(sampled, again);
+            let pmf = bvh.tree().pmf_for(&glossy.point, sampled.light, sampled.instance);
+            assert_eq!(sampled.pmf.to_bits(), pmf.to_bits());
+        }
+    }
+}
+
+/// What a triangle reflects from its centroid, unshadowed: diffuse and Blinn's lobe.
+fn reflected(triangle: &EmissiveTriangle, receiver: &GlossyPoint) -> f64 {
+    let p = triangle.p.map(|v| v.map(f64::from));
+    let center = [0, 1, 2].map(|k| (p[0][k] + p[1][k] + p[2][k]) / 3.0);
+    let across = cross(minus(p[1], p[0]), minus(p[2], p[0]));
+    let v = minus(center, receiver.point.p.map(f64::from));
+    let (n, d2) = (receiver.point.n.map(f64::from), dot(v, v));
+    let received = dot(n, v).max(0.0);
+    let along = -dot(across, v);
+    let emitted = if triangle.is_two_sided() {
+        along.abs()
+    } else {
+        along.max(0.0)
+    };
+    let mirror = receiver.mirror.map(f64::from);
+    let view = minus(times(n, 2.0 * dot(n, mirror)), mirror);
+    let to = normalize(v);
+    let half = normalize([0, 1, 2].map(|k| to[k] + view[k]));
+    let k = f64::from(receiver.exponent);
+    let lobe = (k + 6.0) / 8.0 * dot(n, half).max(0.0).powf(k);
+    let reflectance = f64::from(receiver.diffuse) + f64::from(receiver.specular) * lobe;
+    f64::from(triangle.radiance[0]) * reflectance * received * emitted / (d2 * d2)
+}
+
+/// Relative variance of one sample by `I`, which is told `P` of a receiver: the mean over the points.
+fn variance<I, P, F>(two: bool, specular: f32, log2: u32, told: F) -> f64
+where
+    I: ImportanceModel<MomentNode<8>, 8, P>,
+    P: Receiver,
+    F: Fn(&GlossyPoint) -> P,
+{
+    let random = &mut Random(3);
+    let lights = room(random);
+    let bvh = if two {
+        Bvh::<MomentNode<8>, I, 8>::two_level(&lights, &BuildParams::default())
+    } else {
+        Bvh::<MomentNode<8>, I, 8>::single_level(&lights, &BuildParams::default())
+    };
+    let tree = bvh.tree();
+    let (mut sum, mut count) = (0.0, 0.0);
+    for _ in 0..200 {
+        let any = any_surface(random, 5.0);
+        let receiver = GlossyPoint {
+            diffuse: 0.5 * (1.0 - specular),
+            specular,
+            exponent: exact::pow2(log2 as i32),
+            ..any
+        };
+        let query = told(&receiver);
+        let (mut mean, mut square, mut pmfs) = (0.0, 0.0, 0.0);
+        for (light, triangle) in (0..).zip(lights.triangles()) {
+            let instance = if two { triangle.mesh } else { INVALID };
+            let pmf = f64::from(tree.pmf_for(&query, light, instance));
+            let f = reflected(triangle, &receiver);
+            assert!(pmf > 0.0, "light {light} at {receiver:?}");
+            mean += f;
+            square += f * f / pmf;
+            pmfs += pmf;
+        }
+        assert!((pmfs - 1.0).abs() < 1e-5, "{pmfs} at {receiver:?}");
+        if mean > 0.0 {
+            sum += square / (mean * mean) - 1.0;
+            count += 1.0;
+        }
+    }
+    sum / count
+}
+
+/// Less variance than of the importance that knows nothing of the lobe where it is sharp, about as much where it is broad, the same without
+/// a lobe.
+#[test]
+fn the_lobe_pays() {
+    type D = Defensive<Moments, 6>;
+    type G = Defensive<Glossy<Moments>, 6>;
+    for two in [false, true] {
+        let mut ratios = Vec::new();
+        for (specular, log2) in [(0.0, 4), (0.3, 4), (0.3, 8), (0.9, 6), (0.9, 10)] {
+            let without = variance::<D, _, _>(two, specular, log2, |g| g.point);
+            let with = variance::<G, _, _>(two, specular, log2, |g| *g);
+            std::println!(
+                "two levels {two}: s {specular}, k 2^{log2}: {without:.3}, told of the lobe {with:.3}"
+            );
+            ratios.push(with / without);
+        }
+        assert!((ratios[0] - 1.0).abs() < 1e-3, "{ratios:?}");
+        let most = [1.001, 1.1, 0.85, 1.0, 0.6];
+        assert!(
+            ratios.iter().zip(most).all(|(ratio, most)| *ratio < most),
+            "{ratios:?}"
+        );
+    }
+}
+
+/// Samples come with their pmf to the bit, and the mean of what they say is what all lights reflect; on bounds too.
+#[test]
+fn glossy_receivers_are_unbiased() {
+    fn check<N: LightNode<W>, I: ImportanceModel<N, W, GlossyPoint>, const W: usize>(two: bool) {
+        const NUMBERS: u32 = 1 << 14;
+        let random = &mut Random(4);
+        let lights = room(random);
+        let bvh = if two {
+            Bvh::<N, I, W>::two_level(&lights, &BuildParams::default())
+        } else {
+            Bvh::<N, I, W>::single_level(&lights, &BuildParams::default())
+        };
+        let tree = bvh.tree();
+        let mut tight = 0;
+        for _ in 0..8 {
+            let receiver = any_surface(random, 5.0);
+            let (mut estimate, mut expected, mut tolerance) = (0.0, 0.0, 0.0);
+            for number in 0..NUMBERS {
+                let sampled = tree.sample_for(&receiver, (u64::from(number) << 50) + (1 << 49));
+                let pmf = tree.pmf_for(&receiver, sampled.light, sampled.instance);
+                assert_eq!(sampled.pmf.to_bits(), pmf.to_bits());
+                let f = reflected(&lights.triangles()[sampled.light as usize], &receiver);
+                estimate += f / f64::from(pmf) / f64::from(NUMBERS);
+            }
+            for (light, triangle) in (0..).zip(lights.triangles()) {
+                let f = reflected(triangle, &receiver);
+                let instance = if two { triangle.mesh } else { INVALID };
+                let pmf = tree.pmf_for(&receiver, light, instance);
+                expected += f;
+                // A light's numbers are one range, or two with a share of uniform choice.
+                tolerance += 4.0 * f / f64::from(pmf) / f64::from(NUMBERS);
+            }
+            assert!(
+                (estimate - expected).abs() <= tolerance + 1e-5 * expected,
+                "{estimate}, expected {expected} within {tolerance}: {receiver:?}"
+            );
+            tight += u32::from(tolerance < 0.3 * expected);
+        }
+        assert!(tight > 2, "{tight}");
+    }
+    for two in [false, true] {
+        check::<MomentNode<8>, Glossy<Moments>, 8>(two);
+        check::<MomentNode<8>, Defensive<Glossy<Moments>, 6>, 8>(two);
+        check::<CompactNode<4>, Glossy<Eq4>, 4>(two);
+    }
+}
+
+#[test]
+fn glossy_points_are_checked() {
+    let sound = surface([1.0, 2.0, 3.0], [0.0, 0.0, 1.0], [0.6, 0.0, 0.8], 0.3, 6);
+    assert_eq!(sound.checked(), Ok(sound));
+    let without = GlossyPoint {
+        mirror: [0.0; 3],
+        ..sound
+    };
+    assert_eq!(without.checked(), Ok(without));
+    let bent = GlossyPoint {
+        mirror: [1.0; 3],
+        ..sound
+    };
+    assert_eq!(bent.checked(), Err(PointError::Mirror { mirror: [1.0; 3] }));
+    let beyond = GlossyPoint {
+        diffuse: -1.0,
+        specular: 2.0,
+        exponent: f32::INFINITY,
+        ..sound
+    };
+    let clamped = beyond.checked().map(|g| [g.diffuse, g.specular, g.exponent]);
+    assert_eq!(clamped, Ok([0.0, 1.0, 65_536.0]));
+    for broken in [
+        GlossyPoint {
+            diffuse: f32::NAN,
+            ..sound
+        },
+        GlossyPoint {
+            specular: f32::NAN,
+            ..sound
+        },
+        GlossyPoint {
+            exponent: f32::NAN,
+            ..sound
+        },
+    ] {
+        assert!(matches!(broken.checked(), Err(PointError::Reflectance { .. })));
+    }
+    let nowhere = GlossyPoint {
+        point: ShadingPoint {
+            p: [f32::NAN; 3],
+            n: [0.0; 3],
+        },
+        ..sound
+    };
+    assert!(matches!(nowhere.checked(), Err(PointError::Coordinate { .. })));
+}

@@ -1,0 +1,74 @@
+//! A receiver that also mirrors.
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+
+use super::{PointError, Receiver, ShadingPoint};
+use crate::exact;
+use crate::instance::Instance;
+
+/// Greatest exponent of a lobe.
+const MAX_EXPONENT: f32 = 65_536.0;
+
+/// A [`ShadingPoint`] and how its surface reflects towards the viewer: a diffuse part, and a lobe about the direction in which a mirror
+/// would send the view. What [`Glossy`](crate::importance::Glossy) is told; walks that are not told it carry none of it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct GlossyPoint {
+    /// Where, and its normal.
+    pub point: ShadingPoint,
+    /// Unit direction that a mirror would see the viewer's ray come from, away from the surface; zero for none.
+    pub mirror: [f32; 3],
+    /// Diffuse albedo, less what the lobe takes: from 0 to 1, of luminance.
+    pub diffuse: f32,
+    /// The part of the light that the lobe takes, from 0 to 1.
+    pub specular: f32,
+    /// Exponent k of the lobe (n · h)^k, h the half vector (Blinn 1977): from 1 to 2^16.
+    pub exponent: f32,
+}
+
+impl GlossyPoint {
+    /// Brings the point into the domain of this crate, or says why it cannot be; see [`ShadingPoint::checked`]. Reflectances and the
+    /// exponent are clamped to their ranges.
+    ///
+    /// # Errors
+    /// [`PointError`] as of the shading point, and as of a normal for a mirror direction that is neither of length 1 nor zero, and for a
+    /// reflectance or exponent that is no number.
+    pub fn checked(self) -> Result<Self, PointError> {
+        let point = self.point.checked()?;
+        let mirror = ShadingPoint {
+            p: [0.0; 3],
+            n: self.mirror,
+        }
+        .checked()
+        .map_err(|_| PointError::Mirror { mirror: self.mirror })?
+        .n;
+        let within = |value: f32, least: f32, most: f32| {
+            if value.is_nan() {
+                Err(PointError::Reflectance { value })
+            } else {
+                Ok(exact::clamp(value, least, most))
+            }
+        };
+        Ok(Self {
+            point,
+            mirror,
+            diffuse: within(self.diffuse, 0.0, 1.0)?,
+            specular: within(self.specular, 0.0, 1.0)?,
+            exponent: within(self.exponent, 1.0, MAX_EXPONENT)?,
+        })
+    }
+}
+
+impl Receiver for GlossyPoint {
+    /// The mirror direction as a difference of points: under a map that bends angles the lobe is another, which costs variance.
+    #[inline(always)]
+    fn to_local(&self, instance: &Instance) -> Self {
+        let mirror = Vec3::new(self.mirror[0], self.mirror[1], self.mirror[2]);
+        Self {
+            point: instance.to_local(&self.point),
+            mirror: instance.direction_to_local(mirror).to_array(),
+            ..*self
+        }
+    }
+}
