@@ -40,7 +40,7 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<
             let reflected = reflectance(summary.center(), summary.spread(), receiver);
             // Nothing is known of where a child without flux is.
             weights[slot] = if weights[slot] > 0.0 {
-                weights[slot] * reflected
+                exact::clamp(weights[slot] * reflected, pow2(-MOST), pow2(MOST))
             } else {
                 0.0
             };
@@ -49,6 +49,8 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<
     }
 }
 
+/// Weights are within 2^-120 to 2^120: all that an importance may give, times a lobe, is in a wider range.
+const MOST: i32 = 120;
 /// Least factor.
 const LEAST: f32 = pow2(-20);
 /// Squared distances count as at least this share of the variance.

@@ -8,6 +8,7 @@ use super::{Random, cross, dot, minus, narrow, normalize, times, wide};
 use crate::importance::{Defensive, Eq4, Flux, Glossy, ImportanceModel, Moments};
 use crate::node::{CompactNode, FullMomentNode, LightNode, MomentNode, kind};
 use crate::point::{GlossyPoint, PointError, Receiver};
+use crate::summary::Summary;
 use crate::{BuildParams, Bvh, EmissiveTriangle, INVALID, LightMoments, Lights, ShadingPoint, exact};
 
 /// A surface at the origin of a view `to` away from it.
@@ -107,6 +108,42 @@ fn room(random: &mut Random) -> Lights {
 }
 
 /// A walk that is told of a shading point alone is today's, to the bit.
+/// The least and the greatest that an importance may give.
+struct Extremes;
+
+impl<N> ImportanceModel<N, 4> for Extremes {
+    const UNIFORM_HALVINGS: u32 = 0;
+
+    fn weights(_: &N, _: &ShadingPoint) -> [f32; 4] {
+        [exact::pow2(120), exact::pow2(-120), f32::MIN_POSITIVE, 0.0]
+    }
+}
+
+#[test]
+fn weights_stay_in_their_range() {
+    let lights = room(&mut Random(9));
+    let bvh: Bvh<CompactNode<4>, Eq4, 4> = Bvh::single_level(&lights, &BuildParams::default());
+    let tree = bvh.tree();
+    let at = tree.nodes[0].summary(0).center().to_array();
+    for (p, log2, specular) in [([9.0; 3], 0, 0.0), (at, 16, 1.0), ([0.0; 3], 16, 1.0)] {
+        let receiver = surface(p, [0.0, 1.0, 0.0], [0.0, 1.0, 0.0], specular, log2);
+        for mirror in [[0.0; 3], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0]] {
+            let receiver = GlossyPoint {
+                mirror,
+                diffuse: 0.0,
+                ..receiver
+            };
+            let [most, least, tiny, none] = Glossy::<Extremes>::weights(&tree.nodes[0], &receiver);
+            let range = exact::pow2(-120)..=exact::pow2(120);
+            assert!(
+                [most, least, tiny].iter().all(|w| range.contains(w)),
+                "{most} {least} {tiny}"
+            );
+            assert_eq!(none, 0.0);
+        }
+    }
+}
+
 #[test]
 fn a_diffuse_receiver_is_a_shading_point() {
     type D = Defensive<Moments, 6>;
