@@ -173,7 +173,7 @@ pub use importance::{Defensive, Eq4, FluxOverDistance, ImportanceModel, Moments}
 #[doc(hidden)]
 pub use node::{
     BoundsNode, CompactNode, FullMomentNode, FullNode, LeanMomentNode, LightBounds, LightMoments, LightNode,
-    MomentLayout, MomentNode, Summary,
+    MomentLayout, MomentNode, Summary, TwoSidedMomentNode,
 };
 #[cfg(feature = "std")]
 #[doc(hidden)]

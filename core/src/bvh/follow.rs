@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::fmt;
 use core::ops::Range;
 
-use super::Bvh;
+use super::{Bvh, Trails};
 use super::edit::EditReason;
 use crate::lights::Lights;
 use crate::node::LightNode;
@@ -48,7 +48,7 @@ impl MeshCounts {
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// How many triangles each mesh has.
     #[doc(hidden)]
     #[must_use]

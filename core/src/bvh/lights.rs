@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::Bvh;
+use super::{Bvh, Trails};
 use super::edit::{InstanceId, MeshId};
 use crate::light::EmissiveTriangle;
 use crate::lights::MAX_LIGHTS;
@@ -13,7 +13,7 @@ use crate::tree::INVALID;
 /// So many numbers of removed lights wait to be taken, and as many as there are lights.
 const LEAST_WAITING: usize = 1 << 16;
 
-impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// The lights of an instance: numbered without gaps, triangle by triangle, the same as long as the instance lives.
     #[must_use]
     pub fn lights_of(&self, instance: InstanceId) -> Option<Range<u32>> {

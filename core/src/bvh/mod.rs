@@ -33,9 +33,11 @@ mod rebuild;
 mod records;
 mod refit;
 mod serial;
+mod static_bvh;
 #[cfg(test)]
 mod tests;
 mod top;
+mod trails;
 mod validate;
 
 use alloc::vec::Vec;
@@ -50,6 +52,8 @@ pub(crate) use rebuild::Taken;
 pub use rebuild::{Foreign, Rebuild, RebuildParams, Rebuilt};
 pub use refit::RefitPlan;
 pub use serial::{FORMAT, ReadError};
+pub use static_bvh::StaticBvh;
+pub use trails::{NoTrails, Trails, WithTrails};
 pub use validate::Stats;
 
 pub use crate::levels::Levels;
@@ -73,8 +77,11 @@ use crate::tree::LightTree;
 ///
 /// A clone is another light BVH: ids and rebuilds of the one are refused by the other, which knows its own by index
 /// ([`mesh_id`](Self::mesh_id), [`instance_id`](Self::instance_id)).
+///
+/// `T` says whether the probability of a given light can be asked for: [`WithTrails`] unless
+/// [`without_trails`](Self::without_trails) gave them up.
 #[derive(Clone, Debug)]
-pub struct Bvh<N, I, const W: usize> {
+pub struct Bvh<N, I, const W: usize, T = WithTrails> {
     /// What its ids belong to.
     id: TreeId,
     params: BuildParams,
@@ -119,6 +126,7 @@ pub struct Bvh<N, I, const W: usize> {
     /// Whether it is one mesh alone, walked from the root of its bottom level.
     single: bool,
     importance: PhantomData<I>,
+    asked: PhantomData<T>,
 }
 
 /// Arrays of a [`Bvh`], open to any change; `bottom` and `top` list the nodes of the first bottom level and of the top level.
@@ -177,6 +185,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             epoch: 0,
             single: false,
             importance: PhantomData,
+            asked: PhantomData,
         };
         scene.empty_top();
         scene
@@ -185,6 +194,34 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// The arrays as traversal takes them.
     #[must_use]
     pub fn tree(&self) -> LightTree<'_, N, I, W> {
+        self.arrays()
+    }
+
+    /// The same tree, walked by another importance.
+    #[must_use]
+    pub fn by<J>(&self) -> LightTree<'_, N, J, W> {
+        self.tree().by()
+    }
+
+    /// The arrays that [`validate`](Self::validate) checks, for tests that put wrong words into them.
+    #[doc(hidden)]
+    pub fn parts_mut(&mut self) -> Parts<'_, N> {
+        Parts {
+            nodes: &mut self.nodes,
+            instances: &mut self.instances,
+            trails: &mut self.trails,
+            bottom: self
+                .blases
+                .first_mut()
+                .map_or(&mut [], |blas| &mut blas.levels.nodes),
+            top: &mut self.top.levels.nodes,
+        }
+    }
+}
+
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+    /// The arrays as traversal takes them. Without trails, no probability may be asked of them.
+    pub(super) fn arrays(&self) -> LightTree<'_, N, I, W> {
         let mut tree = LightTree {
             nodes: &self.nodes,
             root: self.top.root,
@@ -204,31 +241,10 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         tree
     }
 
-    /// The same tree, walked by another importance.
-    #[must_use]
-    pub fn by<J>(&self) -> LightTree<'_, N, J, W> {
-        self.tree().by()
-    }
-
     /// All nodes, those not in use included.
     #[must_use]
     pub fn nodes(&self) -> &[N] {
         &self.nodes
-    }
-
-    /// The arrays that [`validate`](Self::validate) checks, for tests that put wrong words into them.
-    #[doc(hidden)]
-    pub fn parts_mut(&mut self) -> Parts<'_, N> {
-        Parts {
-            nodes: &mut self.nodes,
-            instances: &mut self.instances,
-            trails: &mut self.trails,
-            bottom: self
-                .blases
-                .first_mut()
-                .map_or(&mut [], |blas| &mut blas.levels.nodes),
-            top: &mut self.top.levels.nodes,
-        }
     }
 
     /// By node: the node above it in the same tree, or [`INVALID`](crate::INVALID).
@@ -295,6 +311,6 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// What is known of all lights together, as of the last refit.
     #[must_use]
     pub fn summary(&self) -> N::Summary {
-        self.nodes[self.tree().root as usize].merged()
+        self.nodes[self.arrays().root as usize].merged()
     }
 }
