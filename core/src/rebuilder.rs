@@ -152,7 +152,10 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
     ///
     /// # Errors
     /// [`RebuildError`], once, if the rebuild that was due came to nothing. The frame can go on as if nothing had been due.
-    pub fn begin_frame<I, T: Trails>(&mut self, scene: &mut Bvh<N, I, W, T>) -> Result<FrameStart, RebuildError> {
+    pub fn begin_frame<I, T: Trails>(
+        &mut self,
+        scene: &mut Bvh<N, I, W, T>,
+    ) -> Result<FrameStart, RebuildError> {
         let mut start = FrameStart::default();
         let Some(flight) = &mut self.flight else {
             return Ok(start);

@@ -3,9 +3,9 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
-use super::{Bvh, Trails};
 use super::edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
 use super::ranges::Ranges;
+use super::{Bvh, Trails};
 use crate::light::EmissiveTriangle;
 use crate::lights::MAX_LIGHTS;
 use crate::node::LightNode;

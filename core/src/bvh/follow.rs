@@ -4,8 +4,8 @@ use alloc::vec::Vec;
 use core::fmt;
 use core::ops::Range;
 
-use super::{Bvh, Trails};
 use super::edit::EditReason;
+use super::{Bvh, Trails};
 use crate::lights::Lights;
 use crate::node::LightNode;
 use crate::transform::Extent;

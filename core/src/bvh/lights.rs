@@ -3,11 +3,12 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::{Bvh, Trails};
 use super::edit::{InstanceId, MeshId};
+use super::{Bvh, Trails};
 use crate::light::EmissiveTriangle;
 use crate::lights::MAX_LIGHTS;
 use crate::node::LightNode;
+use crate::requirements::Placed;
 use crate::tree::INVALID;
 
 /// So many numbers of removed lights wait to be taken, and as many as there are lights.
@@ -91,6 +92,29 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             }
         }
         out
+    }
+
+    /// The meshes, and their places in the world.
+    pub(crate) fn meshes_and_places(&self) -> (Vec<&[EmissiveTriangle]>, Vec<Placed>) {
+        let mut found = alloc::vec![0; self.meshes.len()];
+        let mut meshes = Vec::new();
+        for (index, mesh) in self.meshes.iter().enumerate().filter(|(_, mesh)| mesh.live) {
+            let range = &self.blases[mesh.blas as usize].triangles;
+            found[index] = meshes.len();
+            meshes.push(&self.triangles[range.start as usize..range.end as usize]);
+        }
+        let live = self
+            .placed
+            .iter()
+            .zip(&self.instances)
+            .filter(|(placed, _)| placed.live);
+        let placed = live.map(|(placed, instance)| Placed {
+            mesh: found[placed.mesh as usize],
+            transform: placed.transform,
+            radiance: placed.radiance,
+            instance: *instance,
+        });
+        (meshes, placed.collect())
     }
 
     /// Number of lights in the world.

@@ -284,6 +284,31 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         size_of_val(&*self.nodes) + size_of_val(&*self.instances) + size_of_val(&*self.trails)
     }
 
+    /// Bytes of all its arrays: what sampling reads, the triangles, and what edits and refits need. Lists of what has changed are not
+    /// counted.
+    #[must_use]
+    pub fn memory(&self) -> usize {
+        let levels = self
+            .blases
+            .iter()
+            .map(|blas| &blas.levels)
+            .chain([&self.top.levels]);
+        let users = self.meshes.iter().map(|mesh| size_of_val(&*mesh.users));
+        self.bytes()
+            + size_of_val(&*self.parents)
+            + size_of_val(&*self.triangles)
+            + size_of_val(&*self.blases)
+            + size_of_val(&*self.roots)
+            + size_of_val(&*self.meshes)
+            + users.sum::<usize>()
+            + size_of_val(&*self.placed)
+            + size_of_val(&*self.live)
+            + levels.map(|levels| size_of_val(levels.nodes())).sum::<usize>()
+            + size_of_val(&*self.top.leaves)
+            + size_of_val(&*self.top.node_levels)
+            + size_of_val(&*self.top.marks)
+    }
+
     fn blas_of(&self, placed: &InstanceState) -> &Blas {
         &self.blases[self.blas_index(placed) as usize]
     }

@@ -5,9 +5,9 @@ use core::fmt;
 use core::marker::PhantomData;
 use core::ops::Range;
 
-use super::{Bvh, Trails};
 use super::blas::Blas;
 use super::top::TopTree;
+use super::{Bvh, Trails};
 use crate::build::{self, BuildParams, Topology, build_over, drift};
 use crate::instance::Instance;
 use crate::levels::Levels;

@@ -3,8 +3,8 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::{Bvh, Trails};
 use super::changes::Pending;
+use super::{Bvh, Trails};
 use crate::levels::Levels;
 use crate::node::LightNode;
 use crate::refit;

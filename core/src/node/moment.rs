@@ -181,7 +181,11 @@ impl<const W: usize, const ROWS: usize> LightNode<W> for PackedMomentNode<W, ROW
         );
         Self([[0; W]; ROWS])
     };
-    const NAME: &'static str = if ROWS == ORIENTED { "moments" } else { "two-sided moments" };
+    const NAME: &'static str = if ROWS == ORIENTED {
+        "moments"
+    } else {
+        "two-sided moments"
+    };
 
     #[inline(always)]
     fn kind(&self, slot: usize) -> u32 {
