@@ -17,6 +17,8 @@ mod facts;
 mod model;
 mod orientation;
 mod scene;
+#[cfg(test)]
+mod tests;
 mod transforms;
 
 use crate::light::EmissiveTriangle;
