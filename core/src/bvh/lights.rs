@@ -52,6 +52,12 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         })
     }
 
+    /// The mesh of an instance; `None` where there is no such instance.
+    #[must_use]
+    pub fn mesh_of(&self, instance: InstanceId) -> Option<MeshId> {
+        self.live(instance).and_then(|placed| self.mesh_id(placed.mesh))
+    }
+
     /// The triangles of a mesh, in its own space and in the order in which it was given; `None` where there is no such mesh.
     #[must_use]
     pub fn mesh_triangles(&self, mesh: MeshId) -> Option<&[EmissiveTriangle]> {

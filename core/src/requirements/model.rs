@@ -21,6 +21,27 @@ pub enum Layout {
     FullMoments,
 }
 
+impl Layout {
+    /// All layouts.
+    pub const ALL: [Self; 4] = [
+        Self::Moments,
+        Self::TwoSidedMoments,
+        Self::LeanMoments,
+        Self::FullMoments,
+    ];
+
+    /// Name for options.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Moments => "moments",
+            Self::TwoSidedMoments => "two-sided",
+            Self::LeanMoments => "lean",
+            Self::FullMoments => "full",
+        }
+    }
+}
+
 /// How many levels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Structure {
@@ -79,23 +100,34 @@ impl Model {
         Ok(())
     }
 
-    /// The type, as Rust has it.
+    /// The type of a node, as Rust has it.
     #[must_use]
-    pub fn type_name(&self) -> String {
+    pub fn node_type(&self) -> String {
         let layout = match self.layout {
             Layout::Moments => "MomentNode",
             Layout::TwoSidedMoments => "TwoSidedMomentNode",
             Layout::LeanMoments => "LeanMomentNode",
             Layout::FullMoments => "FullMomentNode",
         };
-        let owner = if self.refit { "Bvh" } else { "StaticBvh" };
-        let importance = match self.uniform_halvings {
+        format!("{layout}<{}>", self.width)
+    }
+
+    /// The type of the importance, as Rust has it.
+    #[must_use]
+    pub fn importance_type(&self) -> String {
+        match self.uniform_halvings {
             0 => "Moments".to_string(),
             halvings => format!("Defensive<Moments, {halvings}>"),
-        };
+        }
+    }
+
+    /// The type of the light BVH, as Rust has it.
+    #[must_use]
+    pub fn type_name(&self) -> String {
+        let owner = if self.refit { "Bvh" } else { "StaticBvh" };
         let trails = if self.trails { "" } else { ", NoTrails" };
-        let width = self.width;
-        format!("{owner}<{layout}<{width}>, {importance}, {width}{trails}>")
+        let (node, importance, width) = (self.node_type(), self.importance_type(), self.width);
+        format!("{owner}<{node}, {importance}, {width}{trails}>")
     }
 }
 

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 /// A median with its interval of 95 % confidence.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub(super) struct Interval {
+pub(in crate::cli) struct Interval {
     pub median: f64,
     pub low: f64,
     pub high: f64,
