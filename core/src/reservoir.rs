@@ -139,20 +139,19 @@ impl Resampling {
     /// The random number is an odd multiple of 2^-24 in (0, 1): never zero, so a sample of weight zero is never taken,
     /// and centred, so that each probability is right to 2^-24 on either side.
     #[inline]
-    fn update(&mut self, sample: LightSample, weight: f32, target: f32, source: u32, random: u32) -> bool {
+    fn update(&mut self, sample: LightSample, weight: f32, target: f32, source: u32, random: u32) {
         self.weight_sum = min(self.weight_sum + weight, MAX_WEIGHT_SUM);
         let u = unit_f32(random | 0x100);
         let take = u * self.weight_sum < weight;
         self.sample = if take { sample } else { self.sample };
         self.target = if take { target } else { self.target };
         self.source = if take { source } else { self.source };
-        take
     }
 
     /// Takes a candidate that was drawn with probability `pmf`, which is 0 where none was drawn (Algorithm 3): weight
-    /// p̂ / p. `target` is p̂ as [`target`] gives it. Returns whether the candidate is the one chosen so far.
+    /// p̂ / p. `target` is p̂ as [`target`] gives it.
     #[inline]
-    pub fn candidate(&mut self, sample: LightSample, target: f32, pmf: f32, random: u32) -> bool {
+    pub fn candidate(&mut self, sample: LightSample, target: f32, pmf: f32, random: u32) {
         let drawn = pmf > 0.0;
         let weight = if drawn {
             div(target, max(pmf, MIN_PMF))
@@ -160,7 +159,7 @@ impl Resampling {
             0.0
         };
         self.count = plus(self.count, 1);
-        self.update(sample, weight, target, 0, random)
+        self.update(sample, weight, target, 0, random);
     }
 
     /// Takes the sample of another reservoir for all those that it stands for (Algorithm 4): weight p̂ W M, with this

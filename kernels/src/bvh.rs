@@ -3,7 +3,7 @@
 use lightbvh::importance::DefaultImportance;
 use lightbvh::node::DefaultNode;
 use lightbvh::{
-    CompactNode, Eq4, INVALID, ImportanceModel, LightNode, LightTree, Random64, SampledLight, ShadingPoint,
+    CompactNode, Eq4, ImportanceModel, LightNode, LightTree, Random64, SampledLight, ShadingPoint,
 };
 
 use crate::shading::pick::PickLight;
@@ -77,7 +77,18 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> PickLight for Li
 
     #[inline]
     fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {
-        let instance = if self.live > 0 { instance } else { INVALID };
         LightTree::pmf(self, point, light, instance)
+    }
+
+    #[cfg(not(target_arch = "spirv"))]
+    fn pick_spaced(
+        &self,
+        point: &ShadingPoint,
+        random: Random64,
+        first: u32,
+        count: u32,
+        picked: &mut [SampledLight],
+    ) {
+        self.sample_spaced(point, random, first, count, picked);
     }
 }

@@ -478,6 +478,16 @@ fn candidates_are_single_samples<N: LightNode<W>, I: ImportanceModel<N, W>, cons
             check::<N, I, W, 1>(&bvh, &point, number);
             check::<N, I, W, 5>(&bvh, &point, number);
             check::<N, I, W, 64>(&bvh, &point, number);
+            let (first, count) = (random.below(70), random.below(150));
+            let mut sampled = vec![SampledLight::NONE; random.below(80) as usize];
+            bvh.sample_spaced(&point, number, first, count, &mut sampled);
+            for (k, found) in (first..).zip(sampled) {
+                assert_eq!(
+                    found,
+                    bvh.sample(&point, number.spaced(k, count)),
+                    "{k} of {count}"
+                );
+            }
         }
     }
 }
@@ -486,6 +496,61 @@ fn candidates_are_single_samples<N: LightNode<W>, I: ImportanceModel<N, W>, cons
 fn candidates() {
     each_layout!(candidates_are_single_samples(false));
     each_layout!(candidates_are_single_samples(true));
+}
+
+/// Splitting gives every light to one subtree: with as many subtrees as lights all are certain, with one it is a single sample, and
+/// between them the sum of f / pmf is the sum of f in the mean.
+fn splitting_is_unbiased<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(two: bool) {
+    const NUMBERS: u32 = 512;
+    for count in [1, 3, 60] {
+        let lights = scene(count, 53);
+        let bvh = built::<N, W>(&lights, &BuildParams::default(), two);
+        let bvh = bvh.by::<I>();
+        let f: Vec<f64> = lights
+            .triangles()
+            .iter()
+            .map(|t| f64::from(Summary::phi(&N::Summary::of_triangle(t))))
+            .collect();
+        let sum: f64 = f.iter().sum();
+        let estimate = |found: &[SampledLight]| -> f64 {
+            found.iter().map(|s| f[s.light as usize] / f64::from(s.pmf)).sum()
+        };
+        let random = &mut Random::new(54);
+        for _ in 0..8 {
+            let point = generate::point(random, 10.0);
+            let (all, found) = bvh.sample_split::<64>(&point, number(random));
+            let relative = estimate(&all[..found]) / sum;
+            assert!(
+                (relative - 1.0).abs() < 1e-6,
+                "{found} of {count} lights: {relative}"
+            );
+            let mut estimates = Vec::new();
+            for k in 0..NUMBERS {
+                let number = number(random).spaced(k, NUMBERS);
+                let (one, found) = bvh.sample_split::<1>(&point, number);
+                let expected = bvh.sample(&point, number);
+                if I::UNIFORM_HALVINGS == 0 {
+                    assert_eq!((found, one[0]), (1, expected));
+                }
+                let (some, found) = bvh.sample_split::<20>(&point, number);
+                assert!(found <= 20 && some[found..].iter().all(|s| *s == SampledLight::NONE));
+                estimates.push(estimate(&some[..found]) / sum);
+            }
+            let mean = estimates.iter().sum::<f64>() / f64::from(NUMBERS);
+            let variance = estimates.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / f64::from(NUMBERS);
+            let deviation = (variance / f64::from(NUMBERS)).sqrt();
+            assert!(
+                (mean - 1.0).abs() <= 5.0 * deviation + 1e-6,
+                "{count}: {mean} +- {deviation}"
+            );
+        }
+    }
+}
+
+#[test]
+fn splitting() {
+    each_layout!(splitting_is_unbiased(false));
+    each_layout!(splitting_is_unbiased(true));
 }
 
 #[test]

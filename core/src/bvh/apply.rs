@@ -30,7 +30,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Time is in proportion to the edits, to the triangles in them, and to the instances of each mesh that is deformed, as often as it
     /// is; where instances are added, to all instances, once, and a mirror copies the records of all (measured: `docs/figures.md`, How calls
     /// grow). Each such batch puts a node on top of the top level, until a rebuild is installed; where it would get deeper than
-    /// trails are long ([`max_levels`](crate::trail::max_levels)), the top level is built anew within the call. Lamps that come and go often are cheaper kept, with a radiance of 0 while they are off.
+    /// trails are long ([`max_levels`](crate::trail::max_levels)), the top level is built anew within the call. Lamps that come
+    /// and go often are cheaper kept, with a radiance of 0 while they are off.
     ///
     /// # Errors
     /// [`EditError`] naming the first edit that cannot be done; the scene is as before then.

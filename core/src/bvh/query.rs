@@ -6,7 +6,6 @@ use crate::importance::ImportanceModel;
 use crate::node::LightNode;
 use crate::point::ShadingPoint;
 use crate::traverse::{Random64, SampledLight};
-use crate::tree::INVALID;
 #[cfg(doc)]
 use crate::tree::LightTree;
 
@@ -39,6 +38,19 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, T: Trails> Bvh<N
         const { Sampled::<N, I, W, T>::ALLOWED };
         self.arrays().sample_many(point, random)
     }
+
+    /// Chooses a light for each place of `sampled` by numbers at equal distances; see [`LightTree::sample_spaced`].
+    pub fn sample_spaced(
+        &self,
+        point: &ShadingPoint,
+        random: impl Into<Random64>,
+        first: u32,
+        count: u32,
+        sampled: &mut [SampledLight],
+    ) {
+        const { Sampled::<N, I, W, T>::ALLOWED };
+        self.arrays().sample_spaced(point, random, first, count, sampled);
+    }
 }
 
 impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
@@ -54,8 +66,6 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
             point.is_within_reach(),
             "not a shading point: {point:?}; `ShadingPoint::checked` says why"
         );
-        let tree = self.tree();
-        let instance = if tree.live > 0 { instance } else { INVALID };
-        tree.pmf(point, light, instance)
+        self.tree().pmf(point, light, instance)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::choose::Shares;
 use super::random::Random64;
-use super::sample::{SampledLight, Started, begin};
+use super::sample::{SampledLight, Started, begin, sample};
 use super::walk::{leading, narrowed};
 use crate::importance::ImportanceModel;
 use crate::node::LightNode;
@@ -20,6 +20,9 @@ struct Group {
     count: usize,
 }
 
+/// Most walks that [`sample_spaced`] brings down together.
+const TOGETHER: usize = 32;
+
 /// See [`LightTree::sample_many`].
 #[inline(always)]
 pub(super) fn sample_many<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, const COUNT: usize>(
@@ -27,46 +30,83 @@ pub(super) fn sample_many<N: LightNode<W>, I: ImportanceModel<N, W>, const W: us
     point: &ShadingPoint,
     random: Random64,
 ) -> [SampledLight; COUNT] {
-    if W <= 4 {
-        in_rows::<N, I, W, COUNT, 1>(tree, point, random)
-    } else if W <= 8 {
-        in_rows::<N, I, W, COUNT, 2>(tree, point, random)
-    } else {
-        in_rows::<N, I, W, COUNT, 4>(tree, point, random)
+    let mut sampled = [SampledLight::NONE; COUNT];
+    by_rows::<N, I, W, COUNT>(tree, point, random, 0, COUNT as u32, &mut sampled);
+    sampled
+}
+
+/// See [`LightTree::sample_spaced`].
+#[inline(always)]
+pub(super) fn sample_spaced<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    tree: &LightTree<'_, N, I, W>,
+    point: &ShadingPoint,
+    random: Random64,
+    first: u32,
+    count: u32,
+    sampled: &mut [SampledLight],
+) {
+    let mut first = first;
+    for together in sampled.chunks_mut(TOGETHER) {
+        // What is on the stack is written first, which few walks would not be worth.
+        match together {
+            [one] => *one = sample(tree, point, random.spaced(first, count)),
+            few if few.len() <= 8 => by_rows::<N, I, W, 8>(tree, point, random, first, count, few),
+            _ => by_rows::<N, I, W, TOGETHER>(tree, point, random, first, count, together),
+        }
+        first = first.wrapping_add(TOGETHER as u32);
     }
 }
 
-/// [`sample_many`] with the children in `ROWS` rows of four.
+/// At most `MOST` of them, with as few rows of four as the children need.
+#[inline(always)]
+fn by_rows<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, const MOST: usize>(
+    tree: &LightTree<'_, N, I, W>,
+    point: &ShadingPoint,
+    random: Random64,
+    first: u32,
+    count: u32,
+    out: &mut [SampledLight],
+) {
+    let mut numbers = [random; MOST];
+    for k in 0..out.len() {
+        numbers[k] = random.spaced(first.wrapping_add(k as u32), count);
+    }
+    if W <= 4 {
+        in_rows::<N, I, W, MOST, 1>(tree, point, &mut numbers, out);
+    } else if W <= 8 {
+        in_rows::<N, I, W, MOST, 2>(tree, point, &mut numbers, out);
+    } else {
+        in_rows::<N, I, W, MOST, 4>(tree, point, &mut numbers, out);
+    }
+}
+
+/// A light for each of the first `numbers`, one for each place of `out`, with the children in `ROWS` rows of four.
 #[inline(always)]
 fn in_rows<
     N: LightNode<W>,
     I: ImportanceModel<N, W>,
     const W: usize,
-    const COUNT: usize,
+    const MOST: usize,
     const ROWS: usize,
 >(
     tree: &LightTree<'_, N, I, W>,
     point: &ShadingPoint,
-    random: Random64,
-) -> [SampledLight; COUNT] {
-    let mut out = [SampledLight::NONE; COUNT];
-    let mut numbers = [random; COUNT];
-    // In ascending order: from the first on that has passed 1.
-    let mut least = 0;
-    for k in 1..COUNT {
-        numbers[k] = random.spaced(k as u32, COUNT as u32);
-        if least == 0 && numbers[k].high < random.high {
-            least = k;
-        }
-    }
-    numbers.rotate_left(least);
+    numbers: &mut [Random64; MOST],
+    out: &mut [SampledLight],
+) {
+    let count = out.len().min(MOST);
+    // In ascending order: from the first on that has passed 1. Whatever the order, each walk gets its light; in this one those
+    // that share nodes are neighbours.
+    let passed = |k: &usize| numbers[*k].high < numbers[0].high;
+    let least = (1..count).find(passed).unwrap_or(0);
+    numbers[..count].rotate_left(least);
     let mut groups = [Group {
-        started: begin(tree, point, random),
+        started: begin(tree, point, numbers[0]),
         first: 0,
         count: 0,
-    }; COUNT];
+    }; MOST];
     let mut open = 0;
-    for k in 0..COUNT {
+    for k in 0..count {
         let started = begin(tree, point, numbers[k]);
         numbers[k] = started.walk.number;
         if started.walk.done {
@@ -123,6 +163,5 @@ fn in_rows<
         core::mem::swap(&mut groups, &mut next);
         open = left;
     }
-    out.rotate_right(least);
-    out
+    out[..count].rotate_right(least);
 }

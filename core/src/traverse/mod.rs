@@ -13,6 +13,8 @@ mod choose;
 mod many;
 mod random;
 mod sample;
+#[cfg(not(target_arch = "spirv"))]
+mod split;
 #[cfg(test)]
 mod tests;
 mod walk;
@@ -63,8 +65,41 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> LightTree<'_, N,
         widest::sample_many(self, point, random.into())
     }
 
+    /// Chooses a light for each place of `sampled`: place `k` is that of [`sample`](Self::sample) by
+    /// [`random.spaced(first + k, count)`](Random64::spaced), with that pmf. As [`sample_many`](Self::sample_many), where the number of
+    /// lights is known at run time alone; each 32 share their nodes.
+    #[inline(always)]
+    pub fn sample_spaced(
+        &self,
+        point: &ShadingPoint,
+        random: impl Into<Random64>,
+        first: u32,
+        count: u32,
+        sampled: &mut [SampledLight],
+    ) {
+        widest::sample_spaced(self, point, random.into(), first, count, sampled);
+    }
+
+    /// Chooses up to `MOST` lights for `point`, one out of each of as many subtrees, and returns how many there are: adaptive
+    /// splitting (Conty Estevez & Kulla 2018, section 5.4). Again and again the subtree is split whose part of the weight, times the
+    /// spread of its lights against their distance, is greatest, until there would be more than `MOST`.
+    ///
+    /// `pmf` is the probability of a light within its subtree, and the *sum* of f / pmf over the lights has the sum of f over all
+    /// lights as its expectation: each needs its own shadow ray. No share of the numbers chooses among all lights alike. On the CPU,
+    /// for comparison: with as many lights [`sample_many`](Self::sample_many) has less variance (`docs/walk.md`).
+    #[cfg(not(target_arch = "spirv"))]
+    #[must_use]
+    pub fn sample_split<const MOST: usize>(
+        &self,
+        point: &ShadingPoint,
+        random: impl Into<Random64>,
+    ) -> ([SampledLight; MOST], usize) {
+        const { assert!(MOST > 0 && MOST <= 256, "1 to 256") };
+        split::sample_split(self, point, random.into())
+    }
+
     /// The probability with which [`sample`](Self::sample) returns light `light` of instance `instance`
-    /// ([`SampledLight::INVALID`] in a single-level tree) at `point`: 0 if there is no such light.
+    /// at `point`: 0 if there is no such light. A single level has one instance, whichever is named.
     #[inline(always)]
     #[must_use]
     pub fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {

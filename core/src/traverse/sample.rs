@@ -120,6 +120,8 @@ pub(super) fn pmf<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     light: u32,
     instance: u32,
 ) -> f32 {
+    // A single level has one instance, whichever is named.
+    let instance = if tree.live > 0 { instance } else { INVALID };
     let triangle = triangle_of(tree, light, instance);
     let path = tree.path_of(triangle, instance);
     let number = Random64 { high: 0, low: 0 };
@@ -201,7 +203,11 @@ fn triangle_of<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>, light: u32, 
 }
 
 #[inline(always)]
-fn light_of<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>, triangle: u32, instance: u32) -> u32 {
+pub(super) fn light_of<N, I, const W: usize>(
+    tree: &LightTree<'_, N, I, W>,
+    triangle: u32,
+    instance: u32,
+) -> u32 {
     if instance < tree.instances.len() as u32 {
         tree.instances[instance as usize].light_of(triangle)
     } else {
@@ -219,7 +225,7 @@ fn is_light<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>, light: u32, ins
             known = light.wrapping_sub(own.first) < own.count;
         }
     } else {
-        known = (light < tree.lights) & (instance == INVALID);
+        known = light < tree.lights;
     }
     known
 }

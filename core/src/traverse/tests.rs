@@ -249,14 +249,16 @@ fn uniform_probabilities_hold_for_any_counts() {
     assert_eq!(tree.pmf(&POINT, 5, 0), crate::exact::pow2(-37));
 }
 
-/// Lights of a single level are of no instance.
+/// A single level has one instance, whichever is named, and no other lights than its own.
 #[test]
-fn a_single_level_has_no_instances() {
+fn a_single_level_takes_any_instance() {
     let nodes = [node(&[(1.0, kind::LIGHT, 0), (3.0, kind::LIGHT, 1)])];
     let tree = tree(&nodes, &[], &[0, 0, 1, 0], 1);
-    assert!(tree.pmf(&POINT, 1, INVALID) > 0.7);
+    let pmf = tree.pmf(&POINT, 1, INVALID);
+    assert!(pmf > 0.7);
     for instance in [0, 1, INVALID - 1] {
-        assert_eq!(tree.pmf(&POINT, 1, instance), 0.0, "{instance}");
+        assert_eq!(tree.pmf(&POINT, 1, instance), pmf, "{instance}");
+        assert_eq!(tree.pmf(&POINT, 2, instance), 0.0, "{instance}");
     }
 }
 

@@ -43,6 +43,20 @@ mod dispatched {
         )
     }
 
+    pub fn sample_spaced<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+        tree: &LightTree<'_, N, I, W>,
+        point: &ShadingPoint,
+        random: Random64,
+        first: u32,
+        count: u32,
+        sampled: &mut [SampledLight],
+    ) {
+        widest(
+            #[inline(always)]
+            || many::sample_spaced(tree, point, random, first, count, sampled),
+        );
+    }
+
     pub fn sample_batch<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
         tree: &LightTree<'_, N, I, W>,
         points: &[ShadingPoint],
@@ -57,11 +71,11 @@ mod dispatched {
 }
 
 #[cfg(feature = "simd")]
-pub(super) use dispatched::{pmf, sample, sample_batch, sample_many};
+pub(super) use dispatched::{pmf, sample, sample_batch, sample_many, sample_spaced};
 
 #[cfg(not(feature = "simd"))]
 pub(super) use super::batch::sample_batch;
 #[cfg(not(feature = "simd"))]
-pub(super) use super::many::sample_many;
+pub(super) use super::many::{sample_many, sample_spaced};
 #[cfg(not(feature = "simd"))]
 pub(super) use super::sample::{pmf, sample};

@@ -63,6 +63,12 @@ struct Row {
     of_8: f64,
     /// Of 32.
     of_32: f64,
+    /// Of up to 8 lights by adaptive splitting ([`LightTree::sample_split`]).
+    ///
+    /// [`LightTree::sample_split`]: lightbvh::LightTree::sample_split
+    split_8: f64,
+    /// Of up to 32.
+    split_32: f64,
     /// Share of samples that contribute nothing: no light, or one that sends nothing to the point.
     nothing: f64,
 }
@@ -167,11 +173,31 @@ impl Measured<'_> {
                 mean: variances.iter().sum::<f64>() / count,
                 median: part(0.5),
                 p95: part(0.95),
-                of_8: error_of_many::<N, I, W, 8>(&bvh, self.subject, self.light),
-                of_32: error_of_many::<N, I, W, 32>(&bvh, self.subject, self.light),
+                of_8: self.error(|point, number| spaced::<N, I, W, 8>(&bvh, point, number)),
+                of_32: self.error(|point, number| spaced::<N, I, W, 32>(&bvh, point, number)),
+                split_8: self.error(|point, number| split::<N, I, W, 8>(&bvh, point, number)),
+                split_32: self.error(|point, number| split::<N, I, W, 32>(&bvh, point, number)),
                 nothing,
             }
         })
+    }
+
+    /// The squared error of an estimate relative to the squared mean, over trials and points that any light reaches.
+    fn error(&self, estimate: impl Fn(&ShadingPoint, u32) -> Weighted) -> f64 {
+        let (mut error, mut points) = (0.0, 0_u32);
+        for (number, (point, light)) in (0u32..).zip(self.subject.points.iter().zip(self.light)) {
+            let mean: f64 = light.iter().sum();
+            if mean > 0.0 {
+                points += 1;
+                for trial in 0..TRIALS {
+                    let lights = estimate(point, hash(number * TRIALS + trial));
+                    let sent =
+                        |&(i, weight): &(u32, f64)| light.get(i as usize).copied().unwrap_or(0.0) * weight;
+                    error += (lights.iter().map(sent).sum::<f64>() / mean - 1.0).powi(2);
+                }
+            }
+        }
+        error / (f64::from(TRIALS) * f64::from(points.max(1)))
     }
 }
 
@@ -204,30 +230,33 @@ fn variances<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     (variances, nothing / count)
 }
 
-/// The squared error of the mean of `COUNT` candidates relative to the squared mean, over trials and points that any light reaches.
-fn error_of_many<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, const COUNT: usize>(
+/// Lights with the weights of their contributions to an estimate.
+type Weighted = Vec<(u32, f64)>;
+
+/// `COUNT` candidates by numbers at equal distances: their mean is the estimate.
+fn spaced<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, const COUNT: usize>(
     bvh: &Bvh<N, I, W>,
-    subject: &Subject,
-    light: &[Vec<f64>],
-) -> f64 {
-    let (mut error, mut points) = (0.0, 0_u32);
-    for (number, (point, light)) in (0u32..).zip(subject.points.iter().zip(light)) {
-        let mean: f64 = light.iter().sum();
-        if mean > 0.0 {
-            points += 1;
-            for trial in 0..TRIALS {
-                let candidates = bvh.sample_many::<COUNT>(point, hash(number * TRIALS + trial));
-                let sent = |found: &SampledLight| light.get(found.light as usize).copied().unwrap_or(0.0);
-                let sum: f64 = candidates
-                    .iter()
-                    .filter(|found| found.pmf > 0.0)
-                    .map(|found| sent(found) / f64::from(found.pmf))
-                    .sum();
-                error += (sum / (COUNT as f64 * mean) - 1.0).powi(2);
-            }
-        }
-    }
-    error / (f64::from(TRIALS) * f64::from(points.max(1)))
+    point: &ShadingPoint,
+    number: u32,
+) -> Weighted {
+    weighted(&bvh.sample_many::<COUNT>(point, number), COUNT as f64)
+}
+
+/// Up to `MOST` lights, one out of each subtree: their sum is the estimate.
+fn split<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, const MOST: usize>(
+    bvh: &Bvh<N, I, W>,
+    point: &ShadingPoint,
+    number: u32,
+) -> Weighted {
+    let (lights, count) = bvh.tree().sample_split::<MOST>(point, number);
+    weighted(&lights[..count], 1.0)
+}
+
+fn weighted(lights: &[SampledLight], count: f64) -> Weighted {
+    let there = lights.iter().filter(|found| found.pmf > 0.0);
+    there
+        .map(|found| (found.light, 1.0 / (count * f64::from(found.pmf))))
+        .collect()
 }
 
 fn print(rows: &[Row]) -> Result<(), HostError> {
@@ -244,6 +273,8 @@ fn print(rows: &[Row]) -> Result<(), HostError> {
             ("p95", |r| format!("{:.3}", r.p95)),
             ("of 8", |r| format!("1/{:.1}", r.mean / r.of_8)),
             ("of 32", |r| format!("1/{:.1}", r.mean / r.of_32)),
+            ("split 8", |r| format!("1/{:.1}", r.mean / r.split_8)),
+            ("split 32", |r| format!("1/{:.1}", r.mean / r.split_32)),
             ("nothing", |r| format!("{:.1} %", 100.0 * r.nothing)),
         ],
     )?)

@@ -6,8 +6,8 @@ use lightbvh::reservoir::{LightSample, Resampling, Reservoir};
 
 use super::emitters::Emitters;
 use super::material::Material;
-use super::numbers::Numbers;
 use super::pick::PickLight;
+use super::picks::Picks;
 use super::restir::surface::Surface;
 use super::restir::target::lit;
 
@@ -19,11 +19,9 @@ pub struct Candidates {
     pub first: u32,
     /// How many.
     pub count: u32,
-    /// How many the pixel has.
-    pub all: u32,
 }
 
-/// One of the candidates of `picker` for `surface`. `numbers` draw the candidates, `seed` the one among them.
+/// One of the candidates of `picker` for `surface`. `picks` are all of the pixel, `seed` draws the one among these.
 ///
 /// Each candidate's own distribution is that of a single pick, and the expectation of a sum does not ask how its terms depend on
 /// each other, so the weight is that of independent candidates.
@@ -34,18 +32,18 @@ pub fn resampled<P: PickLight>(
     emitters: &Emitters<'_>,
     picker: &P,
     surface: &Surface,
-    numbers: &Numbers,
+    picks: &mut Picks,
     which: Candidates,
     seed: u32,
 ) -> Reservoir {
     let mut stream = Resampling::EMPTY;
     for candidate in 0..which.count {
         let k = which.first.wrapping_add(candidate);
-        let picked = picker.pick(&surface.point, numbers.light(k, which.all));
+        let picked = picks.next(picker, &surface.point, k);
         let sample = LightSample {
             light: picked.light,
             instance: picked.instance,
-            uv: numbers.uv(k),
+            uv: picks.uv(k),
         };
         let arriving = lit(materials, emitters, surface, &sample);
         let random = hash(seed.wrapping_add(candidate));

@@ -9,6 +9,7 @@
 //! | [`emitters`] | the lights, read through their instances |
 //! | [`area`] | a point on the chosen light, and what it contributes |
 //! | [`pick`] | the choice of a light: the trait, uniform and by power |
+//! | [`picks`] | the lights of a pixel's samples |
 //! | [`candidates`] | one light out of several, by what they would contribute |
 //! | [`numbers`] | the numbers that lights and points on them are drawn by |
 //! | [`pixel`] | all of it together, for one pixel |
@@ -31,6 +32,7 @@ pub mod mis;
 pub mod numbers;
 pub mod path;
 pub mod pick;
+pub mod picks;
 pub mod pixel;
 pub mod ray;
 pub mod restir;

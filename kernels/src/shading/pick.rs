@@ -14,6 +14,22 @@ pub trait PickLight {
     /// light when it is picked, 0 where it never is. `instance` is the light's;
     /// only a picker over instances looks at it.
     fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32;
+
+    /// For each place of `picked` the light that [`pick`](Self::pick) chooses by number `first` and so on of `count` at equal distances
+    /// from `random`.
+    #[cfg(not(target_arch = "spirv"))]
+    fn pick_spaced(
+        &self,
+        point: &ShadingPoint,
+        random: Random64,
+        first: u32,
+        count: u32,
+        picked: &mut [SampledLight],
+    ) {
+        for (k, picked) in (first..).zip(picked) {
+            *picked = self.pick(point, random.spaced(k, count));
+        }
+    }
 }
 
 /// Random numbers count in 2^-24 here: the number of those that lead to a light then fits an `f32` exactly, and so does

@@ -12,6 +12,7 @@ use super::grid::{TINY, TINY_AREA, flush_vector};
 use super::material::Material;
 use super::numbers::Numbers;
 use super::pick::PickLight;
+use super::picks::Picks;
 use super::ray::Ray;
 use super::restir::surface::Surface;
 use super::restir::target::{lit, visible, weighted};
@@ -190,12 +191,12 @@ fn one_by_one<P: PickLight>(scene: &Scene<'_>, seen: &Seen, picker: &P, samples:
     let mut sum = Vec3::ZERO;
     if length_squared(n) > 0.0 && seen.material < scene.materials.len() as u32 {
         let material = load_material(scene.materials, seen.material);
-        let numbers = Numbers::of(seed);
+        let mut picks = Picks::new(Numbers::of(seed), samples);
         for sample in 0..samples {
-            let picked = picker.pick(&seen.point, numbers.light(sample, samples));
+            let picked = picks.next(picker, &seen.point, sample);
             if picked.pmf > 0.0 {
                 let light = scene.emitters.light(picked.light, picked.instance);
-                let uv = numbers.uv(sample);
+                let uv = picks.uv(sample);
                 let connection = connect(&seen.point, seen.wo, &material, &light, picked.pmf, uv);
                 if connection.contribution.x + connection.contribution.y + connection.contribution.z > 0.0 {
                     let origin = seen.point.position();
@@ -228,12 +229,11 @@ fn one_of_many<P: PickLight>(
     let surface = Surface::new(seen, seen.point.position());
     let mut sum = Vec3::ZERO;
     if surface.is_lit() && surface.material < scene.materials.len() as u32 {
-        let numbers = Numbers::of(seed);
+        let mut picks = Picks::new(Numbers::of(seed), samples.wrapping_mul(count));
         for sample in 0..samples {
             let which = Candidates {
                 first: sample.wrapping_mul(count),
                 count,
-                all: samples.wrapping_mul(count),
             };
             let random = hash(seed.wrapping_add(Numbers::USED + sample));
             let chosen = resampled(
@@ -241,7 +241,7 @@ fn one_of_many<P: PickLight>(
                 &scene.emitters,
                 picker,
                 &surface,
-                &numbers,
+                &mut picks,
                 which,
                 random,
             );

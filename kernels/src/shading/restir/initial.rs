@@ -9,6 +9,7 @@ use super::super::camera::Camera;
 use super::super::candidates::{Candidates, resampled};
 use super::super::numbers::Numbers;
 use super::super::pick::PickLight;
+use super::super::picks::Picks;
 use super::super::pixel::{Scene, see};
 use super::surface::Surface;
 use super::target::{lit, visible};
@@ -53,14 +54,13 @@ pub fn first_reservoir<P: PickLight>(
         let which = Candidates {
             first: 0,
             count: params.candidates,
-            all: params.candidates,
         };
         found.reservoir = resampled(
             scene.materials,
             &scene.emitters,
             picker,
             surface,
-            &Numbers::of(seed),
+            &mut Picks::new(Numbers::of(seed), params.candidates),
             which,
             hash(seed.wrapping_add(Numbers::USED)),
         );
