@@ -2,7 +2,7 @@
 
 use bytemuck::cast_slice;
 use lightbvh::bvh::StaticBvh;
-use lightbvh::exact::{hash, pow2, unit_f32};
+use lightbvh::exact::{self, hash, pow2, unit_f32};
 use lightbvh::{
     BuildParams, Bvh, Defensive, Edit, EmissiveTriangle, InstanceId, LightNode, Lights, MomentNode, Moments,
     ShadingPoint, Transform, TwoSidedMomentNode,
@@ -106,13 +106,13 @@ fn points(seed: u32, lights: &[EmissiveTriangle]) -> Vec<ShadingPoint> {
     let random = &mut Random(seed.wrapping_mul(104_729));
     let point = |_| {
         let near = lights[random.below(lights.len() as u32) as usize].p[0];
-        let size = near.iter().fold(pow2(-30), |most: f32, x| most.max(x.abs()));
+        let size = near.into_iter().map(exact::abs).fold(pow2(-30), exact::max);
         let away = random.vector(size);
         let n = match random.below(4) {
             0 => [0.0; 3],
             _ => {
                 let v = random.vector(1.0);
-                let length = v.iter().map(|x| x * x).sum::<f32>().sqrt();
+                let length = exact::sqrt(v.iter().map(|x| x * x).sum::<f32>());
                 v.map(|x| x / length)
             }
         };
