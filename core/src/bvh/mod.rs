@@ -34,6 +34,7 @@ mod records;
 mod refit;
 mod serial;
 mod static_bvh;
+mod static_mesh;
 #[cfg(test)]
 mod tests;
 mod top;
@@ -53,6 +54,7 @@ pub use rebuild::{Foreign, Rebuild, RebuildParams, Rebuilt};
 pub use refit::RefitPlan;
 pub use serial::{FORMAT, ReadError};
 pub use static_bvh::StaticBvh;
+pub use static_mesh::StaticMeshBvh;
 pub use trails::{NoTrails, Trails, WithTrails};
 pub use validate::Stats;
 

@@ -9,7 +9,7 @@ use crate::instance::Instance;
 use crate::node::LightNode;
 use crate::point::ShadingPoint;
 use crate::traverse::{Random64, SampledLight};
-use crate::tree::{INVALID, LightTree, TreeWords};
+use crate::tree::{LightTree, TreeWords};
 
 /// What sampling reads of a [`Bvh`], for lights that stay as they are: nodes, instances, and with [`WithTrails`] trails. The triangles,
 /// and all that edits and refits need, are left out: the caller has the lights, and [`LightTree::triangle`] finds one.
@@ -96,8 +96,6 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> StaticBvh<N, I, 
     /// As [`Bvh::pmf`].
     #[must_use]
     pub fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {
-        let tree = self.arrays();
-        let instance = if tree.live > 0 { instance } else { INVALID };
-        tree.pmf(point, light, instance)
+        self.arrays().pmf(point, light, instance)
     }
 }

@@ -4,7 +4,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::{Extent, Orientation, Receivers, Requirements, TransformKind};
+use super::{Orientation, Requirements, TransformKind};
 
 /// A fact about a scene's lights.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,14 +28,11 @@ impl Requirements {
         };
         let yes = |is: bool| if is { "yes" } else { "no" };
         let (orientation, normals) = self.orientation_words();
-        let (changes, what) = self.changes_words();
-        let [least, most] = self.depth_bounds(8);
-        let kinds = self.transforms;
         Vec::from([
             fact("orientation", orientation, normals),
             fact(
                 "two-sided only",
-                yes(self.two_sided > 0 && self.orientation == Orientation::Absent && self.needles == 0),
+                yes(self.two_sided > 0 && self.one_sided == 0 && self.needles == 0),
                 format!(
                     "{} of {} triangles shine from both sides",
                     self.two_sided, self.triangles
@@ -45,33 +42,14 @@ impl Requirements {
                 "one mesh",
                 yes(self.is_one_mesh()),
                 format!(
-                    "meshes: {}, instances: {}, at most {} of a mesh",
+                    "{} meshes, {} instances, at most {} of a mesh",
                     self.meshes, self.instances, self.most_instances
                 ),
             ),
             fact(
-                "flux alike",
-                yes(self.flux_alike),
-                format!(
-                    "the flux of {} lights, as it is computed, {} the same bits",
-                    self.lights - self.dark,
-                    if self.flux_alike { "has" } else { "has not" }
-                ),
-            ),
-            fact(
-                "lights without flux",
-                &self.dark.to_string(),
-                format!("of {} lights; the tree gives them no weight", self.lights),
-            ),
-            fact(
-                "extent",
-                match self.extent {
-                    Extent::Point => "a point",
-                    Extent::Collinear => "a line",
-                    Extent::Planar => "a plane",
-                    Extent::Spatial => "space",
-                },
-                "exact determinants of the vertices of lights with flux, in the world".to_string(),
+                "dark lights",
+                yes(self.dark > 0),
+                format!("{} of {} have no flux", self.dark, self.lights),
             ),
             fact(
                 "transforms",
@@ -82,44 +60,33 @@ impl Requirements {
                     TransformKind::Uniform => "uniform scales",
                     TransformKind::NonUniform => "non-uniform",
                 },
-                format!(
-                    "instances: identity {}, translated {}, rigid {}, scaled alike {}, otherwise {}; mirrored {}, radiance by a factor {}",
-                    kinds[0], kinds[1], kinds[2], kinds[3], kinds[4], self.mirrored, self.dimmed
-                ),
+                self.transform_words(),
             ),
-            fact("changes", changes, what),
+            fact("changes", yes(self.declared.changes.any()), self.changes_words()),
             fact(
-                "receivers",
-                match self.declared.receivers {
-                    Receivers::Surfaces => "surfaces",
-                    Receivers::Volumes => "volumes",
-                },
-                "declared; boxes and horizons matter to surfaces alone".to_string(),
+                "glossy receivers",
+                yes(self.declared.glossy),
+                "declared; importances take receivers as diffuse".to_string(),
             ),
             fact(
                 "pmf of given lights",
                 yes(self.declared.pmf),
                 "declared; multiple importance sampling asks for it".to_string(),
             ),
-            fact(
-                "depth",
-                &format!("{least} to {most}"),
-                format!(
-                    "of two levels, 8 children to a node, over {} instances of up to {} triangles",
-                    self.instances, self.most_triangles
-                ),
-            ),
         ])
     }
 
     fn orientation_words(&self) -> (&'static str, String) {
-        let one_sided = |rest: &str| format!("triangles shine from one side, {rest}");
+        let one_sided = format!(
+            "{} of {} triangles shine from one side",
+            self.one_sided, self.triangles
+        );
         match self.orientation {
             Orientation::Absent if self.needles > 0 => (
                 "absent",
                 format!(
-                    "{} triangles shine from both sides, {} from one, too thin for a normal",
-                    self.two_sided, self.needles
+                    "{} triangles shine from one side, too thin for a normal",
+                    self.needles
                 ),
             ),
             Orientation::Absent => (
@@ -128,18 +95,44 @@ impl Requirements {
             ),
             Orientation::Cancelling => (
                 "cancelling",
-                one_sided("but in each mesh normals cancel in pairs: whole meshes have none, their parts do"),
+                format!("{one_sided}, and in each mesh their normals cancel in pairs"),
             ),
-            Orientation::Present => ("present", one_sided("and their mean normals are not zero")),
+            Orientation::Present => ("present", one_sided),
         }
     }
 
-    fn changes_words(&self) -> (&'static str, String) {
+    /// How many instances there are of each kind that occurs.
+    fn transform_words(&self) -> String {
+        let kinds = [
+            "at the identity",
+            "translated",
+            "rigid",
+            "scaled",
+            "sheared or scaled unevenly",
+        ];
+        let counts = kinds.into_iter().zip(self.transforms);
+        let more = [
+            ("mirrored", self.mirrored),
+            ("with a factor on radiance", self.dimmed),
+        ];
+        let said: Vec<String> = counts
+            .chain(more)
+            .filter(|&(_, count)| count > 0)
+            .map(|(kind, count)| format!("{count} {kind}"))
+            .collect();
+        if said.is_empty() {
+            "no instance".to_string()
+        } else {
+            format!("of {} instances: {}", self.instances, said.join(", "))
+        }
+    }
+
+    fn changes_words(&self) -> String {
         let changes = self.declared.changes;
         let named = [
             (changes.transforms, "instances move"),
-            (changes.vertices, "meshes deform"),
-            (changes.emission, "emission varies"),
+            (changes.radiance, "instances are dimmed"),
+            (changes.triangles, "meshes deform or vary in emission"),
             (changes.instances, "instances come and go"),
             (changes.meshes, "meshes come"),
         ];
@@ -149,9 +142,9 @@ impl Requirements {
             .map(|(_, what)| what)
             .collect();
         if what.is_empty() {
-            ("none", "declared: everything stays as it is".to_string())
+            "declared: everything stays as it is".to_string()
         } else {
-            ("some", format!("declared: {}", what.join(", ")))
+            format!("declared: {}", what.join(", "))
         }
     }
 }

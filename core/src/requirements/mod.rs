@@ -7,28 +7,26 @@
 //! println!("{}", requirements.model()); // a type to write down, and how to build it
 //! ```
 //!
-//! Facts are computed from the words of the lights as they stand, without rounding but where [`TOLERANCE`] says how much; what the
-//! frames to come bring is what the caller [declares](Declared). An engine asks while it is developed, or when a level is baked, and
+//! Facts are counted in the words of the lights as they stand, exactly but for [`TOLERANCE`]; what the frames to come bring is what
+//! the caller [declares](Declared). An engine asks while it is developed, or when a level is baked, and
 //! names the type that it is told: what is not chosen is then not compiled.
 
 mod declared;
-mod extent;
 mod facts;
 mod model;
 mod orientation;
 mod scene;
+mod smallest;
 #[cfg(test)]
 mod tests;
 mod transforms;
 
 use crate::light::EmissiveTriangle;
 use crate::moments::LightMoments;
-use crate::trail::max_levels;
 
-pub use declared::{Changes, Declared, Receivers};
-pub use extent::Extent;
+pub use declared::{Changes, Declared};
 pub use facts::Fact;
-pub use model::{Layout, Model, ModelError, Structure};
+pub use model::{Layout, Model, ModelError, Structure, Updates};
 pub use orientation::Orientation;
 pub(crate) use scene::Placed;
 pub use scene::SceneLights;
@@ -55,16 +53,14 @@ pub struct Requirements {
     pub lights: usize,
     /// How many of them have no flux: no area, no radiance, or an instance that is off.
     pub dark: usize,
+    /// Triangles with flux in their mesh that shine from one side, with a normal.
+    pub one_sided: usize,
     /// Triangles with flux in their mesh that shine from both sides.
     pub two_sided: usize,
     /// Triangles with flux in their mesh that shine from one side, but are so thin that no normal is known of them.
     pub needles: usize,
     /// Whether normals tell anything.
     pub orientation: Orientation,
-    /// Whether all lights with flux have the same flux, as it is computed, to the bit.
-    pub flux_alike: bool,
-    /// How many directions the vertices of lights with flux extend in, in the world.
-    pub extent: Extent,
     /// Instances by [`TransformKind`], in its order.
     pub transforms: [usize; 5],
     /// Instances whose map mirrors.
@@ -89,11 +85,10 @@ impl Requirements {
             most_triangles: 0,
             lights: 0,
             dark: 0,
+            one_sided: 0,
             two_sided: 0,
             needles: 0,
             orientation: Orientation::Absent,
-            flux_alike: true,
-            extent: Extent::Point,
             transforms: [0; 5],
             mirrored: 0,
             dimmed: 0,
@@ -102,12 +97,11 @@ impl Requirements {
             found.triangles += mesh.len();
             found.most_triangles = found.most_triangles.max(mesh.len());
             let normals = orientation::Normals::of(mesh);
+            found.one_sided += normals.one_sided;
             found.two_sided += normals.two_sided;
             found.needles += normals.needles;
             found.orientation = found.orientation.max(normals.orientation);
         }
-        let mut span = extent::Span::default();
-        let mut flux = None;
         for placed in &scene.placed {
             users[placed.mesh] += 1;
             found.transforms[TransformKind::of(&placed.transform) as usize] += 1;
@@ -115,18 +109,11 @@ impl Requirements {
             found.dimmed += usize::from(placed.radiance.to_bits() != 1.0_f32.to_bits());
             for local in scene.meshes[placed.mesh] {
                 let light: EmissiveTriangle = placed.instance.triangle(local, 0);
-                let phi = LightMoments::of_triangle(&light).phi;
-                found.lights += 1;
-                if phi > 0.0 {
-                    found.flux_alike &= *flux.get_or_insert(phi.to_bits()) == phi.to_bits();
-                    light.p.into_iter().for_each(|p| span.add(p));
-                } else {
-                    found.dark += 1;
-                }
+                found.dark += usize::from(LightMoments::of_triangle(&light).phi <= 0.0);
             }
+            found.lights += scene.meshes[placed.mesh].len();
         }
         found.most_instances = users.into_iter().max().unwrap_or(0);
-        found.extent = span.extent();
         found
     }
 
@@ -146,27 +133,5 @@ impl Requirements {
     #[must_use]
     pub fn is_one_mesh(&self) -> bool {
         self.meshes == 1 && self.instances == 1
-    }
-
-    /// Least and greatest number of nodes on a path from the root to a light of trees of two levels with `width` children to a node,
-    /// as they are built; 0 where there is no light.
-    #[must_use]
-    pub fn depth_bounds(&self, width: usize) -> [u32; 2] {
-        if self.lights == 0 || width < 2 {
-            return [0; 2];
-        }
-        let least = |count: usize| {
-            let (mut levels, mut reach) = (1, width);
-            while reach < count {
-                levels += 1;
-                reach = reach.saturating_mul(width);
-            }
-            levels
-        };
-        let most = |count: usize| (count as u64).min(u64::from(max_levels(width))) as u32;
-        [
-            least(self.instances) + least(self.most_triangles),
-            most(self.instances) + most(self.most_triangles),
-        ]
     }
 }

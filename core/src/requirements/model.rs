@@ -1,11 +1,10 @@
-//! The smallest model that is sufficient: what is kept of the default, and why the rest is not.
+//! Models: a light BVH's parts, and which of them a scene can do without.
 
+use alloc::format;
 use alloc::string::{String, ToString};
-use alloc::vec::Vec;
-use alloc::{format, vec};
 use core::fmt;
 
-use super::{Changes, Orientation, Requirements};
+use super::Requirements;
 
 /// What nodes store of each child.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -51,6 +50,29 @@ pub enum Structure {
     TwoLevel,
 }
 
+/// What a light BVH keeps to be changed by. Each serves what the one before it does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Updates {
+    /// Nothing: a [`StaticBvh`](crate::bvh::StaticBvh).
+    Nothing,
+    /// What instances are moved, dimmed, added and removed by: a [`StaticMeshBvh`](crate::bvh::StaticMeshBvh).
+    Instances,
+    /// Triangles too, and the lists by which bottom levels are refitted: a [`Bvh`](crate::Bvh).
+    Meshes,
+}
+
+impl Updates {
+    /// Name for options.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Nothing => "nothing",
+            Self::Instances => "instances",
+            Self::Meshes => "meshes",
+        }
+    }
+}
+
 /// A light BVH's parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Model {
@@ -64,8 +86,8 @@ pub struct Model {
     pub uniform_halvings: u32,
     /// Whether trails are kept, by which a given light's probability is found ([`NoTrails`](crate::bvh::NoTrails)).
     pub trails: bool,
-    /// Whether triangles, parents and lists are kept, by which edits and refits work ([`StaticBvh`](crate::bvh::StaticBvh)).
-    pub refit: bool,
+    /// What may change.
+    pub updates: Updates,
 }
 
 impl Model {
@@ -76,7 +98,7 @@ impl Model {
         width: 8,
         uniform_halvings: 6,
         trails: true,
-        refit: true,
+        updates: Updates::Meshes,
     };
 
     /// Says what of the model makes no sense or what is missing of what `requirements` ask for.
@@ -91,8 +113,8 @@ impl Model {
         if declared.pmf && !self.trails {
             return Err(ModelError::PmfWithoutTrails);
         }
-        if declared.changes.any() && !self.refit {
-            return Err(ModelError::ChangesWithoutRefit);
+        if self.updates < requirements.updates() {
+            return Err(ModelError::Updates(requirements.updates()));
         }
         if self.structure == Structure::SingleLevel && !requirements.one_level_is_enough() {
             return Err(ModelError::SingleLevel);
@@ -124,7 +146,11 @@ impl Model {
     /// The type of the light BVH, as Rust has it.
     #[must_use]
     pub fn type_name(&self) -> String {
-        let owner = if self.refit { "Bvh" } else { "StaticBvh" };
+        let owner = match self.updates {
+            Updates::Nothing => "StaticBvh",
+            Updates::Instances => "StaticMeshBvh",
+            Updates::Meshes => "Bvh",
+        };
         let trails = if self.trails { "" } else { ", NoTrails" };
         let (node, importance, width) = (self.node_type(), self.importance_type(), self.width);
         format!("{owner}<{node}, {importance}, {width}{trails}>")
@@ -150,9 +176,9 @@ pub enum ModelError {
     UniformWithoutTrails,
     /// Probabilities of given lights are found by trails.
     PmfWithoutTrails,
-    /// Something changes, and nothing is kept to refit it by.
-    ChangesWithoutRefit,
-    /// Instances move, come, go or share meshes.
+    /// So much changes, and less is kept to change it by.
+    Updates(Updates),
+    /// Instances move, are dimmed, come, go or share meshes, or several meshes change.
     SingleLevel,
 }
 
@@ -165,102 +191,18 @@ impl fmt::Display for ModelError {
             Self::PmfWithoutTrails => {
                 "probabilities of given lights are asked for, and found by trails; keep the trails or declare that none is asked for"
             }
-            Self::ChangesWithoutRefit => {
-                "lights change, and a static light BVH cannot be refitted; keep what refits need or declare that nothing changes"
+            Self::Updates(Updates::Meshes) => {
+                "meshes deform, vary in emission or come, which takes their triangles; keep updates of meshes or declare that meshes stay"
+            }
+            Self::Updates(_) => {
+                "instances change, and nothing is kept to refit them by; keep updates of instances or declare that nothing changes"
             }
             Self::SingleLevel => {
-                "instances move, come, go or share a mesh, or several meshes change, which one level cannot follow; take two levels"
+                "instances move, are dimmed, come, go or share a mesh, or several meshes change, which one level cannot follow; take two \
+                 levels"
             }
         })
     }
 }
 
 impl core::error::Error for ModelError {}
-
-impl Requirements {
-    /// The smallest model that is sufficient.
-    #[must_use]
-    pub fn model(&self) -> Model {
-        let default = Model::DEFAULT;
-        Model {
-            layout: if self.normals_stay_absent() {
-                Layout::TwoSidedMoments
-            } else {
-                default.layout
-            },
-            structure: if self.one_level_is_enough() {
-                Structure::SingleLevel
-            } else {
-                default.structure
-            },
-            uniform_halvings: if self.declared.pmf {
-                default.uniform_halvings
-            } else {
-                0
-            },
-            trails: self.declared.pmf,
-            refit: self.declared.changes.any(),
-            ..default
-        }
-    }
-
-    /// Whether no light has a normal, now and later.
-    fn normals_stay_absent(&self) -> bool {
-        let changes = self.declared.changes;
-        // A needle that moves or deforms may get a normal; of meshes that come nothing is known.
-        self.orientation == Orientation::Absent
-            && !changes.meshes
-            && (self.needles == 0 || !(changes.vertices || changes.transforms))
-    }
-
-    /// Whether a tree over triangles in the world can follow what changes, without another copy of any triangle: of one mesh that stays
-    /// where it is, or of several that stay as they are.
-    pub(super) fn one_level_is_enough(&self) -> bool {
-        let Changes {
-            transforms,
-            vertices,
-            emission,
-            instances,
-            meshes,
-        } = self.declared.changes;
-        !(transforms || instances || meshes)
-            && self.most_instances <= 1
-            && (self.is_one_mesh() || !(vertices || emission))
-    }
-
-    /// Why [`model`](Self::model) is what it is: a sentence for each part that differs from the default, or one that says that none does.
-    #[must_use]
-    pub fn reasons(&self) -> Vec<String> {
-        let model = self.model();
-        let mut said = vec![];
-        if model.layout == Layout::TwoSidedMoments {
-            said.push(
-                "no light has a normal: nodes without a row of normals hold the same, 20 bytes of each child for 24".to_string(),
-            );
-        }
-        if model.structure == Structure::SingleLevel {
-            said.push(if self.is_one_mesh() {
-                "one mesh that stays in its place: its tree stands in the world, no top level chooses it".to_string()
-            } else {
-                format!(
-                    "all {} meshes stay as they are, each in one place: one tree over all their triangles, no instances",
-                    self.meshes
-                )
-            });
-        }
-        if !model.trails {
-            said.push(
-                "no probability of a given light is asked for: no trails, and no share of uniform choice, which needs them".to_string(),
-            );
-        }
-        if !model.refit {
-            said.push("nothing changes: no triangles, parents or lists for refits".to_string());
-        }
-        if said.is_empty() {
-            said.push(
-                "normals, motion and probabilities of given lights are all needed: the default has no part to spare".to_string(),
-            );
-        }
-        said
-    }
-}

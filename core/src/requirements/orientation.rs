@@ -19,6 +19,7 @@ pub enum Orientation {
 
 /// The normals of a mesh.
 pub(super) struct Normals {
+    pub one_sided: usize,
     pub two_sided: usize,
     pub needles: usize,
     pub orientation: Orientation,
@@ -46,6 +47,7 @@ impl Normals {
             }
         }
         Self {
+            one_sided: directed.len(),
             two_sided,
             needles,
             orientation: if directed.is_empty() {

@@ -3,7 +3,7 @@
 use std::string::ToString;
 use std::vec::Vec;
 
-use super::super::{Changes, Declared, Layout, Model, ModelError, Receivers, Requirements, Structure};
+use super::super::{Changes, Declared, Layout, Model, ModelError, Requirements, Structure, Updates};
 use super::{below, lights, mesh};
 use crate::bvh::LightBvh;
 use crate::kit::Random;
@@ -14,19 +14,19 @@ fn declared(random: &mut Random) -> Declared {
     Declared {
         changes: Changes {
             transforms: coin(),
-            vertices: coin(),
-            emission: coin(),
+            radiance: coin(),
+            triangles: coin(),
             instances: coin(),
             meshes: coin(),
         },
-        receivers: Receivers::Surfaces,
+        glossy: coin(),
         pmf: coin(),
     }
 }
 
 #[test]
 fn models_are_sufficient_and_no_larger() {
-    let mut differ = [0; 5];
+    let mut differ = [0; 6];
     for seed in 0..2000 {
         let random = &mut Random(seed * 31);
         let (meshes, two_sided) = (1 + below(random, 2), [0, 8][below(random, 2) as usize]);
@@ -38,7 +38,15 @@ fn models_are_sufficient_and_no_larger() {
         let c = declared.changes;
         let absent = found.two_sided + found.dark == found.triangles;
         assert_eq!(model.layout == Layout::TwoSidedMoments, absent && !c.meshes);
-        assert_eq!(model.refit, c != Changes::NONE);
+        let expected = match (c.triangles || c.meshes, c != Changes::NONE) {
+            (true, _) => Updates::Meshes,
+            (false, true) => Updates::Instances,
+            (false, false) => Updates::Nothing,
+        };
+        assert_eq!(model.updates, expected);
+        let stay = !(c.transforms || c.radiance || c.instances || c.meshes);
+        let single = stay && (meshes == 1 || !c.triangles);
+        assert_eq!(model.structure == Structure::SingleLevel, single);
         assert_eq!(
             (model.trails, model.uniform_halvings > 0),
             (declared.pmf, declared.pmf)
@@ -55,7 +63,11 @@ fn models_are_sufficient_and_no_larger() {
                 ..model
             },
             Model {
-                refit: false,
+                updates: Updates::Nothing,
+                ..model
+            },
+            Model {
+                updates: model.updates.min(Updates::Instances),
                 ..model
             },
             Model {
@@ -67,7 +79,7 @@ fn models_are_sufficient_and_no_larger() {
             assert_eq!(smaller.check(&found).is_ok(), smaller == model, "{smaller:?}");
             differ[k] += usize::from(smaller != model);
         }
-        differ[4] += usize::from(model == Model::DEFAULT);
+        differ[5] += usize::from(model == Model::DEFAULT);
     }
     assert!(differ.iter().all(|&count| count > 20), "{differ:?}");
 }
@@ -105,7 +117,7 @@ fn what_does_not_fit_is_refused_in_words() {
             ..default
         },
         Model {
-            refit: false,
+            updates: Updates::Nothing,
             ..default
         },
         Model {
@@ -120,7 +132,7 @@ fn what_does_not_fit_is_refused_in_words() {
         [
             ModelError::UniformWithoutTrails,
             ModelError::PmfWithoutTrails,
-            ModelError::ChangesWithoutRefit,
+            ModelError::Updates(Updates::Meshes),
             ModelError::SingleLevel
         ]
     );
@@ -135,7 +147,7 @@ fn what_does_not_fit_is_refused_in_words() {
         structure: Structure::SingleLevel,
         uniform_halvings: 0,
         trails: false,
-        refit: false,
+        updates: Updates::Nothing,
         ..default
     };
     assert_eq!(
