@@ -107,6 +107,7 @@ impl KernelSet {
 
 #[cfg(test)]
 mod tests {
+    use lightbvh::requirements::Updates;
     use lightbvh::{CompactNode, MomentNode};
 
     use super::*;
@@ -151,7 +152,7 @@ mod tests {
         for model in [
             default,
             Model {
-                refit: false,
+                updates: Updates::Nothing,
                 ..default
             },
         ] {

@@ -1,6 +1,6 @@
 //! What moves in a scene: its instances over one round of its longest animation.
 
-use lightbvh::{BuildParams, Edit, InstanceId};
+use lightbvh::{BuildParams, Edit};
 use lightbvh_kernels::bvh::{Node, WIDTH};
 use serde::Serialize;
 
@@ -10,29 +10,25 @@ use crate::scene::{FRAMES_PER_SECOND, Instances, Scene};
 /// Frames looked at, at most.
 const MOST_FRAMES: u32 = 1000;
 
-/// What changes from frame to frame.
+/// Which instances move. Scenes of the host neither deform nor vary what they emit: morph targets and skins are not read.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Motion {
     /// Frames looked at, the first not counted.
     pub frames: u32,
     pub instances: usize,
-    /// Instances that move at all; so many deform, and so many change what they emit.
+    /// Instances that move at all.
     pub moving: usize,
-    pub deforming: usize,
-    pub varying: usize,
     pub tracks: Vec<Track>,
 }
 
-/// An instance that changes.
+/// An instance that moves.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Track {
     pub instance: u32,
     /// Node and mesh.
     pub name: String,
-    /// Frames in which it moves, its mesh deforms, its emission changes.
+    /// Frames in which it moves.
     pub moves: u32,
-    pub deforms: u32,
-    pub varies: u32,
 }
 
 /// Frames of one round of the longest animation.
@@ -48,49 +44,30 @@ impl Motion {
     pub fn of(scene: &Scene) -> Result<Self, HostError> {
         let frames = frames(scene);
         let names = scene.frame(0).mesh_lights;
-        let (bvh, mut instances) = Instances::new::<Node, (), WIDTH>(scene, 0, BuildParams::FAST)
+        let (_, mut instances) = Instances::new::<Node, (), WIDTH>(scene, 0, BuildParams::FAST)
             .map_err(|error| HostError::in_frame(scene.name(), 0, error))?;
-        let mut counts = vec![[0_u32; 3]; names.len()];
-        let mut count = |id: InstanceId, what: usize| {
-            if let Some(counts) = counts.get_mut(id.index() as usize) {
-                counts[what] += 1;
-            }
-        };
+        let mut moves = vec![0_u32; names.len()];
         for frame in 1..=frames {
             for edit in instances.edits(scene, frame) {
-                match edit {
-                    Edit::SetTransform { instance, .. } => count(instance, 0),
-                    Edit::SetTriangles { mesh, .. } => {
-                        for id in (0..names.len() as u32).filter_map(|index| bvh.instance_id(index)) {
-                            if bvh.mesh_of(id) == Some(mesh) {
-                                count(id, 1);
-                            }
-                        }
-                    }
-                    Edit::SetRadiance { instance, .. } => count(instance, 2),
-                    _ => {}
+                if let Edit::SetTransform { instance, .. } = edit {
+                    moves[instance.index() as usize] += 1;
                 }
             }
         }
-        let so_many = |what: usize| counts.iter().filter(|counts| counts[what] > 0).count();
-        let (moving, deforming, varying) = (so_many(0), so_many(1), so_many(2));
-        let named = (0..).zip(names.iter().zip(&counts));
+        let named = (0..).zip(names.iter().zip(&moves));
+        let tracks: Vec<Track> = named
+            .filter(|(_, (_, moves))| **moves > 0)
+            .map(|(instance, (light, &moves))| Track {
+                instance,
+                name: light.name.clone(),
+                moves,
+            })
+            .collect();
         Ok(Self {
             frames,
             instances: names.len(),
-            moving,
-            deforming,
-            varying,
-            tracks: named
-                .filter(|(_, (_, counts))| **counts != [0; 3])
-                .map(|(instance, (light, &[moves, deforms, varies]))| Track {
-                    instance,
-                    name: light.name.clone(),
-                    moves,
-                    deforms,
-                    varies,
-                })
-                .collect(),
+            moving: tracks.len(),
+            tracks,
         })
     }
 
@@ -100,15 +77,20 @@ impl Motion {
             frames,
             instances,
             moving,
-            deforming,
-            varying,
-            ..
+            tracks,
         } = self;
-        let least = self.tracks.iter().map(|track| track.moves).min().unwrap_or(0);
-        let most = self.tracks.iter().map(|track| track.moves).max().unwrap_or(0);
-        format!(
-            "{moving} of {instances} instances move, in {least} to {most} of {frames} frames; {deforming} deform, {varying} change what \
-             they emit"
-        )
+        if *frames == 0 {
+            return "no: nothing is animated".to_owned();
+        }
+        let moves = tracks.iter().map(|track| track.moves);
+        let (Some(least), Some(most)) = (moves.clone().min(), moves.max()) else {
+            return format!("no: in {frames} frames of animation no instance that emits moves");
+        };
+        let often = if least == most {
+            format!("{most}")
+        } else {
+            format!("{least} to {most}")
+        };
+        format!("yes: {moving} of {instances} instances, in {often} of {frames} frames")
     }
 }

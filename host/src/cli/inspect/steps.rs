@@ -4,20 +4,17 @@ use lightbvh::ShadingPoint;
 use lightbvh::exact::hash;
 use lightbvh::refit::Instance;
 use lightbvh::requirements::{Layout, Model, Orientation, Requirements, Structure, TransformKind};
-use rayon::prelude::*;
 use serde::Serialize;
 
+use super::compare::{Compared, Light};
 use super::subject::{Source, Subject, build};
 use crate::cli::times::ms;
 use crate::cli::trade::quantile::Interval;
-use crate::cli::variance::irradiance::irradiance;
 use crate::error::HostError;
 
 /// Where probabilities may differ, the mean variance of a sample rises by no more than a twentieth.
 pub(super) const MOST_VARIANCE: f64 = 1.05;
-/// Samples of a point that are compared where no probability of a given light can be asked for.
-const SAMPLES: u32 = 64;
-/// Rounds of timing, and how often each point is sampled in one.
+/// Rounds of timing, and about how many samples are taken in one.
 const TURNS: u32 = 21;
 const SAMPLES_IN_A_TURN: u32 = 40_000;
 
@@ -27,8 +24,8 @@ const SAMPLES_IN_A_TURN: u32 = 40_000;
 pub(super) enum Promise {
     /// Every probability has the same bits.
     Bits,
-    /// The same bits at the point as the identity of an instance leaves it, which may turn the last bit of a normal.
-    BitsThroughIdentity,
+    /// The same bits at the point as an instance at the identity hands it on, which may turn the last bit of a normal.
+    BitsBelowInstance,
     /// The mean variance of a sample stays below [`MOST_VARIANCE`] times what it was.
     Variance,
 }
@@ -48,7 +45,7 @@ pub(super) struct Step {
     /// That of the step before.
     pub variance_before: f64,
     /// Whether the promise holds.
-    pub kept: bool,
+    pub held: bool,
     #[serde(flatten)]
     pub cost: Cost,
 }
@@ -119,9 +116,9 @@ fn chain(model: &Model) -> Vec<(&'static str, Model)> {
         },
     );
     next(
-        "refit data",
+        "updates",
         Model {
-            refit: model.refit,
+            updates: model.updates,
             ..then
         },
     );
@@ -138,17 +135,10 @@ fn promise(part: &str, model: &Model, requirements: &Requirements) -> Promise {
         {
             Promise::Bits
         }
-        "levels" if model.structure == Structure::SingleLevel && is_identity => Promise::BitsThroughIdentity,
-        "trails" | "refit data" => Promise::Bits,
+        "levels" if model.structure == Structure::SingleLevel && is_identity => Promise::BitsBelowInstance,
+        "trails" | "updates" => Promise::Bits,
         _ => Promise::Variance,
     }
-}
-
-/// What the lights of a scene send to its points.
-struct Light<'a> {
-    source: &'a Source<'a>,
-    /// By point and light.
-    sent: Vec<Vec<f64>>,
 }
 
 /// Builds the default and each step of the way to `model`, compares them, and times them in turns.
@@ -158,19 +148,14 @@ pub(super) fn check(
     source: &Source<'_>,
     points: &[ShadingPoint],
 ) -> Result<Checked, HostError> {
-    let triangles = source.lights.triangles();
-    let sent = points.par_iter();
-    let sent = sent.map(|point| triangles.iter().map(|t| irradiance(t, point)).collect());
-    let light = Light {
-        source,
-        sent: sent.collect(),
-    };
+    let lights = source.lights.triangles();
+    let light = Light::of(lights, points);
     let chain = chain(model);
     let mut subjects = vec![build(&Model::DEFAULT, source)?];
     for (_, model) in &chain {
         subjects.push(build(model, source)?);
     }
-    let costs = costs(&subjects, points, triangles.len());
+    let costs = costs(&subjects, points, lights.len());
     let mut before = light.pmfs(&*subjects[0], points);
     let first = light.variance(before.as_deref().unwrap_or_default());
     let mut variance = first;
@@ -180,7 +165,7 @@ pub(super) fn check(
         let promise = promise(part, model, requirements);
         let pmfs = light.pmfs(new, points);
         let compared = match (promise, &before, &pmfs) {
-            (Promise::BitsThroughIdentity, Some(before), Some(_)) => {
+            (Promise::BitsBelowInstance, Some(before), Some(_)) => {
                 let seen: Vec<_> = points
                     .iter()
                     .map(|point| Instance::IDENTITY.to_local(point))
@@ -202,7 +187,7 @@ pub(super) fn check(
             most: compared.most,
             variance,
             variance_before,
-            kept: match promise {
+            held: match promise {
                 Promise::Variance => variance <= MOST_VARIANCE * variance_before,
                 _ => compared.different == 0,
             },
@@ -217,77 +202,6 @@ pub(super) fn check(
     })
 }
 
-impl Light<'_> {
-    /// Every probability, point by point; `None` where none can be asked for.
-    fn pmfs(&self, subject: &dyn Subject, points: &[ShadingPoint]) -> Option<Vec<f32>> {
-        let lights = self.source.lights.triangles();
-        let of = |point: &ShadingPoint| -> Option<Vec<f32>> {
-            let each = (0..).zip(lights);
-            each.map(|(light, triangle)| subject.probability(point, light, triangle.mesh))
-                .collect()
-        };
-        let all: Option<Vec<Vec<f32>>> = points.par_iter().map(of).collect();
-        Some(all?.concat())
-    }
-
-    /// Mean relative variance of one sample by these probabilities, over the points that any light reaches.
-    fn variance(&self, pmfs: &[f32]) -> f64 {
-        let lights = self.source.lights.triangles().len();
-        let (mut sum, mut lit) = (0.0, 0_u32);
-        for (sent, pmfs) in self.sent.iter().zip(pmfs.chunks(lights)) {
-            let mean: f64 = sent.iter().sum();
-            if mean > 0.0 {
-                let pairs = sent.iter().zip(pmfs).filter(|(sent, _)| **sent > 0.0);
-                let square: f64 = pairs.map(|(sent, &pmf)| sent * sent / f64::from(pmf)).sum();
-                sum += (square / (mean * mean) - 1.0).max(0.0);
-                lit += 1;
-            }
-        }
-        sum / f64::from(lit.max(1))
-    }
-}
-
-/// Words of two models.
-struct Compared {
-    count: u64,
-    different: u64,
-    most: f64,
-}
-
-impl Compared {
-    fn of(before: &[f32], after: &[f32]) -> Self {
-        let mut own = Self {
-            // What is missing differs.
-            different: before.len().abs_diff(after.len()) as u64,
-            count: before.len() as u64,
-            most: 0.0,
-        };
-        for (a, b) in before.iter().zip(after) {
-            own.different += u64::from(a.to_bits() != b.to_bits());
-            own.most = own.most.max((f64::from(*a) - f64::from(*b)).abs());
-        }
-        own
-    }
-
-    fn of_samples(old: &dyn Subject, new: &dyn Subject, points: &[ShadingPoint]) -> Self {
-        let mut own = Self {
-            count: 0,
-            different: 0,
-            most: 0.0,
-        };
-        for (point, index) in points.iter().zip(0_u32..) {
-            for k in 0..SAMPLES {
-                let number = hash(index * SAMPLES + k);
-                let (a, b) = (old.choose(point, number), new.choose(point, number));
-                own.count += 1;
-                own.different += u64::from(a.light != b.light || a.pmf.to_bits() != b.pmf.to_bits());
-                own.most = own.most.max((f64::from(a.pmf) - f64::from(b.pmf)).abs());
-            }
-        }
-        own
-    }
-}
-
 /// Bytes, and times in turns that each begin with another subject.
 fn costs(subjects: &[Box<dyn Subject>], points: &[ShadingPoint], lights: usize) -> Vec<Cost> {
     let passes = SAMPLES_IN_A_TURN.div_ceil(points.len() as u32);
@@ -299,7 +213,7 @@ fn costs(subjects: &[Box<dyn Subject>], points: &[ShadingPoint], lights: usize) 
             times[at].push(1e6 * time / f64::from(passes) / points.len() as f64);
         }
     }
-    let lights = lights as f64;
+    let lights = lights.max(1) as f64;
     let both = subjects.iter().zip(&times);
     both.map(|(subject, own)| Cost {
         bytes_per_light: subject.read_bytes() as f64 / lights,

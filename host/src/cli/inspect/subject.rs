@@ -2,9 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use lightbvh::bvh::{NoTrails, StaticBvh};
+use lightbvh::bvh::{NoTrails, StaticBvh, StaticMeshBvh, Trails};
 use lightbvh::exact::hash;
-use lightbvh::requirements::{Layout, Model, Structure};
+use lightbvh::requirements::{Layout, Model, Structure, Updates};
 use lightbvh::{
     BuildParams, Bvh, Defensive, FullMomentNode, ImportanceModel, LeanMomentNode, LightNode, Lights,
     MomentLayout, MomentNode, Moments, SampledLight, ShadingPoint, TwoSidedMomentNode,
@@ -88,6 +88,10 @@ subject!([N: LightNode<W>, I: ImportanceModel<N, W> + Sync, const W: usize]
     Bvh<N, I, W>, memory, |bvh: &Self, p, l, i| Some(bvh.pmf(p, l, i)));
 subject!([N: LightNode<W>, I: ImportanceModel<N, W> + Sync, const W: usize]
     StaticBvh<N, I, W>, bytes, |bvh: &Self, p, l, i| Some(bvh.pmf(p, l, i)));
+subject!([N: LightNode<W>, I: ImportanceModel<N, W> + Sync, const W: usize]
+    StaticMeshBvh<N, I, W>, memory, |bvh: &Self, p, l, i| Some(bvh.pmf(p, l, i)));
+subject!([N: MomentLayout<W>, const W: usize]
+    StaticMeshBvh<N, Moments, W, NoTrails>, memory, |_, _, _, _| None);
 subject!([N: MomentLayout<W>, const W: usize]
     Bvh<N, Moments, W, NoTrails>, memory, |_, _, _, _| None);
 subject!([N: MomentLayout<W>, const W: usize]
@@ -117,18 +121,34 @@ fn chosen<N, const W: usize>(model: &Model, source: &Source<'_>) -> Result<Box<d
 where
     N: MomentLayout<W> + 'static,
 {
-    Ok(match (model.uniform_halvings > 0, model.trails, model.refit) {
-        (true, _, true) => Box::new(built::<N, Defensive<Moments, 6>, W>(model, source)?),
-        (true, _, false) => Box::new(built::<N, Defensive<Moments, 6>, W>(model, source)?.into_static()),
-        (false, true, true) => Box::new(built::<N, Moments, W>(model, source)?),
-        (false, true, false) => Box::new(built::<N, Moments, W>(model, source)?.into_static()),
-        (false, false, true) => Box::new(built::<N, Moments, W>(model, source)?.without_trails()),
-        (false, false, false) => Box::new(
-            built::<N, Moments, W>(model, source)?
-                .without_trails()
-                .into_static(),
+    Ok(match (model.uniform_halvings, model.trails) {
+        (0, false) => kept(
+            built::<N, Moments, W>(model, source)?.without_trails(),
+            model.updates,
+        ),
+        (0, true) => kept(built::<N, Moments, W>(model, source)?, model.updates),
+        _ => kept(
+            built::<N, Defensive<Moments, 6>, W>(model, source)?,
+            model.updates,
         ),
     })
+}
+
+/// With what `updates` need.
+fn kept<N: LightNode<W> + 'static, I: 'static, const W: usize, T: Trails + 'static>(
+    bvh: Bvh<N, I, W, T>,
+    updates: Updates,
+) -> Box<dyn Subject>
+where
+    Bvh<N, I, W, T>: Subject,
+    StaticMeshBvh<N, I, W, T>: Subject,
+    StaticBvh<N, I, W, T>: Subject,
+{
+    match updates {
+        Updates::Meshes => Box::new(bvh),
+        Updates::Instances => Box::new(bvh.into_static_meshes()),
+        Updates::Nothing => Box::new(bvh.into_static()),
+    }
 }
 
 fn built<N: LightNode<W>, I, const W: usize>(
