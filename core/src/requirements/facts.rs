@@ -42,7 +42,7 @@ impl Requirements {
                 "one mesh",
                 yes(self.is_one_mesh()),
                 format!(
-                    "{} meshes, {} instances, at most {} of a mesh",
+                    "meshes: {}, instances: {}, at most {} of a mesh",
                     self.meshes, self.instances, self.most_instances
                 ),
             ),
@@ -66,12 +66,16 @@ impl Requirements {
             fact(
                 "glossy receivers",
                 yes(self.declared.glossy),
-                "declared; importances take receivers as diffuse".to_string(),
+                "as declared; importances take receivers as diffuse".to_string(),
             ),
             fact(
                 "pmf of given lights",
                 yes(self.declared.pmf),
-                "declared; multiple importance sampling asks for it".to_string(),
+                if self.declared.pmf {
+                    "multiple importance sampling asks for them, as declared".to_string()
+                } else {
+                    "nothing asks for them, as declared".to_string()
+                },
             ),
         ])
     }
@@ -123,7 +127,7 @@ impl Requirements {
         if said.is_empty() {
             "no instance".to_string()
         } else {
-            format!("of {} instances: {}", self.instances, said.join(", "))
+            format!("instances: {}", said.join(", "))
         }
     }
 
@@ -142,9 +146,9 @@ impl Requirements {
             .map(|(_, what)| what)
             .collect();
         if what.is_empty() {
-            "declared: everything stays as it is".to_string()
+            "everything stays as it is, as declared".to_string()
         } else {
-            format!("declared: {}", what.join(", "))
+            format!("{}, as declared", what.join(", "))
         }
     }
 }

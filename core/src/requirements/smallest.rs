@@ -7,7 +7,9 @@ use alloc::vec::Vec;
 use super::{Layout, Model, Orientation, Requirements, Structure, Updates};
 
 impl Requirements {
-    /// The smallest model that is sufficient.
+    /// The smallest model that is sufficient. Layout, trails and updates keep the bits of probabilities. One level in place of several,
+    /// or of a mesh that stands elsewhere than at the identity, is another tree, and without uniform choice probabilities are others
+    /// too: what that does to the variance depends on the scene, and `lightbvh inspect` measures it.
     #[must_use]
     pub fn model(&self) -> Model {
         let default = Model::DEFAULT;
@@ -131,7 +133,7 @@ impl Requirements {
     fn levels_reason(&self) -> String {
         let needed = self.needs_instances();
         if !needed.is_empty() {
-            format!("levels: two, because {}", needed.join(", "))
+            format!("levels: two, because {}", needed.join(" and "))
         } else if self.is_one_mesh() {
             "levels: one, because one mesh stays in its place: its tree stands in the world, and no top level chooses it".to_string()
         } else {
@@ -157,7 +159,8 @@ impl Requirements {
                 "updates: nothing changes, so triangles, instance states and lists for refits are not kept".to_string()
             }
             Updates::Instances => {
-                "updates: instances change and meshes stay, so triangles and lists for refits of bottom levels are not kept".to_string()
+                "updates: instances change and meshes stay, so triangles and lists for refits of bottom levels are not kept on the CPU"
+                    .to_string()
             }
             Updates::Meshes => "updates: meshes change or come, so everything is kept".to_string(),
         }

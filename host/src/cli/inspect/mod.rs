@@ -35,7 +35,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     for warning in scene.warnings() {
         eprintln!("{}: {warning}", scene.name());
     }
-    let lights = lights_at(&scene, args.frame)?;
+    scene.require_lights()?;
     let motion = Motion::of(&scene)?;
     let surfaces = Surfaces::of(&scene);
     let (bvh, _) = Instances::new::<Node, (), WIDTH>(&scene, args.frame, BuildParams::default())
@@ -50,27 +50,32 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             needs: "--layout moments or two-sided",
         });
     }
-    let kernels = KernelSet::of(&model);
-    if args.backend == BackendName::Vulkan {
-        kernels?;
-    }
+    // What is refitted is looked at after a refit.
+    let moved = args.frame + u32::from(requirements.declared.changes.transforms);
+    let lights = lights_at(&scene, moved)?;
     let most = MOST_PROBABILITIES / lights.triangles().len().max(1);
     let count = args.points.min((most as u32).max(1));
-    let (_, points) = points::of(&args.scene, 0, args.frame, count)?;
+    let (_, points) = points::of(&args.scene, 0, moved, count)?;
     let source = Source {
         scene: &scene,
         frame: args.frame,
+        moved,
         lights: &lights,
     };
-    let checked = check(&model, &requirements, &source, &points)?;
+    let checked = check(&chosen, &model, &requirements, &source, &points)?;
+    let kernels = KernelSet::of(&checked.model);
+    if args.backend == BackendName::Vulkan {
+        kernels?;
+    }
     let report = Report {
         args,
         points: count,
+        moved,
         motion,
         surfaces,
         requirements,
         chosen,
-        model,
+        asked_for: model != chosen,
         kernels: kernels.err().map(|missing| missing.command()),
         checked,
     };

@@ -36,8 +36,8 @@ pub struct Args {
     /// Points on the surfaces of the scene that probabilities are compared at, fewer where there are more than 131,072 lights.
     #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub points: u32,
-    /// Frame of the animation that trees are built in.
-    #[arg(long, default_value_t = 0)]
+    /// Frame of the animation that trees are built in; where instances move they are compared one frame later.
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=1_000_000))]
     pub frame: u32,
 }
 

@@ -16,30 +16,26 @@ pub(super) struct Report<'a> {
     pub args: &'a Args,
     /// How many were looked at.
     pub points: u32,
+    /// The frame in which they were.
+    pub moved: u32,
     pub motion: Motion,
     pub surfaces: Surfaces,
     pub requirements: Requirements,
     pub chosen: Model,
-    pub model: Model,
+    /// Whether another was asked for.
+    pub asked_for: bool,
     /// The command that compiles the model's kernels, where they are not committed.
     pub kernels: Option<String>,
     pub checked: Checked,
 }
 
 impl Report<'_> {
-    /// Whether every promise holds: all of what was chosen, and equal bits of what was asked for.
+    /// Whether bits are equal wherever that is promised. What costs more variance than promised is put back, or was asked for.
     pub fn holds(&self) -> bool {
-        let asked_for = self.model != self.chosen;
         let steps = &self.checked.steps;
         steps
             .iter()
-            .all(|step| step.held || (asked_for && step.promise == Promise::Variance))
-    }
-
-    /// What the model costs: that of the last step.
-    fn cost(&self) -> Cost {
-        let last = self.checked.steps.last();
-        last.map_or(self.checked.default, |step| step.cost)
+            .all(|step| step.held || step.promise == Promise::Variance)
     }
 
     pub fn json(&self) -> Value {
@@ -49,17 +45,17 @@ impl Report<'_> {
             .into_iter()
             .map(|fact| json!({ "name": fact.name, "found": fact.found, "reason": fact.reason }))
             .collect();
-        let (default, cost) = (self.checked.default, self.cost());
+        let Checked { default, cost, .. } = self.checked;
         json!({
-            "scene": self.args.scene, "frame": self.args.frame, "points": self.points,
+            "scene": self.args.scene, "frame": self.args.frame, "checked_frame": self.moved, "points": self.points,
             "lights": self.requirements.lights,
             "facts": facts,
             "motion": self.motion,
             "surfaces": self.surfaces,
             "chosen": model_json(&self.chosen),
             "reasons": self.requirements.reasons(),
-            "model": model_json(&self.model),
-            "overridden": self.model != self.chosen,
+            "model": model_json(&self.checked.model),
+            "overridden": self.asked_for,
             "kernels": { "committed": self.kernels.is_none(), "command": self.kernels },
             "default": { "variance": self.checked.variance, "cost": default },
             "steps": self.checked.steps,
@@ -91,17 +87,27 @@ impl Report<'_> {
         for reason in self.requirements.reasons() {
             text += &format!("  {reason}\n");
         }
-        if self.model != self.chosen {
-            text += &format!("asked for instead: {}\n", self.model);
-        }
+        table::print_text(&text)?;
+        self.print_check()?;
+        self.print_model()
+    }
+
+    /// What is left after the check, and its kernels.
+    fn print_model(&self) -> Result<(), HostError> {
+        let model = &self.checked.model;
+        let how = match (self.asked_for, *model == self.chosen) {
+            (true, _) => "as asked for",
+            (false, true) => "as chosen",
+            (false, false) => "less what was put back",
+        };
+        let mut text = format!("\nmodel, {how}: {model}\n");
         text += &match &self.kernels {
             None => "kernels for devices: committed\n".to_owned(),
             Some(command) => {
                 format!("kernels for devices: not committed; they are compiled by\n  {command}\n")
             }
         };
-        table::print_text(&text)?;
-        self.print_check()
+        Ok(table::print_text(&text)?)
     }
 
     /// The default, and each part that is another, one after the other.
@@ -109,7 +115,9 @@ impl Report<'_> {
         let Checked {
             variance,
             default,
+            cost,
             steps,
+            ..
         } = &self.checked;
         if steps.is_empty() {
             let Cost {
@@ -123,8 +131,13 @@ impl Report<'_> {
                  {ns_per_sample:.0} ns per sample, variance {variance:.4}\n"
             ))?);
         }
+        let refitted = if self.moved == self.args.frame {
+            String::new()
+        } else {
+            format!(" in frame {}, after a refit", self.moved)
+        };
         table::print_text(&format!(
-            "\nchecked from {} points on surfaces, one part after the other\n",
+            "\nchecked from {} points on surfaces{refitted}, one part after the other\n",
             self.points
         ))?;
         let first = std::iter::once(Row {
@@ -138,7 +151,6 @@ impl Report<'_> {
             step: Some(step.clone()),
         });
         table::print(&first.chain(rest).collect::<Vec<_>>(), COLUMNS)?;
-        let cost = self.cost();
         let Interval { median, low, high } = cost.ns_saved;
         let noise = if low <= 0.0 && high >= 0.0 { ": noise" } else { "" };
         table::print_text(&format!(
@@ -151,8 +163,15 @@ impl Report<'_> {
             default.ns_per_sample,
         ))?;
         for step in steps.iter().filter(|step| !step.held) {
+            let done = if step.put_back {
+                "the part is put back"
+            } else if step.promise == Promise::Variance {
+                "kept, as asked for"
+            } else {
+                "this is a fault of lightbvh; please report it"
+            };
             table::print_text(&format!(
-                "{}: the promise of {} does not hold here; keep what the default has\n",
+                "{}: the promise of {} does not hold here, {done}\n",
                 step.part,
                 promise(step.promise)
             ))?;

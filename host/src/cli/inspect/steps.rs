@@ -30,7 +30,7 @@ pub(super) enum Promise {
     Variance,
 }
 
-/// A part of the model that is another one than before.
+/// A part of the model that is to be another one than before.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Step {
     pub part: &'static str,
@@ -46,12 +46,14 @@ pub(super) struct Step {
     pub variance_before: f64,
     /// Whether the promise holds.
     pub held: bool,
+    /// Whether the part stays as it was because it does not.
+    pub put_back: bool,
     #[serde(flatten)]
     pub cost: Cost,
 }
 
 /// What a model costs.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize)]
 pub(super) struct Cost {
     /// Bytes that sampling reads, and bytes of all arrays.
     pub bytes_per_light: f64,
@@ -63,67 +65,31 @@ pub(super) struct Cost {
 
 /// What was measured.
 pub(super) struct Checked {
+    /// What is left of the model without what was put back, and its cost.
+    pub model: Model,
+    pub cost: Cost,
     /// The default's variance and cost.
     pub variance: f64,
     pub default: Cost,
     pub steps: Vec<Step>,
 }
 
-/// Each part that `model` has another than the default, and the model with it and those before.
-fn chain(model: &Model) -> Vec<(&'static str, Model)> {
-    let mut now = Model::DEFAULT;
-    let mut out = Vec::new();
-    let mut next = |part, then: Model| {
-        if then != now {
-            out.push((part, then));
-        }
-        now = then;
-        now
-    };
-    let then = next(
-        "layout",
-        Model {
-            layout: model.layout,
-            ..Model::DEFAULT
-        },
-    );
-    let then = next(
-        "levels",
-        Model {
-            structure: model.structure,
-            ..then
-        },
-    );
-    let then = next(
-        "width",
-        Model {
-            width: model.width,
-            ..then
-        },
-    );
-    let then = next(
-        "uniform share",
-        Model {
-            uniform_halvings: model.uniform_halvings,
-            ..then
-        },
-    );
-    let then = next(
-        "trails",
-        Model {
-            trails: model.trails,
-            ..then
-        },
-    );
-    next(
-        "updates",
-        Model {
-            updates: model.updates,
-            ..then
-        },
-    );
-    out
-}
+/// A part of a model, and how one model takes it from another.
+type Part = (&'static str, fn(&mut Model, &Model));
+
+/// Each is taken after those before it: without a share of uniform choice trails can go.
+const PARTS: [Part; 6] = [
+    ("layout", |to, from| to.layout = from.layout),
+    ("levels", |to, from| to.structure = from.structure),
+    ("width", |to, from| to.width = from.width),
+    ("uniform share", |to, from| {
+        to.uniform_halvings = from.uniform_halvings;
+    }),
+    ("trails", |to, from| {
+        to.trails = from.trails || to.uniform_halvings > 0;
+    }),
+    ("updates", |to, from| to.updates = from.updates),
+];
 
 fn promise(part: &str, model: &Model, requirements: &Requirements) -> Promise {
     let is_identity = requirements.is_one_mesh()
@@ -141,8 +107,10 @@ fn promise(part: &str, model: &Model, requirements: &Requirements) -> Promise {
     }
 }
 
-/// Builds the default and each step of the way to `model`, compares them, and times them in turns.
+/// Builds the default and each step of the way to `model`, compares them, and times them in turns. A part that was `chosen`, not asked
+/// for, is put back where it costs more variance than promised.
 pub(super) fn check(
+    chosen: &Model,
     model: &Model,
     requirements: &Requirements,
     source: &Source<'_>,
@@ -150,35 +118,40 @@ pub(super) fn check(
 ) -> Result<Checked, HostError> {
     let lights = source.lights.triangles();
     let light = Light::of(lights, points);
-    let chain = chain(model);
-    let mut subjects = vec![build(&Model::DEFAULT, source)?];
-    for (_, model) in &chain {
-        subjects.push(build(model, source)?);
-    }
-    let costs = costs(&subjects, points, lights.len());
+    let mut now = Model::DEFAULT;
+    let mut subjects = vec![build(&now, source)?];
     let mut before = light.pmfs(&*subjects[0], points);
     let first = light.variance(before.as_deref().unwrap_or_default());
-    let mut variance = first;
+    let (mut last, mut variance_before) = (0, first);
     let mut steps = Vec::new();
-    for (k, (part, model)) in (1..).zip(&chain) {
-        let (old, new) = (&*subjects[k - 1], &*subjects[k]);
-        let promise = promise(part, model, requirements);
-        let pmfs = light.pmfs(new, points);
+    for (part, take) in PARTS {
+        let [mut then, mut as_chosen] = [now; 2];
+        take(&mut then, model);
+        take(&mut as_chosen, chosen);
+        if then == now {
+            continue;
+        }
+        let new = build(&then, source)?;
+        let promise = promise(part, &then, requirements);
+        let pmfs = light.pmfs(&*new, points);
         let compared = match (promise, &before, &pmfs) {
             (Promise::BitsBelowInstance, Some(before), Some(_)) => {
-                let seen: Vec<_> = points
-                    .iter()
-                    .map(|point| Instance::IDENTITY.to_local(point))
-                    .collect();
-                Compared::of(before, &light.pmfs(new, &seen).unwrap_or_default())
+                let seen = points.iter().map(|point| Instance::IDENTITY.to_local(point));
+                let pmfs = light.pmfs(&*new, &seen.collect::<Vec<_>>());
+                Compared::of(before, &pmfs.unwrap_or_default())
             }
             (_, Some(before), Some(pmfs)) => Compared::of(before, pmfs),
-            _ => Compared::of_samples(old, new, points),
+            _ => Compared::of_samples(&*subjects[last], &*new, points),
         };
-        let variance_before = variance;
-        if let Some(pmfs) = &pmfs {
-            variance = light.variance(pmfs);
-        }
+        let variance = pmfs
+            .as_deref()
+            .map_or(variance_before, |pmfs| light.variance(pmfs));
+        let held = match promise {
+            Promise::Variance => variance <= MOST_VARIANCE * variance_before,
+            _ => compared.different == 0,
+        };
+        let put_back = !held && promise == Promise::Variance && then == as_chosen;
+        subjects.push(new);
         steps.push(Step {
             part,
             promise,
@@ -187,17 +160,23 @@ pub(super) fn check(
             most: compared.most,
             variance,
             variance_before,
-            held: match promise {
-                Promise::Variance => variance <= MOST_VARIANCE * variance_before,
-                _ => compared.different == 0,
-            },
-            cost: costs[k],
+            held,
+            put_back,
+            cost: Cost::default(),
         });
-        before = pmfs;
+        if !put_back {
+            (now, last, before, variance_before) = (then, subjects.len() - 1, pmfs, variance);
+        }
+    }
+    let costs = costs(&subjects, points, lights.len());
+    for (step, cost) in steps.iter_mut().zip(&costs[1..]) {
+        step.cost = *cost;
     }
     Ok(Checked {
+        model: now,
         variance: first,
         default: costs[0],
+        cost: costs[last],
         steps,
     })
 }

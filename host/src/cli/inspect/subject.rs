@@ -6,8 +6,8 @@ use lightbvh::bvh::{NoTrails, StaticBvh, StaticMeshBvh, Trails};
 use lightbvh::exact::hash;
 use lightbvh::requirements::{Layout, Model, Structure, Updates};
 use lightbvh::{
-    BuildParams, Bvh, Defensive, FullMomentNode, ImportanceModel, LeanMomentNode, LightNode, Lights,
-    MomentLayout, MomentNode, Moments, SampledLight, ShadingPoint, TwoSidedMomentNode,
+    BuildParams, Bvh, Defensive, Edit, EditError, FullMomentNode, ImportanceModel, LeanMomentNode, LightNode,
+    Lights, MomentLayout, MomentNode, Moments, SampledLight, ShadingPoint, TwoSidedMomentNode,
 };
 
 use crate::error::HostError;
@@ -17,7 +17,9 @@ use crate::scene::{Instances, Scene};
 pub(super) struct Source<'a> {
     pub scene: &'a Scene,
     pub frame: u32,
-    /// The lights of the frame in the world.
+    /// The frame that they are then moved to, the same where lights stay.
+    pub moved: u32,
+    /// The lights of that frame in the world.
     pub lights: &'a Lights,
 }
 
@@ -121,45 +123,58 @@ fn chosen<N, const W: usize>(model: &Model, source: &Source<'_>) -> Result<Box<d
 where
     N: MomentLayout<W> + 'static,
 {
-    Ok(match (model.uniform_halvings, model.trails) {
-        (0, false) => kept(
-            built::<N, Moments, W>(model, source)?.without_trails(),
-            model.updates,
-        ),
-        (0, true) => kept(built::<N, Moments, W>(model, source)?, model.updates),
-        _ => kept(
-            built::<N, Defensive<Moments, 6>, W>(model, source)?,
-            model.updates,
-        ),
-    })
+    match (model.uniform_halvings, model.trails) {
+        (0, false) => {
+            let (bvh, edits) = built::<N, Moments, W>(model, source)?;
+            kept(bvh.without_trails(), edits, model.updates)
+        }
+        (0, true) => {
+            let (bvh, edits) = built::<N, Moments, W>(model, source)?;
+            kept(bvh, edits, model.updates)
+        }
+        _ => {
+            let (bvh, edits) = built::<N, Defensive<Moments, 6>, W>(model, source)?;
+            kept(bvh, edits, model.updates)
+        }
+    }
+    .map_err(|error| HostError::in_frame(source.scene.name(), source.moved, error))
 }
 
-/// With what `updates` need.
+/// With what `updates` need, then moved and refitted.
 fn kept<N: LightNode<W> + 'static, I: 'static, const W: usize, T: Trails + 'static>(
-    bvh: Bvh<N, I, W, T>,
+    mut bvh: Bvh<N, I, W, T>,
+    edits: Vec<Edit>,
     updates: Updates,
-) -> Box<dyn Subject>
+) -> Result<Box<dyn Subject>, EditError>
 where
     Bvh<N, I, W, T>: Subject,
     StaticMeshBvh<N, I, W, T>: Subject,
     StaticBvh<N, I, W, T>: Subject,
 {
-    match updates {
-        Updates::Meshes => Box::new(bvh),
-        Updates::Instances => Box::new(bvh.into_static_meshes()),
-        Updates::Nothing => Box::new(bvh.into_static()),
+    if updates == Updates::Instances {
+        let mut bvh = bvh.into_static_meshes();
+        bvh.apply(edits)?;
+        bvh.refit();
+        return Ok(Box::new(bvh));
     }
+    bvh.apply(edits)?;
+    bvh.refit();
+    Ok(match updates {
+        Updates::Nothing => Box::new(bvh.into_static()),
+        _ => Box::new(bvh),
+    })
 }
 
+/// A light BVH, and the edits that move it; none where lights stay.
 fn built<N: LightNode<W>, I, const W: usize>(
     model: &Model,
     source: &Source<'_>,
-) -> Result<Bvh<N, I, W>, HostError> {
+) -> Result<(Bvh<N, I, W>, Vec<Edit>), HostError> {
     let params = BuildParams::default();
-    match model.structure {
-        Structure::SingleLevel => Ok(Bvh::single_level(source.lights, &params)),
-        Structure::TwoLevel => Instances::new(source.scene, source.frame, params)
-            .map(|(bvh, _)| bvh)
-            .map_err(|error| HostError::in_frame(source.scene.name(), source.frame, error)),
+    if model.structure == Structure::SingleLevel {
+        return Ok((Bvh::single_level(source.lights, &params), Vec::new()));
     }
+    let (bvh, mut instances) = Instances::new(source.scene, source.frame, params)
+        .map_err(|error| HostError::in_frame(source.scene.name(), source.frame, error))?;
+    Ok((bvh, instances.edits(source.scene, source.moved)))
 }

@@ -43,14 +43,14 @@ impl Surfaces {
             masked_lights,
         } = self;
         let cut = match masked {
-            0 => format!("no: none of {materials} materials is cut out by alpha"),
+            0 => format!("no: of {materials} materials none is cut out by alpha"),
             _ => format!(
-                "yes: {masked} of {materials} materials are cut out by alpha and taken as opaque, {masked_lights} of them emit; what is cut \
-                 out of a light keeps its probability, which costs variance and biases nothing where the shader masks it"
+                "yes: {masked} of {materials} materials, taken as opaque; emitting: {masked_lights}; what is cut out of a light keeps its \
+                 probability, which costs variance and no bias where the shader masks it"
             ),
         };
         [
-            format!("{glossy} of {materials} materials have a roughness of {GLOSSY} or less"),
+            format!("of {materials} materials {glossy} have a roughness of {GLOSSY} or less"),
             cut,
         ]
     }
