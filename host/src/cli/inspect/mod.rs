@@ -62,7 +62,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         moved,
         lights: &lights,
     };
-    let checked = check(&chosen, &model, &requirements, &source, &points)?;
+    let checked = check(&model, args, &requirements, &source, &points)?;
     let kernels = KernelSet::of(&checked.model);
     if args.backend == BackendName::Vulkan {
         kernels?;

@@ -97,6 +97,17 @@ pub enum BackendName {
 }
 
 impl Args {
+    /// Whether a part of the model is asked for by name.
+    pub fn asks_for(&self, part: &str) -> bool {
+        match part {
+            "layout" => self.layout.is_some(),
+            "levels" => self.levels.is_some(),
+            "width" => self.width.is_some(),
+            "uniform share" => self.uniform.is_some(),
+            _ => self.updates.is_some(),
+        }
+    }
+
     /// What is chosen, but for what is asked for.
     pub fn overrides(&self, chosen: Model) -> Model {
         let uniform_halvings = match self.uniform {

@@ -7,6 +7,7 @@ use lightbvh::requirements::{Layout, Model, Orientation, Requirements, Structure
 use serde::Serialize;
 
 use super::compare::{Compared, Light};
+use super::options::Args;
 use super::subject::{Source, Subject, build};
 use crate::cli::times::ms;
 use crate::cli::trade::quantile::Interval;
@@ -107,11 +108,11 @@ fn promise(part: &str, model: &Model, requirements: &Requirements) -> Promise {
     }
 }
 
-/// Builds the default and each step of the way to `model`, compares them, and times them in turns. A part that was `chosen`, not asked
-/// for, is put back where it costs more variance than promised.
+/// Builds the default and each step of the way to `model`, compares them, and times them in turns. A part that was not asked for
+/// is put back where it costs more variance than promised.
 pub(super) fn check(
-    chosen: &Model,
     model: &Model,
+    args: &Args,
     requirements: &Requirements,
     source: &Source<'_>,
     points: &[ShadingPoint],
@@ -125,9 +126,8 @@ pub(super) fn check(
     let (mut last, mut variance_before) = (0, first);
     let mut steps = Vec::new();
     for (part, take) in PARTS {
-        let [mut then, mut as_chosen] = [now; 2];
+        let mut then = now;
         take(&mut then, model);
-        take(&mut as_chosen, chosen);
         if then == now {
             continue;
         }
@@ -150,7 +150,7 @@ pub(super) fn check(
             Promise::Variance => variance <= MOST_VARIANCE * variance_before,
             _ => compared.different == 0,
         };
-        let put_back = !held && promise == Promise::Variance && then == as_chosen;
+        let put_back = !held && promise == Promise::Variance && !args.asks_for(part);
         subjects.push(new);
         steps.push(Step {
             part,
