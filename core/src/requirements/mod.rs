@@ -59,6 +59,8 @@ pub struct Requirements {
     pub two_sided: usize,
     /// Triangles with flux in their mesh that shine from one side, but are so thin that no normal is known of them.
     pub needles: usize,
+    /// Triangles without flux in their mesh that would shine from one side.
+    pub unlit: usize,
     /// Whether normals tell anything.
     pub orientation: Orientation,
     /// Instances by [`TransformKind`], in its order.
@@ -88,6 +90,7 @@ impl Requirements {
             one_sided: 0,
             two_sided: 0,
             needles: 0,
+            unlit: 0,
             orientation: Orientation::Absent,
             transforms: [0; 5],
             mirrored: 0,
@@ -100,6 +103,7 @@ impl Requirements {
             found.one_sided += normals.one_sided;
             found.two_sided += normals.two_sided;
             found.needles += normals.needles;
+            found.unlit += normals.unlit;
             found.orientation = found.orientation.max(normals.orientation);
         }
         for placed in &scene.placed {

@@ -22,17 +22,19 @@ pub(super) struct Normals {
     pub one_sided: usize,
     pub two_sided: usize,
     pub needles: usize,
+    pub unlit: usize,
     pub orientation: Orientation,
 }
 
 impl Normals {
     /// Of a mesh with these triangles; those without flux do not count.
     pub fn of(mesh: &[EmissiveTriangle]) -> Self {
-        let (mut two_sided, mut needles) = (0, 0);
+        let (mut two_sided, mut needles, mut unlit) = (0, 0, 0);
         let mut directed: Vec<[u32; 4]> = Vec::new();
         for triangle in mesh {
             let moments = LightMoments::of_triangle(triangle);
             if moments.phi <= 0.0 {
+                unlit += usize::from(!triangle.is_two_sided());
                 continue;
             }
             // A zero of either sign has the same bits then.
@@ -50,6 +52,7 @@ impl Normals {
             one_sided: directed.len(),
             two_sided,
             needles,
+            unlit,
             orientation: if directed.is_empty() {
                 Orientation::Absent
             } else if cancel(directed) {

@@ -49,13 +49,16 @@ impl Requirements {
 
     /// Whether no light has a normal, now and later.
     fn normals_stay_absent(&self) -> bool {
-        self.orientation == Orientation::Absent && !self.declared.changes.meshes && !self.needles_may_widen()
+        self.orientation == Orientation::Absent
+            && !self.declared.changes.meshes
+            && self.normals_to_come() == 0
     }
 
-    /// A needle that moves or deforms may get a normal.
-    fn needles_may_widen(&self) -> bool {
+    /// Triangles that may get a normal: needles that move or deform, and those that start to shine.
+    fn normals_to_come(&self) -> usize {
         let changes = self.declared.changes;
-        self.needles > 0 && (changes.triangles || changes.transforms)
+        let widen = usize::from(changes.triangles || changes.transforms);
+        self.needles * widen + self.unlit * usize::from(changes.triangles)
     }
 
     /// Whether a tree over triangles in the world can follow what changes, without another copy of any triangle: of one mesh that stays
@@ -67,7 +70,7 @@ impl Requirements {
     /// What only instances can follow.
     fn needs_instances(&self) -> Vec<String> {
         let changes = self.declared.changes;
-        let several = changes.triangles && !self.is_one_mesh();
+        let several = changes.triangles && self.meshes.max(self.instances) > 1;
         let named = [
             (changes.transforms, "instances move".to_string()),
             (changes.radiance, "instances are dimmed".to_string()),
@@ -112,9 +115,9 @@ impl Requirements {
                 .to_string();
         }
         let needed = match self.orientation {
-            Orientation::Absent if self.needles_may_widen() => format!(
-                "{} one-sided triangles are too thin for a normal and may get one as they change",
-                self.needles
+            Orientation::Absent if self.normals_to_come() > 0 => format!(
+                "{} one-sided triangles, too thin for a normal or without flux, may get one as they change",
+                self.normals_to_come()
             ),
             Orientation::Absent => "of meshes that come nothing is known".to_string(),
             Orientation::Cancelling => {
@@ -133,7 +136,9 @@ impl Requirements {
     fn levels_reason(&self) -> String {
         let needed = self.needs_instances();
         if !needed.is_empty() {
-            format!("levels: two, because {}", needed.join(" and "))
+            format!("levels: two, because {}", needed.join(", "))
+        } else if self.instances == 0 {
+            "levels: one, because nothing stands in the world".to_string()
         } else if self.is_one_mesh() {
             "levels: one, because one mesh stays in its place: its tree stands in the world, and no top level chooses it".to_string()
         } else {

@@ -71,6 +71,8 @@ fn counts_are_those_of_the_lights() {
         );
         assert_eq!(found.two_sided, shining.iter().filter(|t| t.flags == 1).count());
         assert_eq!(found.needles, 0);
+        let unlit = all.iter().filter(|t| t.flags == 0 && !shines(t)).count();
+        assert_eq!(found.unlit, unlit);
         assert_eq!((found.most_instances, found.dimmed, found.mirrored), (1, 0, 0));
         let sizes = (0..lights.mesh_count()).map(|index| lights.mesh(index).len());
         assert_eq!(found.most_triangles, sizes.max().unwrap_or(0));

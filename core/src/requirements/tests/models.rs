@@ -27,6 +27,7 @@ fn declared(random: &mut Random) -> Declared {
 #[test]
 fn models_are_sufficient_and_no_larger() {
     let mut differ = [0; 6];
+    let mut kept_for_later = 0;
     for seed in 0..2000 {
         let random = &mut Random(seed * 31);
         let (meshes, two_sided) = (1 + below(random, 2), [0, 8][below(random, 2) as usize]);
@@ -37,7 +38,13 @@ fn models_are_sufficient_and_no_larger() {
         assert!(!found.reasons().is_empty());
         let c = declared.changes;
         let absent = found.two_sided + found.dark == found.triangles;
-        assert_eq!(model.layout == Layout::TwoSidedMoments, absent && !c.meshes);
+        // One without flux may get some with its triangles, and with it a normal.
+        let may_shine = c.triangles && found.unlit > 0;
+        assert_eq!(
+            model.layout == Layout::TwoSidedMoments,
+            absent && !c.meshes && !may_shine
+        );
+        kept_for_later += usize::from(absent && may_shine && !c.meshes);
         let expected = match (c.triangles || c.meshes, c != Changes::NONE) {
             (true, _) => Updates::Meshes,
             (false, true) => Updates::Instances,
@@ -81,7 +88,10 @@ fn models_are_sufficient_and_no_larger() {
         }
         differ[5] += usize::from(model == Model::DEFAULT);
     }
-    assert!(differ.iter().all(|&count| count > 20), "{differ:?}");
+    assert!(
+        differ.iter().all(|&count| count > 20) && kept_for_later > 5,
+        "{differ:?}, {kept_for_later}"
+    );
 }
 
 #[test]

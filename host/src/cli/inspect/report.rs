@@ -163,7 +163,9 @@ impl Report<'_> {
             default.ns_per_sample,
         ))?;
         for step in steps.iter().filter(|step| !step.held) {
-            let done = if step.put_back {
+            let done = if step.put_back && step.part == "uniform share" {
+                "it is put back, and trails stay for it"
+            } else if step.put_back {
                 "the part is put back"
             } else if step.promise == Promise::Variance {
                 "kept, as asked for"
