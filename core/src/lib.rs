@@ -21,6 +21,7 @@
 //! | [`Rebuilder`] | rebuilds on a thread beside the frame, or within it where there are no threads |
 //! | [`bvh`], [`build`] | edits, ids, plans and rebuilds; builders |
 //! | [`importance`], [`node`] | what children are chosen by, and what nodes store of them |
+//! | [`requirements`] | what a scene requires, and the smallest model that is sufficient |
 //! | [`tree`] | a light BVH as borrowed arrays, the same on devices |
 //! | [`refit`], [`exact`] | passes and arithmetic, the same on devices |
 //! | [`reservoir`] | resampling of light samples, over candidates and over other reservoirs (ReSTIR) |
@@ -96,6 +97,8 @@ pub mod tree;
 pub mod build;
 #[cfg(feature = "alloc")]
 pub mod bvh;
+#[cfg(feature = "alloc")]
+pub mod requirements;
 
 // For the kernels, the host and the tests, which are of this workspace: not part of the interface.
 #[doc(hidden)]
@@ -177,7 +180,7 @@ pub use importance::{
 #[doc(hidden)]
 pub use node::{
     BoundsNode, CompactNode, FullMomentNode, FullNode, LeanMomentNode, LightBounds, LightMoments, LightNode,
-    MomentLayout, MomentNode, Summary,
+    MomentLayout, MomentNode, Summary, TwoSidedMomentNode,
 };
 #[cfg(feature = "std")]
 #[doc(hidden)]

@@ -16,7 +16,7 @@ use core::time::Duration;
 use self::clock::Clock;
 use self::handover::Outcome;
 use self::worker::{Built, Worker, build};
-use crate::bvh::{Bvh, RebuildParams, Taken};
+use crate::bvh::{Bvh, RebuildParams, Taken, Trails};
 use crate::node::{DefaultNode, LightNode};
 
 /// When results are swapped in.
@@ -152,7 +152,10 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
     ///
     /// # Errors
     /// [`RebuildError`], once, if the rebuild that was due came to nothing. The frame can go on as if nothing had been due.
-    pub fn begin_frame<I>(&mut self, scene: &mut Bvh<N, I, W>) -> Result<FrameStart, RebuildError> {
+    pub fn begin_frame<I, T: Trails>(
+        &mut self,
+        scene: &mut Bvh<N, I, W, T>,
+    ) -> Result<FrameStart, RebuildError> {
         let mut start = FrameStart::default();
         let Some(flight) = &mut self.flight else {
             return Ok(start);
@@ -197,7 +200,7 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
     /// Starts the next rebuild, unless one is under way or there is nothing to build. Comes after the frame's
     /// [`Bvh::refit`]. Takes time in proportion to the meshes, to the instances if the top level is rebuilt, and to the triangles of
     /// the meshes deformed since the last rebuild started.
-    pub fn end_frame<I>(&mut self, scene: &Bvh<N, I, W>) {
+    pub fn end_frame<I, T: Trails>(&mut self, scene: &Bvh<N, I, W, T>) {
         let now = scene.now();
         if self.flight.is_some() || self.taken == Some(now) {
             return;

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use lightbvh::RebuildError;
 use lightbvh::error::FollowError;
+use lightbvh::requirements::ModelError;
+use lightbvh_gpu::NotCompiled;
 
 use crate::backend::BackendError;
 use crate::metrics::MetricError;
@@ -95,6 +97,12 @@ pub enum HostError {
         /// What it needs.
         needs: &'static str,
     },
+    /// A model that is not sufficient for a scene.
+    #[error("{0}")]
+    Model(#[from] ModelError),
+    /// A model without kernels, where a device is to run it.
+    #[error("{0}")]
+    Kernels(#[from] NotCompiled),
     /// No device, where one is required.
     #[error("no Vulkan device, and LIGHTBVH_REQUIRE_VULKAN is set: {0}")]
     DeviceRequired(String),

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::blas::put;
 use super::edit::{Edit, EditError, InstanceId, MeshId};
-use super::{Bvh, InstanceState, Mesh};
+use super::{Bvh, InstanceState, Mesh, Trails};
 use crate::build::{Topology, build_each};
 use crate::instance::Instance;
 use crate::light::EmissiveTriangle;
@@ -22,7 +22,7 @@ pub struct Added {
     pub instances: Vec<InstanceId>,
 }
 
-impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Does a batch of edits, all or none. Sampling is as good as before after the next [`refit`](Self::refit); until then
     /// probabilities are exact and no light that is gone is returned, but there may be none where one was removed, and lights that
     /// were added may have the uniform share alone.

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::Bvh;
+use super::{Bvh, Trails};
 use crate::build::{Topology, drift};
 use crate::levels::Levels;
 use crate::light::EmissiveTriangle;
@@ -35,7 +35,7 @@ pub(super) struct Blas {
     pub changed: u64,
 }
 
-impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// A bottom level over `triangles`, as `topology` has it, whose primitives are numbered from 0; returns its index.
     pub(super) fn add_blas(
         &mut self,
@@ -114,20 +114,10 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         let old = self.blases[index as usize].nodes.clone();
         self.node_ranges.give(old);
         let nodes = self.place_nodes(&topology.nodes);
-        self.reserve_trails(topology.depth);
         self.bottom_depth = self.bottom_depth.max(topology.depth);
-        let words = self.trail_words as usize;
-        for &(triangle, trail) in &topology.trails {
-            let at = triangle as usize * words;
-            self.trails[at] = trail.low;
-            if words == 2 {
-                self.trails[at + 1] = trail.high;
-            }
+        if T::KEPT {
+            self.place_trails(index, topology);
         }
-        self.changes
-            .new
-            .written_trails
-            .push(self.blases[index as usize].triangles.clone());
         let levels = Levels::gather(topology.leveled(nodes.start));
         self.epoch += 1;
         let created = self.epoch;
@@ -174,6 +164,23 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         }
         self.changes.new.written_nodes.push(range.clone());
         range
+    }
+
+    /// The trails of the triangles of bottom level `index`.
+    fn place_trails(&mut self, index: u32, topology: &Topology<N>) {
+        self.reserve_trails(topology.depth);
+        let words = self.trail_words as usize;
+        for &(triangle, trail) in &topology.trails {
+            let at = triangle as usize * words;
+            self.trails[at] = trail.low;
+            if words == 2 {
+                self.trails[at + 1] = trail.high;
+            }
+        }
+        self.changes
+            .new
+            .written_trails
+            .push(self.blases[index as usize].triangles.clone());
     }
 
     /// Makes trails as wide as trees of `depth` levels need, for all triangles.

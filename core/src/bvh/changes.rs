@@ -49,6 +49,13 @@ impl Changes {
     pub fn all(&mut self) -> [&mut Pending; 3] {
         [&mut self.new, &mut self.unrefitted, &mut self.unplanned]
     }
+
+    /// No trails are kept from now on.
+    pub fn forget_trails(&mut self) {
+        for pending in self.all() {
+            pending.written_trails.clear();
+        }
+    }
 }
 
 /// Changes of one kind of lists.

@@ -3,9 +3,9 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
-use super::Bvh;
 use super::edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
 use super::ranges::Ranges;
+use super::{Bvh, Trails};
 use crate::light::EmissiveTriangle;
 use crate::lights::MAX_LIGHTS;
 use crate::node::LightNode;
@@ -39,7 +39,7 @@ struct Batch {
     deformed: Vec<Extent>,
 }
 
-impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Brings all triangles of the batch into the domain, or says which edit cannot be done. Returns the new extents of the
     /// deformed meshes, in the order of their edits.
     pub(super) fn check(&self, edits: &mut [Edit]) -> Result<Vec<Extent>, EditError> {

@@ -4,8 +4,8 @@ use alloc::vec::Vec;
 use core::fmt;
 use core::ops::Range;
 
-use super::Bvh;
 use super::edit::EditReason;
+use super::{Bvh, Trails};
 use crate::lights::Lights;
 use crate::node::LightNode;
 use crate::transform::Extent;
@@ -48,7 +48,7 @@ impl MeshCounts {
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// How many triangles each mesh has.
     #[doc(hidden)]
     #[must_use]

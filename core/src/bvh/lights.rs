@@ -3,17 +3,18 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::Bvh;
 use super::edit::{InstanceId, MeshId};
+use super::{Bvh, Trails};
 use crate::light::EmissiveTriangle;
 use crate::lights::MAX_LIGHTS;
 use crate::node::LightNode;
+use crate::requirements::Placed;
 use crate::tree::INVALID;
 
 /// So many numbers of removed lights wait to be taken, and as many as there are lights.
 const LEAST_WAITING: usize = 1 << 16;
 
-impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// The lights of an instance: numbered without gaps, triangle by triangle, the same as long as the instance lives.
     #[must_use]
     pub fn lights_of(&self, instance: InstanceId) -> Option<Range<u32>> {
@@ -49,6 +50,12 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             index: instance,
             generation: placed.generation,
         })
+    }
+
+    /// The mesh of an instance; `None` where there is no such instance.
+    #[must_use]
+    pub fn mesh_of(&self, instance: InstanceId) -> Option<MeshId> {
+        self.live(instance).and_then(|placed| self.mesh_id(placed.mesh))
     }
 
     /// The triangles of a mesh, in its own space and in the order in which it was given; `None` where there is no such mesh.
@@ -91,6 +98,29 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             }
         }
         out
+    }
+
+    /// The meshes, and their places in the world.
+    pub(crate) fn meshes_and_places(&self) -> (Vec<&[EmissiveTriangle]>, Vec<Placed>) {
+        let mut found = alloc::vec![0; self.meshes.len()];
+        let mut meshes = Vec::new();
+        for (index, mesh) in self.meshes.iter().enumerate().filter(|(_, mesh)| mesh.live) {
+            let range = &self.blases[mesh.blas as usize].triangles;
+            found[index] = meshes.len();
+            meshes.push(&self.triangles[range.start as usize..range.end as usize]);
+        }
+        let live = self
+            .placed
+            .iter()
+            .zip(&self.instances)
+            .filter(|(placed, _)| placed.live);
+        let placed = live.map(|(placed, instance)| Placed {
+            mesh: found[placed.mesh as usize],
+            transform: placed.transform,
+            radiance: placed.radiance,
+            instance: *instance,
+        });
+        (meshes, placed.collect())
     }
 
     /// Number of lights in the world.

@@ -33,9 +33,12 @@ mod rebuild;
 mod records;
 mod refit;
 mod serial;
+mod static_bvh;
+mod static_mesh;
 #[cfg(test)]
 mod tests;
 mod top;
+mod trails;
 mod validate;
 
 use alloc::vec::Vec;
@@ -50,6 +53,9 @@ pub(crate) use rebuild::Taken;
 pub use rebuild::{Foreign, Rebuild, RebuildParams, Rebuilt};
 pub use refit::RefitPlan;
 pub use serial::{FORMAT, ReadError};
+pub use static_bvh::StaticBvh;
+pub use static_mesh::StaticMeshBvh;
+pub use trails::{NoTrails, Trails, WithTrails};
 pub use validate::Stats;
 
 pub use crate::levels::Levels;
@@ -73,8 +79,11 @@ use crate::tree::LightTree;
 ///
 /// A clone is another light BVH: ids and rebuilds of the one are refused by the other, which knows its own by index
 /// ([`mesh_id`](Self::mesh_id), [`instance_id`](Self::instance_id)).
+///
+/// `T` says whether the probability of a given light can be asked for: [`WithTrails`] unless
+/// [`without_trails`](Self::without_trails) gave them up.
 #[derive(Clone, Debug)]
-pub struct Bvh<N, I, const W: usize> {
+pub struct Bvh<N, I, const W: usize, T = WithTrails> {
     /// What its ids belong to.
     id: TreeId,
     params: BuildParams,
@@ -119,6 +128,7 @@ pub struct Bvh<N, I, const W: usize> {
     /// Whether it is one mesh alone, walked from the root of its bottom level.
     single: bool,
     importance: PhantomData<I>,
+    asked: PhantomData<T>,
 }
 
 /// Arrays of a [`Bvh`], open to any change; `bottom` and `top` list the nodes of the first bottom level and of the top level.
@@ -177,6 +187,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             epoch: 0,
             single: false,
             importance: PhantomData,
+            asked: PhantomData,
         };
         scene.empty_top();
         scene
@@ -185,6 +196,34 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// The arrays as traversal takes them.
     #[must_use]
     pub fn tree(&self) -> LightTree<'_, N, I, W> {
+        self.arrays()
+    }
+
+    /// The same tree, walked by another importance.
+    #[must_use]
+    pub fn by<J>(&self) -> LightTree<'_, N, J, W> {
+        self.tree().by()
+    }
+
+    /// The arrays that [`validate`](Self::validate) checks, for tests that put wrong words into them.
+    #[doc(hidden)]
+    pub fn parts_mut(&mut self) -> Parts<'_, N> {
+        Parts {
+            nodes: &mut self.nodes,
+            instances: &mut self.instances,
+            trails: &mut self.trails,
+            bottom: self
+                .blases
+                .first_mut()
+                .map_or(&mut [], |blas| &mut blas.levels.nodes),
+            top: &mut self.top.levels.nodes,
+        }
+    }
+}
+
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+    /// The arrays as traversal takes them. Without trails, no probability may be asked of them.
+    pub(super) fn arrays(&self) -> LightTree<'_, N, I, W> {
         let mut tree = LightTree {
             nodes: &self.nodes,
             root: self.top.root,
@@ -204,31 +243,10 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         tree
     }
 
-    /// The same tree, walked by another importance.
-    #[must_use]
-    pub fn by<J>(&self) -> LightTree<'_, N, J, W> {
-        self.tree().by()
-    }
-
     /// All nodes, those not in use included.
     #[must_use]
     pub fn nodes(&self) -> &[N] {
         &self.nodes
-    }
-
-    /// The arrays that [`validate`](Self::validate) checks, for tests that put wrong words into them.
-    #[doc(hidden)]
-    pub fn parts_mut(&mut self) -> Parts<'_, N> {
-        Parts {
-            nodes: &mut self.nodes,
-            instances: &mut self.instances,
-            trails: &mut self.trails,
-            bottom: self
-                .blases
-                .first_mut()
-                .map_or(&mut [], |blas| &mut blas.levels.nodes),
-            top: &mut self.top.levels.nodes,
-        }
     }
 
     /// By node: the node above it in the same tree, or [`INVALID`](crate::INVALID).
@@ -268,6 +286,31 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         size_of_val(&*self.nodes) + size_of_val(&*self.instances) + size_of_val(&*self.trails)
     }
 
+    /// Bytes of all its arrays: what sampling reads, the triangles, and what edits and refits need. Lists of what has changed are not
+    /// counted.
+    #[must_use]
+    pub fn memory(&self) -> usize {
+        let levels = self
+            .blases
+            .iter()
+            .map(|blas| &blas.levels)
+            .chain([&self.top.levels]);
+        let users = self.meshes.iter().map(|mesh| size_of_val(&*mesh.users));
+        self.bytes()
+            + size_of_val(&*self.parents)
+            + size_of_val(&*self.triangles)
+            + size_of_val(&*self.blases)
+            + size_of_val(&*self.roots)
+            + size_of_val(&*self.meshes)
+            + users.sum::<usize>()
+            + size_of_val(&*self.placed)
+            + size_of_val(&*self.live)
+            + levels.map(|levels| size_of_val(levels.nodes())).sum::<usize>()
+            + size_of_val(&*self.top.leaves)
+            + size_of_val(&*self.top.node_levels)
+            + size_of_val(&*self.top.marks)
+    }
+
     fn blas_of(&self, placed: &InstanceState) -> &Blas {
         &self.blases[self.blas_index(placed) as usize]
     }
@@ -295,6 +338,6 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// What is known of all lights together, as of the last refit.
     #[must_use]
     pub fn summary(&self) -> N::Summary {
-        self.nodes[self.tree().root as usize].merged()
+        self.nodes[self.arrays().root as usize].merged()
     }
 }

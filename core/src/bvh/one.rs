@@ -3,12 +3,12 @@
 use alloc::vec::Vec;
 
 use super::edit::{Edit, EditReason, InstanceId, MeshId};
-use super::{Added, Bvh};
+use super::{Added, Bvh, Trails};
 use crate::light::EmissiveTriangle;
 use crate::node::LightNode;
 use crate::transform::Transform;
 
-impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Adds a mesh of at least one triangle, in its own space; it lights nothing before an instance puts it into the world.
     ///
     /// # Errors

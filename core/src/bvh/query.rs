@@ -1,6 +1,7 @@
 //! Samples and their probabilities.
 
-use super::Bvh;
+use super::trails::Sampled;
+use super::{Bvh, Trails};
 use crate::importance::ImportanceModel;
 use crate::node::LightNode;
 use crate::point::ShadingPoint;
@@ -8,7 +9,7 @@ use crate::traverse::{Random64, SampledLight};
 #[cfg(doc)]
 use crate::tree::LightTree;
 
-impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
+impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Chooses a light for `point`, which is within the domain of [`ShadingPoint::checked`]; see [`LightTree::sample`]. Without
     /// lights none is chosen.
     #[must_use]
@@ -17,12 +18,14 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
             point.is_within_reach(),
             "not a shading point: {point:?}; `ShadingPoint::checked` says why"
         );
-        self.tree().sample(point, random)
+        const { Sampled::<N, I, W, T>::ALLOWED };
+        self.arrays().sample(point, random)
     }
 
     /// Chooses a light for each of `points`, points as for [`sample`](Self::sample); see [`LightTree::sample_batch`].
     pub fn sample_batch(&self, points: &[ShadingPoint], randoms: &[Random64], sampled: &mut [SampledLight]) {
-        self.tree().sample_batch(points, randoms, sampled);
+        const { Sampled::<N, I, W, T>::ALLOWED };
+        self.arrays().sample_batch(points, randoms, sampled);
     }
 
     /// Chooses `COUNT` lights for `point` by numbers at equal distances; see [`LightTree::sample_many`].
@@ -32,7 +35,8 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
         point: &ShadingPoint,
         random: impl Into<Random64>,
     ) -> [SampledLight; COUNT] {
-        self.tree().sample_many(point, random)
+        const { Sampled::<N, I, W, T>::ALLOWED };
+        self.arrays().sample_many(point, random)
     }
 
     /// Chooses a light for each place of `sampled` by numbers at equal distances; see [`LightTree::sample_spaced`].
@@ -44,9 +48,12 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
         count: u32,
         sampled: &mut [SampledLight],
     ) {
-        self.tree().sample_spaced(point, random, first, count, sampled);
+        const { Sampled::<N, I, W, T>::ALLOWED };
+        self.arrays().sample_spaced(point, random, first, count, sampled);
     }
+}
 
+impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
     /// Probability with which [`sample`](Self::sample) returns `light` of `instance`, as a [`SampledLight`] names them, at `point`:
     /// to the bit the one that comes with the sample. 0 where there is no such light. A single level has one instance, whichever is
     /// named.

@@ -5,9 +5,9 @@ use core::fmt;
 use core::marker::PhantomData;
 use core::ops::Range;
 
-use super::Bvh;
 use super::blas::Blas;
 use super::top::TopTree;
+use super::{Bvh, Trails};
 use crate::build::{self, BuildParams, Topology, build_over, drift};
 use crate::instance::Instance;
 use crate::levels::Levels;
@@ -146,7 +146,7 @@ fn build_top<N: LightNode<W>, const W: usize>(leaves: &TopLeaves, params: &Build
     TopTree::new::<W>(topology, levels)
 }
 
-impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Takes a copy of what `params` wants built anew, as it stands after a [`refit`](Self::refit). It looks for lost quality among
     /// the bottom levels refitted since they were built, in time in proportion to their nodes; copies of the top level's leaves take
     /// time in proportion to all instances.

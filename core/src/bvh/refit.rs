@@ -3,8 +3,8 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::Bvh;
 use super::changes::Pending;
+use super::{Bvh, Trails};
 use crate::levels::Levels;
 use crate::node::LightNode;
 use crate::refit;
@@ -47,7 +47,7 @@ impl RefitPlan {
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Says what changed since the last call: the lists of [`work`](Self::work), for a mirror on a device that does them in its place,
     /// call by call without gaps. Whether and when the BVH is refitted here does not matter. The first call says what changed since
     /// the last [`refit`](Self::refit); a mirror takes over all arrays before it.

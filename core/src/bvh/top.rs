@@ -7,7 +7,7 @@ use core::ops::Range;
 
 pub(super) use self::tree::TopTree;
 use self::tree::{Place, without_children};
-use super::Bvh;
+use super::{Bvh, Trails};
 use crate::build::{Topology, build_top};
 use crate::levels::Levels;
 use crate::node::{LightNode, kind};
@@ -35,7 +35,7 @@ pub(super) struct Top {
     pub mark: u32,
 }
 
-impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// A top level without instances: one empty node.
     pub(super) fn empty_top(&mut self) {
         self.replace_top(&[without_children::<N, W>()]);

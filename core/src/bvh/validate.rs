@@ -7,7 +7,7 @@ use core::ops::Range;
 
 pub(super) use self::walk::Found;
 use self::walk::{bad, listed};
-use super::Bvh;
+use super::{Bvh, Trails};
 use crate::node::{LightNode, kind};
 use crate::refit;
 use crate::trail::BitTrail;
@@ -30,7 +30,7 @@ pub struct Stats {
     pub depth: u32,
 }
 
-impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Checks every invariant, after a [`refit`](Self::refit):
     /// - each node in use is reached once, through links that are in range, and knows its parent;
     /// - each live instance is a leaf of the top level exactly once, each triangle of a bottom level a leaf of it exactly
@@ -67,9 +67,11 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                     return Err(bad(node, slot, What::Owner, blas.triangles.start, link));
                 }
                 times[(link - blas.triangles.start) as usize] += 1;
-                let own = self.trail_of(link);
-                equal(node, slot, What::TrailLow, trail.low, own.low)?;
-                equal(node, slot, What::TrailHigh, trail.high, own.high)?;
+                if T::KEPT {
+                    let own = self.trail_of(link);
+                    equal(node, slot, What::TrailLow, trail.low, own.low)?;
+                    equal(node, slot, What::TrailHigh, trail.high, own.high)?;
+                }
                 let owner = self.triangles[link as usize].mesh;
                 equal(node, slot, What::Owner, index as u32, owner)?;
             }

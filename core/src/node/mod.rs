@@ -13,7 +13,7 @@ mod moment_lean;
 pub(crate) use codes::BREADTH_BIAS;
 pub use compact::CompactNode;
 pub use full::FullNode;
-pub use moment::MomentNode;
+pub use moment::{MomentNode, PackedMomentNode, TwoSidedMomentNode};
 pub use moment_full::FullMomentNode;
 pub use moment_lean::LeanMomentNode;
 

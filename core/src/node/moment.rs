@@ -1,4 +1,4 @@
-//! The default layout: quantised moments, 24 bytes per child.
+//! The default layout: quantised moments, 24 bytes per child; and the same for lights that shine from both sides, 20 bytes.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
@@ -15,18 +15,32 @@ use crate::moments::{Frame, Framed, LightMoments, row};
 use crate::summary::{Lanes, SUMMARY_WORDS};
 use crate::vector::abs3;
 
-/// Words of a node: row 0 is the header (origin x, y, z, exponents), the others hold a word of each child.
+/// Words of a node: row 0 is the header (origin x, y, z, exponents), the others hold a word of each child. The last two are its box
+/// and its link; a row of normals stands before them, where there is one.
 const WORD_0: usize = 1;
 const WORD_1: usize = 2;
 const WORD_2: usize = 3;
-const WORD_3: usize = 4;
-const LINK: usize = 5;
+/// Rows with normals, and without.
+const ORIENTED: usize = 6;
+const TWO_SIDED: usize = 5;
+/// What the row of normals holds for a mean normal of zero: all fields at their nearest, the spread at its greatest.
+const NO_NORMAL: u32 = !0;
 
 /// √2 breadths as a deviation, and the range of half extents, in units of the words.
 const PER_SQRT_2: f32 = SQRT_HALF * pow2(31);
 const WORD_RANGE: f32 = EXTENT_RANGE * pow2(31);
 
-/// A node of 24 bytes per child; `W` is at least 4.
+/// The default node, of 24 bytes per child.
+pub type MomentNode<const W: usize> = PackedMomentNode<W, ORIENTED>;
+
+/// A node of 20 bytes per child for scenes whose lights all shine from both sides: the mean normals of [`MomentNode`] are then zero, and
+/// its row of them is one constant. This node leaves that row out. All other words, all weights and all probabilities are those of
+/// [`MomentNode`], to the bit.
+///
+/// A light that shines from one side is taken as if it shone from both with the same flux: that costs variance, never a light.
+pub type TwoSidedMomentNode<const W: usize> = PackedMomentNode<W, TWO_SIDED>;
+
+/// What [`MomentNode`] (`ROWS` is 6) and [`TwoSidedMomentNode`] (`ROWS` is 5, without word 2) are; `W` is at least 4.
 ///
 /// | word | content |
 /// |---|---|
@@ -38,9 +52,22 @@ const WORD_RANGE: f32 = EXTENT_RANGE * pow2(31);
 /// | 4 | link |
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
-pub struct MomentNode<const W: usize>([[u32; W]; 6]);
+pub struct PackedMomentNode<const W: usize, const ROWS: usize>([[u32; W]; ROWS]);
 
-impl<const W: usize> MomentNode<W> {
+impl<const W: usize, const ROWS: usize> PackedMomentNode<W, ROWS> {
+    const WORD_3: usize = ROWS - 2;
+    const LINK: usize = ROWS - 1;
+
+    /// Word 2 of a child with flux; where no normals are stored, that of none.
+    #[inline(always)]
+    fn normal_word(&self, slot: usize) -> u32 {
+        if ROWS == ORIENTED {
+            self.0[WORD_2][slot]
+        } else {
+            NO_NORMAL
+        }
+    }
+
     #[inline(always)]
     fn origin(&self) -> Vec3 {
         Vec3::new(
@@ -92,8 +119,10 @@ impl<const W: usize> MomentNode<W> {
             let used = exact::mask(kind) & exact::mask_of(s.phi > 0.0);
             self.0[WORD_0][i] = exact::masked_u32(used, w0, kind);
             self.0[WORD_1][i] = w1 & used;
-            self.0[WORD_2][i] = w2 & used;
-            self.0[WORD_3][i] = w3 & used;
+            if ROWS == ORIENTED {
+                self.0[WORD_2][i] = w2 & used;
+            }
+            self.0[Self::WORD_3][i] = w3 & used;
         }
     }
 
@@ -105,8 +134,8 @@ impl<const W: usize> MomentNode<W> {
             let (w0, w1, w2, w3) = (
                 self.0[WORD_0][i],
                 self.0[WORD_1][i],
-                self.0[WORD_2][i],
-                self.0[WORD_3][i],
+                self.normal_word(i),
+                self.0[Self::WORD_3][i],
             );
             let used = exact::mask(w0 & 3);
             rows[row::PHI][i] = f32::from_bits(((w1 & PHI_MASK) << PHI_SHIFT) & used);
@@ -138,7 +167,7 @@ impl<const W: usize> MomentNode<W> {
     }
 }
 
-impl<const W: usize> LightNode<W> for MomentNode<W> {
+impl<const W: usize, const ROWS: usize> LightNode<W> for PackedMomentNode<W, ROWS> {
     type Summary = LightMoments;
 
     const EMPTY: Self = {
@@ -146,9 +175,17 @@ impl<const W: usize> LightNode<W> for MomentNode<W> {
             W >= 4,
             "the header of a packed node takes four words: it has 4 to 16 children"
         );
-        Self([[0; W]; 6])
+        assert!(
+            ROWS == ORIENTED || ROWS == TWO_SIDED,
+            "a packed node of moments has six rows, or five without normals"
+        );
+        Self([[0; W]; ROWS])
     };
-    const NAME: &'static str = "moments";
+    const NAME: &'static str = if ROWS == ORIENTED {
+        "moments"
+    } else {
+        "two-sided moments"
+    };
 
     #[inline(always)]
     fn kind(&self, slot: usize) -> u32 {
@@ -157,7 +194,7 @@ impl<const W: usize> LightNode<W> for MomentNode<W> {
 
     #[inline(always)]
     fn link(&self, slot: usize) -> u32 {
-        self.0[LINK][slot]
+        self.0[Self::LINK][slot]
     }
 
     #[inline(always)]
@@ -165,8 +202,8 @@ impl<const W: usize> LightNode<W> for MomentNode<W> {
         let (w0, w1, w2, w3) = (
             self.0[WORD_0][slot],
             self.0[WORD_1][slot],
-            self.0[WORD_2][slot],
-            self.0[WORD_3][slot],
+            self.normal_word(slot),
+            self.0[Self::WORD_3][slot],
         );
         let unit = pow2(self.unit_exponent());
         let per_word = unit * WORD_UNIT;
@@ -190,15 +227,15 @@ impl<const W: usize> LightNode<W> for MomentNode<W> {
     }
 
     fn set_child(&mut self, slot: usize, kind: u32, link: u32) {
-        for row in 1..6 {
+        for row in 1..ROWS {
             self.0[row][slot] = 0;
         }
         self.0[WORD_0][slot] = kind & 3;
-        self.0[LINK][slot] = link;
+        self.0[Self::LINK][slot] = link;
     }
 
     fn relink(&mut self, slot: usize, link: u32) {
-        self.0[LINK][slot] = link;
+        self.0[Self::LINK][slot] = link;
     }
 
     #[inline(always)]
@@ -207,7 +244,7 @@ impl<const W: usize> LightNode<W> for MomentNode<W> {
     }
 }
 
-impl<const W: usize> MomentLayout<W> for MomentNode<W> {
+impl<const W: usize, const ROWS: usize> MomentLayout<W> for PackedMomentNode<W, ROWS> {
     #[inline(always)]
     fn moment_weights(&self, p: Vec3, n: Vec3) -> [f32; W] {
         let frame = frame(self.origin(), self.unit_exponent(), p);
@@ -222,8 +259,8 @@ impl<const W: usize> MomentLayout<W> for MomentNode<W> {
             let (w0, w1, w2, w3) = (
                 self.0[WORD_0][i],
                 self.0[WORD_1][i],
-                self.0[WORD_2][i],
-                self.0[WORD_3][i],
+                self.normal_word(i),
+                self.0[Self::WORD_3][i],
             );
             let lobe = Lobe {
                 phi: f32::from_bits((w1 & PHI_MASK) << PHI_SHIFT),

@@ -8,6 +8,7 @@ mod devices;
 mod export;
 mod frames;
 mod info;
+mod inspect;
 mod numbers;
 mod progress;
 mod range;
@@ -58,6 +59,8 @@ enum Command {
     Variance(variance::Args),
     /// Measure speed against accuracy for each choice: structure, importance, width, builder, candidates.
     Trade(trade::Args),
+    /// Say what a scene requires and the smallest model that is sufficient, and check that it is.
+    Inspect(inspect::Args),
     /// Compare stratified and low-discrepancy numbers with independent ones.
     Numbers(numbers::Args),
     /// Compare the methods over an animation as the paper does: errors, times, graphs and close-ups.
@@ -117,6 +120,7 @@ pub fn main() -> ExitCode {
         Command::Bench(args) => bench::run(&context, args),
         Command::Variance(args) => variance::run(&context, args),
         Command::Trade(args) => trade::run(&context, args),
+        Command::Inspect(args) => inspect::run(&context, args),
         Command::Numbers(args) => numbers::run(&context, args),
         Command::Compare(args) => compare::run(&context, args),
         Command::Stability(args) => stability::run(&context, args),

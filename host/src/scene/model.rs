@@ -87,6 +87,8 @@ pub struct Material {
     pub metallic: f32,
     /// Perceptual roughness in [0, 1].
     pub roughness: f32,
+    /// Whether alpha cuts parts of the surface out; the reference renderer takes it as opaque.
+    pub masked: bool,
 }
 
 impl Default for Material {
@@ -98,6 +100,7 @@ impl Default for Material {
             double_sided: false,
             metallic: 0.0,
             roughness: 1.0,
+            masked: false,
         }
     }
 }

@@ -13,6 +13,7 @@
 #![forbid(unsafe_code)]
 
 mod branches;
+pub mod choice;
 pub mod decorate;
 pub mod files;
 pub mod manifest;

@@ -1,6 +1,7 @@
 //! `build-kernels`: compiles every entry point of `kernels` to `kernels/gpu/spirv/*.spv`, writes the manifest and the table; or
 //! those of another crate, to modules under the same rules.
 
+use lightbvh_kernels_builder::choice;
 use lightbvh_kernels_builder::compile::{Built, compile, compile_crate, install};
 use lightbvh_kernels_builder::files;
 use lightbvh_kernels_builder::manifest::{self, DIRECTORY, ManifestError, ModuleRecord};
@@ -13,9 +14,13 @@ and the table of kernels, kernels/gpu/src/table.rs.
 
 Usage: build-kernels [--check]
        build-kernels --crate PATH --out DIR
+       build-kernels --layout LAYOUT --width WIDTH --share HALVINGS --out DIR
 
   --check       write nothing; fail when the committed modules are not what the sources give
   --crate PATH  compile the entry points of the crate in the folder PATH instead, under the same rules
+  --layout LAYOUT --width WIDTH --share HALVINGS
+                compile sample, pmf and the refits of that choice instead: moments, two-sided, lean or full
+                nodes of 4 to 16 children, with 0 to 20 halvings of 1 as the share of uniform choice (0: none)
   --out DIR     where its modules go, one file ENTRY_POINT.spv for each
 
 Without --crate the current directory must be inside the repository. See kernels/README.md for the compiler it needs.";
@@ -29,6 +34,16 @@ fn main() -> ExitCode {
         ["--crate", path, "--out", out] | ["--out", out, "--crate", path] => {
             another(Path::new(path), Path::new(out))
         }
+        [
+            "--layout",
+            layout,
+            "--width",
+            width,
+            "--share",
+            share,
+            "--out",
+            out,
+        ] => another_choice([layout, width, share], Path::new(out)),
         ["--help" | "-h"] => {
             println!("{USAGE}");
             Ok(())
@@ -73,6 +88,13 @@ fn another(path: &Path, out: &Path) -> Result<(), String> {
         validate(&out.join(&record.file))?;
     }
     Ok(())
+}
+
+/// Builds the kernels of another choice.
+fn another_choice([layout, width, share]: [&str; 3], out: &Path) -> Result<(), String> {
+    let choice = choice::parse(layout, width, share).map_err(|error| error.to_string())?;
+    let folder = choice::write_crate(&choice, &repository()?, out).map_err(|error| error.to_string())?;
+    another(&folder, out)
 }
 
 /// The directory above the current one that holds the kernels.

@@ -32,7 +32,7 @@ pub use frame::{Copy, Frame, Mirror};
 pub use query::{Query, query_push};
 pub use refit::{Dispatch, Pass, Refit};
 #[cfg(feature = "kernels")]
-pub use set::{EQ4, KernelSet, MOMENTS};
+pub use set::{EQ4, KernelSet, MOMENTS, NotCompiled};
 pub use spirv::ModuleError;
 #[cfg(feature = "kernels")]
 #[doc(inline)]

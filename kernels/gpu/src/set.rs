@@ -1,5 +1,9 @@
 //! The kernels of one choice of node layout and importance.
 
+use core::fmt;
+
+use lightbvh::requirements::{Layout, Model};
+
 use crate::kernel::Kernel;
 use crate::refit::Pass;
 use crate::table;
@@ -38,7 +42,58 @@ pub static EQ4: KernelSet = KernelSet {
     pmf: &table::PMF_EQ4,
 };
 
+/// No kernels of a choice are compiled. Its text is the command that compiles them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NotCompiled {
+    /// The choice: its layout, width and share of uniform choice.
+    pub model: Model,
+}
+
+impl NotCompiled {
+    /// The command that compiles the kernels, in a checkout, with the compiler that `kernels/README.md` names.
+    #[must_use]
+    pub fn command(&self) -> alloc::string::String {
+        let (layout, width) = (self.model.layout.name(), self.model.width);
+        alloc::format!(
+            "cargo run --release -p lightbvh-kernels-builder --features prebuilt-backend -- --layout {layout} --width {width} --share \
+             {} --out target/kernels-{layout}-{width}",
+            self.model.uniform_halvings
+        )
+    }
+}
+
+impl fmt::Display for NotCompiled {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "no kernels are compiled for nodes {} by {}; compile them by `{}` (kernels/README.md), or take the default on devices",
+            self.model.node_type(),
+            self.model.importance_type(),
+            self.command()
+        )
+    }
+}
+
+impl core::error::Error for NotCompiled {}
+
 impl KernelSet {
+    /// The kernels of a model, which its layout, width and share of uniform choice say.
+    ///
+    /// # Errors
+    /// [`NotCompiled`] for any but the default's; devices take light BVHs with trails, so a model without them has none either.
+    pub fn of(model: &Model) -> Result<&'static Self, NotCompiled> {
+        let default = Model::DEFAULT;
+        let is_compiled = model.layout == Layout::Moments
+            && model.width == default.width
+            && model.uniform_halvings == default.uniform_halvings
+            && model.trails;
+        if is_compiled {
+            Ok(&MOMENTS)
+        } else {
+            Err(NotCompiled { model: *model })
+        }
+    }
+
     /// The kernel of a pass of a refit.
     #[must_use]
     pub fn refit(&self, pass: Pass) -> &'static Kernel {
@@ -52,6 +107,7 @@ impl KernelSet {
 
 #[cfg(test)]
 mod tests {
+    use lightbvh::requirements::Updates;
     use lightbvh::{CompactNode, MomentNode};
 
     use super::*;
@@ -88,6 +144,46 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_model_has_its_kernels_or_the_command_that_compiles_them() {
+        let default = Model::DEFAULT;
+        for model in [
+            default,
+            Model {
+                updates: Updates::Nothing,
+                ..default
+            },
+        ] {
+            let set = KernelSet::of(&model).expect("the default's kernels");
+            assert!(core::ptr::eq(set, &MOMENTS));
+        }
+        let two_sided = Model {
+            layout: Layout::TwoSidedMoments,
+            ..default
+        };
+        for model in [
+            two_sided,
+            Model { width: 16, ..default },
+            Model {
+                uniform_halvings: 0,
+                ..default
+            },
+            Model {
+                uniform_halvings: 0,
+                trails: false,
+                ..default
+            },
+        ] {
+            assert_eq!(KernelSet::of(&model).err(), Some(NotCompiled { model }));
+        }
+        let said = alloc::format!("{}", NotCompiled { model: two_sided });
+        assert!(
+            said.contains("-- --layout two-sided --width 8 --share 6 --out "),
+            "{said}"
+        );
+        assert!(said.contains("TwoSidedMomentNode<8>"), "{said}");
     }
 
     #[test]

@@ -8,7 +8,7 @@ use std::ops::Range;
 use lightbvh::refit::BlasRoot;
 use lightbvh::{
     CompactNode, EmissiveTriangle, FullMomentNode, FullNode, Instance, LeanMomentNode, LightBvh, MomentNode,
-    SampledLight,
+    SampledLight, TwoSidedMomentNode,
 };
 use lightbvh_gpu::{Access, Buffer, KERNELS};
 
@@ -53,6 +53,7 @@ fn layouts_have_their_words() {
     let sizes = [
         ("MomentNode<8>", size_of::<MomentNode<8>>(), 8),
         ("MomentNode<16>", size_of::<MomentNode<16>>(), 16),
+        ("TwoSidedMomentNode<8>", size_of::<TwoSidedMomentNode<8>>(), 8),
         ("LeanMomentNode<8>", size_of::<LeanMomentNode<8>>(), 8),
         ("FullMomentNode<8>", size_of::<FullMomentNode<8>>(), 8),
         ("CompactNode<4>", size_of::<CompactNode<4>>(), 4),

@@ -4,7 +4,7 @@
 mod choices;
 mod front;
 mod image;
-mod quantile;
+pub(super) mod quantile;
 mod structure;
 
 use std::time::Instant;

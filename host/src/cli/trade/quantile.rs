@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 /// A median with its interval of 95 % confidence.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub(super) struct Interval {
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub(in crate::cli) struct Interval {
     pub median: f64,
     pub low: f64,
     pub high: f64,

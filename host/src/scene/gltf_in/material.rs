@@ -1,6 +1,8 @@
 //! Materials: the factors that the reference renderer uses.
 
 use gltf::json;
+use gltf::json::material::AlphaMode;
+use gltf::json::validation::Checked::Valid;
 
 use super::super::error::SceneError;
 use super::super::model::Material;
@@ -45,6 +47,12 @@ fn one(document: &Document<'_>, index: usize, material: &json::Material) -> Resu
     } else {
         pbr.metallic_factor.0
     };
+    let masked = material.alpha_mode != Valid(AlphaMode::Opaque);
+    if masked {
+        document.warn(format!(
+            "{element}: the alpha mode is ignored, the surface taken as opaque"
+        ));
+    }
     Ok(Material {
         name: material.name.clone().unwrap_or_default(),
         base_color,
@@ -52,5 +60,6 @@ fn one(document: &Document<'_>, index: usize, material: &json::Material) -> Resu
         double_sided: material.double_sided,
         metallic,
         roughness: pbr.roughness_factor.0,
+        masked,
     })
 }

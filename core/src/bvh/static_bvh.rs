@@ -1,0 +1,101 @@
+//! A light BVH that changes no more.
+
+use alloc::boxed::Box;
+
+use super::trails::Sampled;
+use super::{Bvh, Trails, WithTrails};
+use crate::importance::ImportanceModel;
+use crate::instance::Instance;
+use crate::node::LightNode;
+use crate::point::ShadingPoint;
+use crate::traverse::{Random64, SampledLight};
+use crate::tree::{LightTree, TreeWords};
+
+/// What sampling reads of a [`Bvh`], for lights that stay as they are: nodes, instances, and with [`WithTrails`] trails. The triangles,
+/// and all that edits and refits need, are left out: the caller has the lights, and [`LightTree::triangle`] finds one.
+///
+/// ```
+/// # use lightbvh::{BuildParams, LightBvh, Lights, ShadingPoint, bvh::StaticBvh};
+/// # let lights = Lights::new(Vec::new())?;
+/// # let point = ShadingPoint { p: [0.0; 3], n: [0.0; 3] };
+/// let lamps: StaticBvh<_, _, 8> = LightBvh::single_level(&lights, &BuildParams::default()).into_static();
+/// let sampled = lamps.sample(&point, 7_u32);
+/// # Ok::<(), lightbvh::error::LightsError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct StaticBvh<N, I, const W: usize, T = WithTrails> {
+    nodes: Box<[N]>,
+    instances: Box<[Instance]>,
+    trails: Box<[u32]>,
+    words: TreeWords,
+    chosen: core::marker::PhantomData<(I, T)>,
+}
+
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+    /// What sampling reads, as of the last [`refit`](Self::refit).
+    #[must_use]
+    pub fn into_static(self) -> StaticBvh<N, I, W, T> {
+        let words = TreeWords::of(&self.arrays());
+        StaticBvh {
+            nodes: self.nodes.into_boxed_slice(),
+            instances: self.instances.into_boxed_slice(),
+            trails: self.trails.into_boxed_slice(),
+            words,
+            chosen: core::marker::PhantomData,
+        }
+    }
+}
+
+impl<N: LightNode<W>, I, const W: usize, T: Trails> StaticBvh<N, I, W, T> {
+    fn arrays(&self) -> LightTree<'_, N, I, W> {
+        self.words.tree(&self.nodes, &self.instances, &self.trails)
+    }
+
+    /// All its bytes on the heap.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        size_of_val(&*self.nodes) + size_of_val(&*self.instances) + size_of_val(&*self.trails)
+    }
+}
+
+impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, T: Trails> StaticBvh<N, I, W, T> {
+    /// As [`Bvh::sample`].
+    #[must_use]
+    pub fn sample(&self, point: &ShadingPoint, random: impl Into<Random64>) -> SampledLight {
+        const { Sampled::<N, I, W, T>::ALLOWED };
+        self.arrays().sample(point, random)
+    }
+
+    /// As [`Bvh::sample_batch`].
+    pub fn sample_batch(&self, points: &[ShadingPoint], randoms: &[Random64], sampled: &mut [SampledLight]) {
+        const { Sampled::<N, I, W, T>::ALLOWED };
+        self.arrays().sample_batch(points, randoms, sampled);
+    }
+
+    /// As [`Bvh::sample_many`].
+    #[must_use]
+    pub fn sample_many<const COUNT: usize>(
+        &self,
+        point: &ShadingPoint,
+        random: impl Into<Random64>,
+    ) -> [SampledLight; COUNT] {
+        const { Sampled::<N, I, W, T>::ALLOWED };
+        self.arrays().sample_many(point, random)
+    }
+}
+
+impl<N: LightNode<W>, I, const W: usize> StaticBvh<N, I, W> {
+    /// The arrays as traversal takes them, on devices too.
+    #[must_use]
+    pub fn tree(&self) -> LightTree<'_, N, I, W> {
+        self.arrays()
+    }
+}
+
+impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> StaticBvh<N, I, W> {
+    /// As [`Bvh::pmf`].
+    #[must_use]
+    pub fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {
+        self.arrays().pmf(point, light, instance)
+    }
+}

@@ -1,0 +1,179 @@
+//! A light BVH whose meshes change no more: their instances do.
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use super::changes::Changes;
+use super::edit::{Edit, EditError, EditReason, InstanceId};
+use super::rebuild::{Foreign, Rebuild, RebuildParams, Rebuilt};
+use super::refit::RefitPlan;
+use super::{Added, Bvh, Trails, WithTrails};
+use crate::importance::ImportanceModel;
+use crate::levels::Levels;
+use crate::node::LightNode;
+use crate::point::ShadingPoint;
+#[cfg(feature = "std")]
+use crate::rebuilder::{FrameStart, RebuildError, Rebuilder};
+use crate::traverse::{Random64, SampledLight};
+use crate::tree::LightTree;
+
+/// A [`Bvh`] for instances that move, are dimmed, come and go, of meshes that stay as they are. What refits of bottom levels read is left
+/// out: 56 bytes of each triangle, and the lists of their nodes. The caller has the triangles; [`lights_of`](Self::lights_of) says which
+/// of them a sample names, [`LightTree::triangle`] brings it into the world.
+///
+/// Nodes, samples and probabilities are those of the [`Bvh`] that it was made of, frame after frame. It is for the CPU: a device that
+/// refits takes over triangles too.
+///
+/// ```
+/// # use lightbvh::{Edit, EmissiveTriangle, LightBvh, ShadingPoint, Transform};
+/// # let p = [[0.0, 3.0, 0.0], [0.1, 3.0, 0.0], [0.0, 3.0, 0.1]];
+/// # let lamp = EmissiveTriangle { p, radiance: [9.0; 3], mesh: 0, flags: 0 };
+/// # let point = ShadingPoint { p: [5.0, 0.0, 0.0], n: [0.0, 1.0, 0.0] };
+/// let mut bvh = LightBvh::default();
+/// let mesh = bvh.add_mesh(vec![lamp])?;
+/// let instance = bvh.add_instance(mesh, Transform::IDENTITY)?;
+/// let mut bvh = bvh.into_static_meshes();
+/// let transform = Transform::at([4.0, 0.0, 0.0]);
+/// bvh.apply(vec![Edit::SetTransform { instance, transform }])?;
+/// bvh.refit();
+/// let sampled = bvh.sample(&point, 7_u32);
+/// # assert_eq!(sampled.instance, instance.index());
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct StaticMeshBvh<N, I, const W: usize, T = WithTrails>(Bvh<N, I, W, T>);
+
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+    /// The same light BVH for meshes that stay as they are, refitted. Its ids stay; rebuilds of bottom levels that are under way come to
+    /// nothing.
+    #[must_use]
+    pub fn into_static_meshes(mut self) -> StaticMeshBvh<N, I, W, T> {
+        self.refit();
+        // Later than any rebuild that was taken, so that none of a bottom level is installed or asked for.
+        self.epoch += 1;
+        for blas in &mut self.blases {
+            blas.levels = Levels::default();
+            blas.created = self.epoch;
+            blas.changed = self.epoch;
+        }
+        self.triangles = Vec::new();
+        self.changes = Changes::default();
+        self.planned = RefitPlan::default();
+        self.done = None;
+        StaticMeshBvh(self)
+    }
+}
+
+impl<N: LightNode<W>, I, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
+    /// As [`Bvh::apply`].
+    ///
+    /// # Errors
+    /// [`EditError`] naming the first edit that cannot be done, [`EditReason::StaticMeshes`] for meshes that are added or deformed;
+    /// nothing is changed then.
+    pub fn apply(&mut self, edits: Vec<Edit>) -> Result<Added, EditError> {
+        let of_triangles = |edit: &Edit| matches!(edit, Edit::AddMesh { .. } | Edit::SetTriangles { .. });
+        match edits.iter().position(of_triangles) {
+            Some(edit) => Err(EditError {
+                edit,
+                reason: EditReason::StaticMeshes,
+            }),
+            None => self.0.apply(edits),
+        }
+    }
+
+    /// As [`Bvh::refit`].
+    pub fn refit(&mut self) {
+        self.0.refit();
+    }
+
+    /// As [`Bvh::rebuild`], of the top level: no bottom level loses quality.
+    #[must_use]
+    pub fn rebuild(&self, params: &RebuildParams) -> Rebuild<N, W> {
+        self.0.rebuild(params)
+    }
+
+    /// As [`Bvh::install`].
+    ///
+    /// # Errors
+    /// [`Foreign`] where it was taken from another light BVH; this one is as before then.
+    pub fn install(&mut self, rebuilt: Rebuilt<N, W>) -> Result<(), Foreign> {
+        self.0.install(rebuilt)
+    }
+
+    /// As [`Rebuilder::begin_frame`].
+    ///
+    /// # Errors
+    /// [`RebuildError`], once, if the rebuild that was due came to nothing.
+    #[cfg(feature = "std")]
+    pub fn begin_frame(&mut self, rebuilder: &mut Rebuilder<N, W>) -> Result<FrameStart, RebuildError> {
+        rebuilder.begin_frame(&mut self.0)
+    }
+
+    /// As [`Rebuilder::end_frame`].
+    #[cfg(feature = "std")]
+    pub fn end_frame(&self, rebuilder: &mut Rebuilder<N, W>) {
+        rebuilder.end_frame(&self.0);
+    }
+
+    /// As [`Bvh::lights_of`].
+    #[must_use]
+    pub fn lights_of(&self, instance: InstanceId) -> Option<Range<u32>> {
+        self.0.lights_of(instance)
+    }
+
+    /// As [`Bvh::take_removed_lights`].
+    pub fn take_removed_lights(&mut self) -> Vec<Range<u32>> {
+        self.0.take_removed_lights()
+    }
+
+    /// As [`Bvh::bytes`].
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.0.bytes()
+    }
+
+    /// As [`Bvh::memory`].
+    #[must_use]
+    pub fn memory(&self) -> usize {
+        self.0.memory()
+    }
+}
+
+impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
+    /// As [`Bvh::sample`].
+    #[must_use]
+    pub fn sample(&self, point: &ShadingPoint, random: impl Into<Random64>) -> SampledLight {
+        self.0.sample(point, random)
+    }
+
+    /// As [`Bvh::sample_batch`].
+    pub fn sample_batch(&self, points: &[ShadingPoint], randoms: &[Random64], sampled: &mut [SampledLight]) {
+        self.0.sample_batch(points, randoms, sampled);
+    }
+
+    /// As [`Bvh::sample_many`].
+    #[must_use]
+    pub fn sample_many<const COUNT: usize>(
+        &self,
+        point: &ShadingPoint,
+        random: impl Into<Random64>,
+    ) -> [SampledLight; COUNT] {
+        self.0.sample_many(point, random)
+    }
+}
+
+impl<N: LightNode<W>, I, const W: usize> StaticMeshBvh<N, I, W> {
+    /// As [`Bvh::tree`].
+    #[must_use]
+    pub fn tree(&self) -> LightTree<'_, N, I, W> {
+        self.0.tree()
+    }
+}
+
+impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> StaticMeshBvh<N, I, W> {
+    /// As [`Bvh::pmf`].
+    #[must_use]
+    pub fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {
+        self.0.pmf(point, light, instance)
+    }
+}

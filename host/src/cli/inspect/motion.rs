@@ -1,0 +1,96 @@
+//! What moves in a scene: its instances over one round of its longest animation.
+
+use lightbvh::{BuildParams, Edit};
+use lightbvh_kernels::bvh::{Node, WIDTH};
+use serde::Serialize;
+
+use crate::error::HostError;
+use crate::scene::{FRAMES_PER_SECOND, Instances, Scene};
+
+/// Frames looked at, at most.
+const MOST_FRAMES: u32 = 1000;
+
+/// Which instances move. Scenes of the host neither deform nor vary what they emit: morph targets and skins are not read.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Motion {
+    /// Frames looked at, the first not counted.
+    pub frames: u32,
+    pub instances: usize,
+    /// Instances that move at all.
+    pub moving: usize,
+    pub tracks: Vec<Track>,
+}
+
+/// An instance that moves.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Track {
+    pub instance: u32,
+    /// Node and mesh.
+    pub name: String,
+    /// Frames in which it moves.
+    pub moves: u32,
+}
+
+/// Frames of one round of the longest animation.
+fn frames(scene: &Scene) -> u32 {
+    let animations = scene.data().animations.iter();
+    let longest = animations
+        .map(|animation| f64::from(animation.duration()))
+        .fold(0.0, f64::max);
+    ((longest * f64::from(FRAMES_PER_SECOND)).ceil() as u32).min(MOST_FRAMES)
+}
+
+impl Motion {
+    pub fn of(scene: &Scene) -> Result<Self, HostError> {
+        let frames = frames(scene);
+        let names = scene.frame(0).mesh_lights;
+        let (_, mut instances) = Instances::new::<Node, (), WIDTH>(scene, 0, BuildParams::FAST)
+            .map_err(|error| HostError::in_frame(scene.name(), 0, error))?;
+        let mut moves = vec![0_u32; names.len()];
+        for frame in 1..=frames {
+            for edit in instances.edits(scene, frame) {
+                if let Edit::SetTransform { instance, .. } = edit {
+                    moves[instance.index() as usize] += 1;
+                }
+            }
+        }
+        let named = (0..).zip(names.iter().zip(&moves));
+        let tracks: Vec<Track> = named
+            .filter(|(_, (_, moves))| **moves > 0)
+            .map(|(instance, (light, &moves))| Track {
+                instance,
+                name: light.name.clone(),
+                moves,
+            })
+            .collect();
+        Ok(Self {
+            frames,
+            instances: names.len(),
+            moving: tracks.len(),
+            tracks,
+        })
+    }
+
+    /// In words.
+    pub fn said(&self) -> String {
+        let Self {
+            frames,
+            instances,
+            moving,
+            tracks,
+        } = self;
+        if *frames == 0 {
+            return "no: nothing is animated".to_owned();
+        }
+        let moves = tracks.iter().map(|track| track.moves);
+        let (Some(least), Some(most)) = (moves.clone().min(), moves.max()) else {
+            return format!("no: in {frames} frames of animation no instance that emits moves");
+        };
+        let often = if least == most {
+            format!("{most}")
+        } else {
+            format!("{least} to {most}")
+        };
+        format!("yes: {moving} of {instances} instances, in {often} of {frames} frames")
+    }
+}

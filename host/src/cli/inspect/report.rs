@@ -1,0 +1,238 @@
+//! What `lightbvh inspect` says.
+
+use lightbvh::requirements::{Fact, Model, Requirements, Structure};
+use serde_json::{Value, json};
+
+use super::motion::Motion;
+use super::options::Args;
+use super::steps::{Checked, Cost, MOST_VARIANCE, Promise, Step};
+use super::surfaces::Surfaces;
+use crate::cli::table;
+use crate::cli::trade::quantile::Interval;
+use crate::error::HostError;
+
+/// Everything that is said.
+pub(super) struct Report<'a> {
+    pub args: &'a Args,
+    /// How many were looked at.
+    pub points: u32,
+    /// The frame in which they were.
+    pub moved: u32,
+    pub motion: Motion,
+    pub surfaces: Surfaces,
+    pub requirements: Requirements,
+    pub chosen: Model,
+    /// Whether another was asked for.
+    pub asked_for: bool,
+    /// The command that compiles the model's kernels, where they are not committed.
+    pub kernels: Option<String>,
+    pub checked: Checked,
+}
+
+impl Report<'_> {
+    /// Whether bits are equal wherever that is promised. What costs more variance than promised is put back, or was asked for.
+    pub fn holds(&self) -> bool {
+        let steps = &self.checked.steps;
+        steps
+            .iter()
+            .all(|step| step.held || step.promise == Promise::Variance)
+    }
+
+    pub fn json(&self) -> Value {
+        let facts: Vec<Value> = self
+            .requirements
+            .facts()
+            .into_iter()
+            .map(|fact| json!({ "name": fact.name, "found": fact.found, "reason": fact.reason }))
+            .collect();
+        let Checked { default, cost, .. } = self.checked;
+        json!({
+            "scene": self.args.scene, "frame": self.args.frame, "checked_frame": self.moved, "points": self.points,
+            "lights": self.requirements.lights,
+            "facts": facts,
+            "motion": self.motion,
+            "surfaces": self.surfaces,
+            "chosen": model_json(&self.chosen),
+            "reasons": self.requirements.reasons(),
+            "model": model_json(&self.checked.model),
+            "overridden": self.asked_for,
+            "kernels": { "committed": self.kernels.is_none(), "command": self.kernels },
+            "default": { "variance": self.checked.variance, "cost": default },
+            "steps": self.checked.steps,
+            "saved": {
+                "bytes_per_light": default.bytes_per_light - cost.bytes_per_light,
+                "memory_per_light": default.memory_per_light - cost.memory_per_light,
+                "ns_per_sample": cost.ns_saved,
+            },
+            "holds": self.holds(),
+        })
+    }
+
+    pub fn print(&self) -> Result<(), HostError> {
+        let mut text = format!(
+            "{} in frame {}, {} lights\n\nwhat it requires\n",
+            self.args.scene, self.args.frame, self.requirements.lights
+        );
+        let [gloss, masks] = self.surfaces.said();
+        for Fact { name, found, reason } in self.requirements.facts() {
+            let reason = match name {
+                "glossy receivers" => &gloss,
+                _ => &reason,
+            };
+            text += &line(name, &format!("{found}: {reason}"));
+        }
+        text += &line("masks", &masks);
+        text += &line("animation", &self.motion.said());
+        text += &format!("\nthe smallest model that is sufficient: {}\n", self.chosen);
+        for reason in self.requirements.reasons() {
+            text += &format!("  {reason}\n");
+        }
+        table::print_text(&text)?;
+        self.print_check()?;
+        self.print_model()
+    }
+
+    /// What is left after the check, and its kernels.
+    fn print_model(&self) -> Result<(), HostError> {
+        let model = &self.checked.model;
+        let how = match (self.asked_for, *model == self.chosen) {
+            (true, _) => "as asked for",
+            (false, true) => "as chosen",
+            (false, false) => "less what was put back",
+        };
+        let mut text = format!("\nmodel, {how}: {model}\n");
+        text += &match &self.kernels {
+            None => "kernels for devices: committed\n".to_owned(),
+            Some(command) => {
+                format!("kernels for devices: not committed; they are compiled by\n  {command}\n")
+            }
+        };
+        Ok(table::print_text(&text)?)
+    }
+
+    /// The default, and each part that is another, one after the other.
+    fn print_check(&self) -> Result<(), HostError> {
+        let Checked {
+            variance,
+            default,
+            cost,
+            steps,
+            ..
+        } = &self.checked;
+        if steps.is_empty() {
+            let Cost {
+                bytes_per_light,
+                memory_per_light,
+                ns_per_sample,
+                ..
+            } = default;
+            return Ok(table::print_text(&format!(
+                "\nthat is the default, with nothing to save: {bytes_per_light:.1} bytes per light, {memory_per_light:.1} in all arrays, \
+                 {ns_per_sample:.0} ns per sample, variance {variance:.4}\n"
+            ))?);
+        }
+        let refitted = if self.moved == self.args.frame {
+            String::new()
+        } else {
+            format!(" in frame {}, after a refit", self.moved)
+        };
+        table::print_text(&format!(
+            "\nchecked from {} points on surfaces{refitted}, one part after the other\n",
+            self.points
+        ))?;
+        let first = std::iter::once(Row {
+            variance: *variance,
+            cost: *default,
+            step: None,
+        });
+        let rest = steps.iter().map(|step| Row {
+            variance: step.variance,
+            cost: step.cost,
+            step: Some(step.clone()),
+        });
+        table::print(&first.chain(rest).collect::<Vec<_>>(), COLUMNS)?;
+        let Interval { median, low, high } = cost.ns_saved;
+        let noise = if low <= 0.0 && high >= 0.0 { ": noise" } else { "" };
+        table::print_text(&format!(
+            "saved against the default: {:.1} of {:.1} bytes per light that sampling reads, {:.1} of {:.1} in all arrays, {median:.1} of {:.1} \
+             ns per sample (95 %: {low:.1} to {high:.1}{noise})\n",
+            default.bytes_per_light - cost.bytes_per_light,
+            default.bytes_per_light,
+            default.memory_per_light - cost.memory_per_light,
+            default.memory_per_light,
+            default.ns_per_sample,
+        ))?;
+        for step in steps.iter().filter(|step| !step.held) {
+            let done = if step.put_back && step.part == "uniform share" {
+                "it is put back, and trails stay for it"
+            } else if step.put_back {
+                "the part is put back"
+            } else if step.promise == Promise::Variance {
+                "kept, as asked for"
+            } else {
+                "this is a fault of lightbvh; please report it"
+            };
+            table::print_text(&format!(
+                "{}: the promise of {} does not hold here, {done}\n",
+                step.part,
+                promise(step.promise)
+            ))?;
+        }
+        Ok(())
+    }
+}
+
+/// A line of what is required.
+fn line(name: &str, text: &str) -> String {
+    format!("  {name:<20} {text}\n")
+}
+
+/// A line of the check: the default, then each step.
+struct Row {
+    variance: f64,
+    cost: Cost,
+    step: Option<Step>,
+}
+
+impl Row {
+    fn of_step(&self, said: impl Fn(&Step) -> String) -> String {
+        self.step.as_ref().map_or_else(|| "-".to_owned(), said)
+    }
+}
+
+const COLUMNS: &[table::Column<Row>] = &[
+    ("part", |r| {
+        r.step.as_ref().map_or("default", |s| s.part).to_owned()
+    }),
+    ("promise", |r| r.of_step(|s| promise(s.promise))),
+    ("holds", |r| r.of_step(|s| table::yes(s.held))),
+    ("compared", |r| r.of_step(|s| s.compared.to_string())),
+    ("different", |r| r.of_step(|s| s.different.to_string())),
+    ("variance", |r| format!("{:.4}", r.variance)),
+    ("bytes/light", |r| format!("{:.1}", r.cost.bytes_per_light)),
+    ("all arrays", |r| format!("{:.1}", r.cost.memory_per_light)),
+    ("sample ns", |r| format!("{:.1}", r.cost.ns_per_sample)),
+];
+
+fn promise(promise: Promise) -> String {
+    match promise {
+        Promise::Bits => "equal bits".to_owned(),
+        Promise::BitsBelowInstance => "equal bits below the instance".to_owned(),
+        Promise::Variance => format!("variance up to {MOST_VARIANCE} times"),
+    }
+}
+
+fn model_json(model: &Model) -> Value {
+    json!({
+        "type": model.type_name(),
+        "layout": model.layout.name(),
+        "levels": match model.structure {
+            Structure::SingleLevel => 1,
+            Structure::TwoLevel => 2,
+        },
+        "width": model.width,
+        "uniform_halvings": model.uniform_halvings,
+        "trails": model.trails,
+        "updates": model.updates.name(),
+    })
+}

@@ -1,0 +1,204 @@
+//! From the default to the chosen model, one part at a time, each checked on the scene's own points.
+
+use lightbvh::ShadingPoint;
+use lightbvh::exact::hash;
+use lightbvh::refit::Instance;
+use lightbvh::requirements::{Layout, Model, Orientation, Requirements, Structure, TransformKind};
+use serde::Serialize;
+
+use super::compare::{Compared, Light};
+use super::options::Args;
+use super::subject::{Source, Subject, build};
+use crate::cli::times::ms;
+use crate::cli::trade::quantile::Interval;
+use crate::error::HostError;
+
+/// Where probabilities may differ, the mean variance of a sample rises by no more than a twentieth.
+pub(super) const MOST_VARIANCE: f64 = 1.05;
+/// Rounds of timing, and about how many samples are taken in one.
+const TURNS: u32 = 21;
+const SAMPLES_IN_A_TURN: u32 = 40_000;
+
+/// What a step promises.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Promise {
+    /// Every probability has the same bits.
+    Bits,
+    /// The same bits at the point as an instance at the identity hands it on, which may turn the last bit of a normal.
+    BitsBelowInstance,
+    /// The mean variance of a sample stays below [`MOST_VARIANCE`] times what it was.
+    Variance,
+}
+
+/// A part of the model that is to be another one than before.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Step {
+    pub part: &'static str,
+    pub promise: Promise,
+    /// Probabilities, or where there are none samples, that were compared, and how many differ.
+    pub compared: u64,
+    pub different: u64,
+    /// Greatest difference of two probabilities.
+    pub most: f64,
+    /// Mean over the points of the relative variance of one sample.
+    pub variance: f64,
+    /// That of the step before.
+    pub variance_before: f64,
+    /// Whether the promise holds.
+    pub held: bool,
+    /// Whether the part stays as it was because it does not.
+    pub put_back: bool,
+    #[serde(flatten)]
+    pub cost: Cost,
+}
+
+/// What a model costs.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub(super) struct Cost {
+    /// Bytes that sampling reads, and bytes of all arrays.
+    pub bytes_per_light: f64,
+    pub memory_per_light: f64,
+    pub ns_per_sample: f64,
+    /// Less than the default's, turn by turn.
+    pub ns_saved: Interval,
+}
+
+/// What was measured.
+pub(super) struct Checked {
+    /// What is left of the model without what was put back, and its cost.
+    pub model: Model,
+    pub cost: Cost,
+    /// The default's variance and cost.
+    pub variance: f64,
+    pub default: Cost,
+    pub steps: Vec<Step>,
+}
+
+/// A part of a model, and how one model takes it from another.
+type Part = (&'static str, fn(&mut Model, &Model));
+
+/// Each is taken after those before it: without a share of uniform choice trails can go.
+const PARTS: [Part; 6] = [
+    ("layout", |to, from| to.layout = from.layout),
+    ("levels", |to, from| to.structure = from.structure),
+    ("width", |to, from| to.width = from.width),
+    ("uniform share", |to, from| {
+        to.uniform_halvings = from.uniform_halvings;
+    }),
+    ("trails", |to, from| {
+        to.trails = from.trails || to.uniform_halvings > 0;
+    }),
+    ("updates", |to, from| to.updates = from.updates),
+];
+
+fn promise(part: &str, model: &Model, requirements: &Requirements) -> Promise {
+    let is_identity = requirements.is_one_mesh()
+        && requirements.transform() == TransformKind::Identity
+        && requirements.dimmed == 0;
+    match part {
+        "layout"
+            if model.layout == Layout::TwoSidedMoments && requirements.orientation == Orientation::Absent =>
+        {
+            Promise::Bits
+        }
+        "levels" if model.structure == Structure::SingleLevel && is_identity => Promise::BitsBelowInstance,
+        "trails" | "updates" => Promise::Bits,
+        _ => Promise::Variance,
+    }
+}
+
+/// Builds the default and each step of the way to `model`, compares them, and times them in turns. A part that was not asked for
+/// is put back where it costs more variance than promised.
+pub(super) fn check(
+    model: &Model,
+    args: &Args,
+    requirements: &Requirements,
+    source: &Source<'_>,
+    points: &[ShadingPoint],
+) -> Result<Checked, HostError> {
+    let lights = source.lights.triangles();
+    let light = Light::of(lights, points);
+    let mut now = Model::DEFAULT;
+    let mut subjects = vec![build(&now, source)?];
+    let mut before = light.pmfs(&*subjects[0], points);
+    let first = light.variance(before.as_deref().unwrap_or_default());
+    let (mut last, mut variance_before) = (0, first);
+    let mut steps = Vec::new();
+    for (part, take) in PARTS {
+        let mut then = now;
+        take(&mut then, model);
+        if then == now {
+            continue;
+        }
+        let new = build(&then, source)?;
+        let promise = promise(part, &then, requirements);
+        let pmfs = light.pmfs(&*new, points);
+        let compared = match (promise, &before, &pmfs) {
+            (Promise::BitsBelowInstance, Some(before), Some(_)) => {
+                let seen = points.iter().map(|point| Instance::IDENTITY.to_local(point));
+                let pmfs = light.pmfs(&*new, &seen.collect::<Vec<_>>());
+                Compared::of(before, &pmfs.unwrap_or_default())
+            }
+            (_, Some(before), Some(pmfs)) => Compared::of(before, pmfs),
+            _ => Compared::of_samples(&*subjects[last], &*new, points),
+        };
+        let variance = pmfs
+            .as_deref()
+            .map_or(variance_before, |pmfs| light.variance(pmfs));
+        let held = match promise {
+            Promise::Variance => variance <= MOST_VARIANCE * variance_before,
+            _ => compared.different == 0,
+        };
+        let put_back = !held && promise == Promise::Variance && !args.asks_for(part);
+        subjects.push(new);
+        steps.push(Step {
+            part,
+            promise,
+            compared: compared.count,
+            different: compared.different,
+            most: compared.most,
+            variance,
+            variance_before,
+            held,
+            put_back,
+            cost: Cost::default(),
+        });
+        if !put_back {
+            (now, last, before, variance_before) = (then, subjects.len() - 1, pmfs, variance);
+        }
+    }
+    let costs = costs(&subjects, points, lights.len());
+    for (step, cost) in steps.iter_mut().zip(&costs[1..]) {
+        step.cost = *cost;
+    }
+    Ok(Checked {
+        model: now,
+        variance: first,
+        default: costs[0],
+        cost: costs[last],
+        steps,
+    })
+}
+
+/// Bytes, and times in turns that each begin with another subject.
+fn costs(subjects: &[Box<dyn Subject>], points: &[ShadingPoint], lights: usize) -> Vec<Cost> {
+    let passes = SAMPLES_IN_A_TURN.div_ceil(points.len() as u32);
+    let mut times: Vec<Vec<f64>> = vec![Vec::new(); subjects.len()];
+    for turn in 0..TURNS {
+        for k in 0..subjects.len() {
+            let at = (k + turn as usize) % subjects.len();
+            let time = ms(subjects[at].time(points, hash(turn), passes));
+            times[at].push(1e6 * time / f64::from(passes) / points.len() as f64);
+        }
+    }
+    let lights = lights.max(1) as f64;
+    let both = subjects.iter().zip(&times);
+    both.map(|(subject, own)| Cost {
+        bytes_per_light: subject.read_bytes() as f64 / lights,
+        memory_per_light: subject.all_bytes() as f64 / lights,
+        ns_per_sample: Interval::of(own.clone()).median,
+        ns_saved: Interval::of(times[0].iter().zip(own).map(|(a, b)| a - b).collect()),
+    })
+    .collect()
+}

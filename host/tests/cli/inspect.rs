@@ -1,0 +1,338 @@
+//! What a scene requires, on small files that differ in one thing each.
+
+use serde_json::{Value, json};
+
+use crate::program::{Folder, json as report, refused, run};
+
+/// A floor of two triangles, and lamps of two triangles each above it.
+struct Room {
+    lamps: u32,
+    /// How many of them shine from one side; they are a primitive, so a mesh light, of their own.
+    one_sided: u32,
+    /// Column-major, of the lamps' node.
+    matrix: Option<[f32; 16]>,
+    /// Whether the lamps' node moves.
+    moves: bool,
+    emits: f32,
+}
+
+impl Default for Room {
+    fn default() -> Self {
+        Self {
+            lamps: 12,
+            one_sided: 0,
+            matrix: None,
+            moves: false,
+            emits: 1.0,
+        }
+    }
+}
+
+impl Room {
+    /// Writes the room as glTF beside its buffer and returns its path.
+    fn write(&self, folder: &Folder, name: &str) -> String {
+        let mut floats = quad([-4.0, 0.0, 4.0], [8.0, -8.0]);
+        for lamp in 0..self.lamps {
+            let [x, z] = [lamp % 4, lamp / 4].map(|k| 2.0 * k as f32 - 3.0);
+            floats.extend(quad([x, 3.0, z], [0.5, 0.5]));
+        }
+        // The times and places of a node that moves.
+        let keys = floats.len();
+        floats.extend([0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.5, 0.0]);
+        let bytes: Vec<u8> = floats.iter().flat_map(|x| x.to_le_bytes()).collect();
+        let buffer = format!("{name}.bin");
+        std::fs::write(folder.file(&buffer), &bytes).expect("a buffer");
+        let path = folder.file(&format!("{name}.gltf"));
+        let text = self.json(&buffer, bytes.len(), keys).to_string();
+        std::fs::write(&path, text).expect("a scene");
+        path
+    }
+
+    fn json(&self, buffer: &str, bytes: usize, keys: usize) -> Value {
+        let quads = |first: u32, count: u32| {
+            json!({
+                "bufferView": 0, "byteOffset": 72 * first, "componentType": 5126, "count": 6 * count, "type": "VEC3",
+                "min": [-10.0, -10.0, -10.0], "max": [10.0, 10.0, 10.0]
+            })
+        };
+        let emissive = [self.emits; 3];
+        let both = self.lamps - self.one_sided;
+        let mut accessors = vec![quads(0, 1)];
+        let mut primitives = Vec::new();
+        for (first, count, material) in [(1, both, 1), (1 + both, self.one_sided, 2)] {
+            if count > 0 {
+                primitives
+                    .push(json!({ "attributes": { "POSITION": accessors.len() }, "material": material }));
+                accessors.push(quads(first, count));
+            }
+        }
+        let mut lamps = json!({ "mesh": 1, "name": "lamps" });
+        if let Some(matrix) = self.matrix {
+            lamps["matrix"] = json!(matrix);
+        }
+        let mut root = json!({
+            "asset": { "version": "2.0" },
+            "scene": 0,
+            "scenes": [{ "nodes": [0, 1] }],
+            "nodes": [{ "mesh": 0 }, lamps],
+            "meshes": [
+                { "primitives": [{ "attributes": { "POSITION": 0 }, "material": 0 }] },
+                { "primitives": primitives }
+            ],
+            "materials": [
+                { "name": "floor" },
+                { "emissiveFactor": emissive, "doubleSided": true },
+                { "emissiveFactor": emissive }
+            ],
+            "bufferViews": [{ "buffer": 0, "byteLength": bytes }],
+            "buffers": [{ "uri": buffer, "byteLength": bytes }]
+        });
+        if self.moves {
+            let first = accessors.len();
+            let key = |offset: usize, kind: &str, min: Value, max: Value| {
+                json!({
+                    "bufferView": 0, "byteOffset": 4 * offset, "componentType": 5126, "count": 2, "type": kind,
+                    "min": min, "max": max
+                })
+            };
+            accessors.push(key(keys, "SCALAR", json!([0.0]), json!([1.0])));
+            accessors.push(key(
+                keys + 2,
+                "VEC3",
+                json!([0.0, 0.0, 0.0]),
+                json!([1.0, 0.5, 0.0]),
+            ));
+            root["animations"] = json!([{
+                "samplers": [{ "input": first, "output": first + 1 }],
+                "channels": [{ "sampler": 0, "target": { "node": 1, "path": "translation" } }]
+            }]);
+        }
+        root["accessors"] = json!(accessors);
+        root
+    }
+}
+
+/// Two triangles in a plane of constant height, with a corner and two sides given. Sides of equal sign shine down.
+fn quad([x, y, z]: [f32; 3], [width, depth]: [f32; 2]) -> Vec<f32> {
+    let corner = |i: f32, k: f32| [x + i * width, y, z + k * depth];
+    let corners = [
+        corner(0.0, 0.0),
+        corner(1.0, 0.0),
+        corner(0.0, 1.0),
+        corner(1.0, 0.0),
+        corner(1.0, 1.0),
+        corner(0.0, 1.0),
+    ];
+    corners.concat()
+}
+
+fn fact<'a>(report: &'a Value, name: &str) -> &'a Value {
+    let facts = report["facts"].as_array().expect("facts");
+    let fact = facts.iter().find(|fact| fact["name"] == name);
+    &fact.unwrap_or_else(|| panic!("no fact {name}"))["found"]
+}
+
+fn step<'a>(report: &'a Value, part: &str) -> &'a Value {
+    let steps = report["steps"].as_array().expect("steps");
+    let step = steps.iter().find(|step| step["part"] == part);
+    step.unwrap_or_else(|| panic!("no step {part} in {steps:?}"))
+}
+
+/// Everything that is said of costs is a number, and bits are equal where that is promised.
+fn assert_sound(report: &Value) {
+    assert_eq!(report["holds"], true);
+    for step in report["steps"].as_array().expect("steps") {
+        if step["promise"] != "variance" {
+            assert_eq!(step["different"], 0, "{step}");
+            assert!(step["compared"].as_u64() > Some(0), "{step}");
+        }
+        for figure in ["variance", "bytes_per_light", "memory_per_light", "ns_per_sample"] {
+            let found = step[figure].as_f64();
+            assert!(found.is_some_and(|x| x >= 0.0), "{figure}: {step}");
+        }
+        let [low, median, high] =
+            ["low", "median", "high"].map(|end| step["ns_saved"][end].as_f64().expect("an interval"));
+        assert!(low <= median && median <= high, "{step}");
+    }
+}
+
+#[test]
+fn built_in_scenes_keep_no_triangles_of_meshes_that_stay() {
+    let moving = report("inspect street --json --points 16");
+    assert_sound(&moving);
+    assert_eq!(fact(&moving, "orientation"), "present");
+    assert_eq!(fact(&moving, "one mesh"), "no");
+    assert_eq!(fact(&moving, "transforms"), "rigid");
+    assert_eq!(moving["model"]["updates"], "instances");
+    assert_eq!(moving["checked_frame"], 1);
+    assert_eq!(moving["kernels"]["committed"], true);
+    assert_eq!(moving["reasons"].as_array().map(Vec::len), Some(4));
+    let saved = |report: &Value| report["saved"]["memory_per_light"].as_f64().expect("bytes");
+    let still = report("inspect street --json --points 16 --static");
+    assert_sound(&still);
+    assert_eq!(still["model"]["updates"], "nothing");
+    assert_eq!(still["checked_frame"], 0);
+    // The states of instances and the lists of the top level on top.
+    assert!(saved(&still) > saved(&moving) && saved(&moving) > 5.0);
+    // Nothing is left out where anything may change.
+    let anything = report("inspect street --json --points 16 --changes triangles,meshes");
+    assert_eq!(anything["steps"], json!([]));
+    assert_eq!(anything["saved"]["memory_per_light"], 0.0);
+}
+
+#[test]
+fn one_mesh_of_two_sided_lamps_needs_neither_normals_nor_a_top_level() {
+    let folder = Folder::new("inspect");
+    let path = Room::default().write(&folder, "room");
+    let found = report(&format!("inspect {path} --json"));
+    assert_sound(&found);
+    assert_eq!(fact(&found, "two-sided only"), "yes");
+    assert_eq!(fact(&found, "one mesh"), "yes");
+    assert_eq!(
+        found["model"]["type"],
+        "StaticBvh<TwoSidedMomentNode<8>, Defensive<Moments, 6>, 8>"
+    );
+    assert_eq!(found["model"]["levels"], 1);
+    assert_eq!(step(&found, "layout")["promise"], "bits");
+    assert_eq!(step(&found, "levels")["promise"], "bits-below-instance");
+    let command = found["kernels"]["command"].as_str().expect("a command");
+    assert!(
+        command.contains("--layout two-sided --width 8 --share 6"),
+        "{command}"
+    );
+    // On devices that is refused with the command; the default's nodes are compiled.
+    let said = refused(&format!("inspect {path} --backend vulkan"));
+    assert!(said.contains(command), "{said}");
+    let asked = report(&format!(
+        "inspect {path} --json --backend vulkan --layout moments"
+    ));
+    assert_eq!(asked["overridden"], true);
+    assert_eq!(asked["kernels"]["committed"], true);
+    // Without a question for probabilities there are no trails, and samples are compared in their place.
+    let least = report(&format!("inspect {path} --json --no-mis --uniform none"));
+    assert_sound(&least);
+    assert_eq!(
+        least["model"]["type"],
+        "StaticBvh<TwoSidedMomentNode<8>, Moments, 8, NoTrails>"
+    );
+    assert_eq!(step(&least, "trails")["compared"], 256 * 64);
+}
+
+#[test]
+fn each_difference_is_found() {
+    let folder = Folder::new("inspect-differences");
+    let of = |name: &str, room: Room| {
+        let path = room.write(&folder, name);
+        let found = report(&format!("inspect {path} --json --points 64"));
+        assert_sound(&found);
+        found
+    };
+    let default = Room::default;
+    let found = of(
+        "moves",
+        Room {
+            moves: true,
+            ..default()
+        },
+    );
+    assert_eq!(found["motion"]["moving"], 1);
+    assert_eq!(found["model"]["levels"], 2);
+    assert_eq!(
+        found["model"]["type"],
+        "StaticMeshBvh<TwoSidedMomentNode<8>, Defensive<Moments, 6>, 8>"
+    );
+    let found = of(
+        "all-but-one",
+        Room {
+            one_sided: 1,
+            ..default()
+        },
+    );
+    assert_eq!(fact(&found, "orientation"), "present");
+    assert_eq!(found["model"]["layout"], "moments");
+    let reason = found["reasons"][0].as_str().expect("a sentence");
+    assert!(
+        reason.contains("2 of 24 triangles shine from one side"),
+        "{reason}"
+    );
+    let mut sheared = [0.0; 16];
+    for k in 0..4 {
+        sheared[5 * k] = 1.0;
+    }
+    sheared[4] = 0.5;
+    let found = of(
+        "sheared",
+        Room {
+            matrix: Some(sheared),
+            ..default()
+        },
+    );
+    assert_eq!(fact(&found, "transforms"), "non-uniform");
+    // Another tree: kept where variance allows it, else put back.
+    let levels = step(&found, "levels");
+    assert_eq!(levels["promise"], "variance");
+    assert_eq!(levels["put_back"] == json!(true), found["model"]["levels"] == 2);
+    let found = of(
+        "one",
+        Room {
+            lamps: 1,
+            ..default()
+        },
+    );
+    assert_eq!(found["lights"], 2);
+}
+
+#[test]
+fn words_are_for_people() {
+    let folder = Folder::new("inspect-words");
+    let path = Room::default().write(&folder, "room");
+    let output = run(&format!("inspect {path} --points 16"));
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{said}");
+    for words in [
+        "24 of 24 triangles shine from both sides",
+        "  layout: ",
+        "  levels: one, because one mesh",
+        "  trails: kept",
+        "  updates: nothing changes",
+        "kernels for devices: not committed",
+        "saved against the default: ",
+        "model, as chosen: ",
+    ] {
+        assert!(said.contains(words), "{words} in\n{said}");
+    }
+}
+
+#[test]
+fn what_does_not_fit_is_refused() {
+    let folder = Folder::new("inspect-refused");
+    let dark = Room {
+        emits: 0.0,
+        ..Room::default()
+    };
+    let dark = dark.write(&folder, "dark");
+    let said = refused(&format!("inspect {dark}"));
+    assert!(said.contains("dark"), "{said}");
+    let broken = Room::default().write(&folder, "broken");
+    let buffer = folder.file("broken.bin");
+    let mut bytes = std::fs::read(&buffer).expect("the buffer");
+    bytes[100..104].copy_from_slice(&f32::NAN.to_le_bytes());
+    std::fs::write(&buffer, bytes).expect("the buffer");
+    let said = refused(&format!("inspect {broken}"));
+    assert!(said.contains("NaN"), "{said}");
+    for (options, words) in [
+        ("--levels one", "take two levels"),
+        ("--updates nothing", "keep updates of instances"),
+        (
+            "--changes triangles --updates instances",
+            "keep updates of meshes",
+        ),
+        ("--layout lean --width 4", "--layout moments or two-sided"),
+        ("--width 3", "--width"),
+        ("--static --changes radiance", "--changes"),
+        ("--points 0", "--points"),
+    ] {
+        let said = refused(&format!("inspect street {options}"));
+        assert!(said.contains(words), "{options}: {said}");
+    }
+}
