@@ -156,11 +156,9 @@ pub use bvh::{Bvh, Edit, LightBvh};
 pub use lights::Lights;
 #[cfg(feature = "std")]
 pub use rebuilder::Rebuilder;
-#[cfg(feature = "alloc")]
-pub use transform::Transform;
 
 pub use light::{EmissiveTriangle, LightPoint};
-pub use point::{GlossyPoint, Receiver, ShadingPoint};
+pub use point::ShadingPoint;
 pub use traverse::{Random64, SampledLight};
 
 // Short paths to what is documented in a module.
@@ -182,11 +180,16 @@ pub use node::{
     BoundsNode, CompactNode, FullMomentNode, FullNode, LeanMomentNode, LightBounds, LightMoments, LightNode,
     MomentLayout, MomentNode, Summary, TwoSidedMomentNode,
 };
+#[doc(hidden)]
+pub use point::{GlossyPoint, Receiver};
 #[cfg(feature = "std")]
 #[doc(hidden)]
 pub use rebuilder::RebuilderParams;
 #[doc(hidden)]
 pub use refit::Instance;
+#[cfg(feature = "alloc")]
+#[doc(hidden)]
+pub use transform::Transform;
 #[doc(hidden)]
 pub use tree::{DefaultTree, INVALID, LightTree, TreeWords};
 

@@ -61,6 +61,8 @@ pub use validate::Stats;
 pub use crate::levels::Levels;
 #[cfg(feature = "std")]
 pub use crate::rebuilder::{FrameStart, RebuildError, RebuilderParams, Swap};
+#[doc(inline)]
+pub use crate::transform::Transform;
 
 use self::blas::Blas;
 use self::ranges::Ranges;

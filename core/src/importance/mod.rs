@@ -29,6 +29,8 @@ pub use phi::Flux;
 
 use crate::exact;
 use crate::point::ShadingPoint;
+#[doc(inline)]
+pub use crate::point::{GlossyPoint, Receiver};
 
 /// A measure of what the lights below each child of a node may contribute at a point. A type chooses it, so that kernels
 /// contain one only.
