@@ -16,10 +16,10 @@ pub(super) struct Front {
     pub sentences: Vec<String>,
 }
 
-/// The points that no other beats: takes no more time for an image of the same rays, has no more error in it, and clearly less of one.
+/// The points that no other beats: takes no more time for a frame of the same rays, has no more error in it, and clearly less of one.
 pub(super) fn fronts(points: &[Point]) -> Front {
     let beats = |a: &Point, b: &Point| {
-        let time = a.images.time_ratio.median / b.images.time_ratio.median;
+        let time = a.images.frame_ratio.median / b.images.frame_ratio.median;
         let error = a.images.error / b.images.error;
         time <= NOISE && error <= NOISE && (time * NOISE * NOISE < 1.0 || error * NOISE * NOISE < 1.0)
     };
@@ -33,7 +33,7 @@ pub(super) fn fronts(points: &[Point]) -> Front {
         .filter_map(|(point, &pareto)| pareto.then_some(point))
         .collect();
     front.sort_by(|a, b| {
-        let (a, b) = (a.images.time_ratio.median, b.images.time_ratio.median);
+        let (a, b) = (a.images.frame_ratio.median, b.images.frame_ratio.median);
         a.total_cmp(&b)
     });
     let sentences = front
@@ -42,10 +42,10 @@ pub(super) fn fronts(points: &[Point]) -> Front {
             let [a, b] = [pair[0], pair[1]];
             let percent = |b: f64, a: f64| 100.0 * (b / a - 1.0);
             format!(
-                "from {} to {}: {:+.0} % time of an image, {:+.0} % error by the same rays, {:+.0} % at equal time",
+                "from {} to {}: {:+.0} % time of a frame, {:+.0} % error by the same rays, {:+.0} % at equal time",
                 a.config,
                 b.config,
-                percent(b.images.time_ratio.median, a.images.time_ratio.median),
+                percent(b.images.frame_ratio.median, a.images.frame_ratio.median),
                 percent(b.images.error, a.images.error),
                 percent(b.images.error_equal_time, a.images.error_equal_time),
             )
@@ -69,6 +69,7 @@ impl fmt::Display for Config {
             Axis::Width => write!(f, "{} children", self.width),
             Axis::Builder => write!(f, "built by {builder}"),
             Axis::Levels => write!(f, "{}, {}", self.levels.name(), self.importance),
+            Axis::Update => write!(f, "{}, {}", self.levels.name(), self.update.name()),
             Axis::Candidates => write!(f, "1 of {} candidates", self.candidates),
         }
     }

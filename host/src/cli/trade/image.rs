@@ -14,6 +14,9 @@ use crate::render::Film;
 /// Seeds from here on belong to the reference.
 const REFERENCE_SEED: u32 = 1 << 31;
 
+/// Shadow rays of a pixel that count as fitting into a frame even where nothing does.
+const LEAST_SAMPLES: f64 = 0.05;
+
 /// How much is measured.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Budget {
@@ -56,11 +59,15 @@ impl Budget {
 
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Images {
+    /// Time of an image by the same shadow rays.
+    pub image_ms: f64,
     /// Time of an image by the same shadow rays over the default's, seed by seed.
     pub time_ratio: Interval,
+    /// The same of a frame: an update and an image.
+    pub frame_ratio: Interval,
     /// Mean squared error of such images as displayed, in squared steps of a byte, without the reference's own.
     pub error: f64,
-    /// The error by as many shadow rays as fit into the default's time: between the errors of images by the whole numbers beside that.
+    /// The error by as many shadow rays as fit into the default's frame beside the update: between the errors of images by the whole numbers beside that.
     pub error_equal_time: f64,
     /// How many those are.
     pub samples_equal_time: f64,
@@ -70,6 +77,7 @@ pub(super) struct Images {
 
 pub(super) fn images(
     subjects: &mut [Box<dyn Subject>],
+    updates_ms: &[f64],
     arrays: &SceneArrays,
     background: [f32; 3],
     budget: &Budget,
@@ -99,11 +107,15 @@ pub(super) fn images(
         }
     }
     let default = times[0].clone();
+    let frames = |times: &[f64], update: f64| times.iter().map(|time| time + update).collect::<Vec<f64>>();
+    let default_frame = frames(&default, updates_ms[0]);
     let mut out = Vec::new();
-    let measured = times.into_iter().zip(errors).zip(biases);
-    for (subject, ((times, error), biases)) in subjects.iter_mut().zip(measured) {
-        let time_ratio = Interval::of_ratios(&times, &default);
-        let fits = f64::from(budget.samples) / time_ratio.median;
+    let measured = times.into_iter().zip(errors).zip(biases).zip(updates_ms);
+    for (subject, (((times, error), biases), &update)) in subjects.iter_mut().zip(measured) {
+        let left: Vec<f64> = default_frame.iter().map(|frame| frame - update).collect();
+        let fits = f64::from(budget.samples) * Interval::of_ratios(&left, &times).median;
+        // Errors of fewer are not measured, but extrapolated; an update that leaves no time at all has no image.
+        let fits = fits.max(LEAST_SAMPLES);
         let fewer = (fits.floor() as u32).max(1);
         let mut beside = [0.0; 2];
         for (error, samples) in beside.iter_mut().zip([fewer, fewer + 1]) {
@@ -117,7 +129,9 @@ pub(super) fn images(
         let (low, high) = (f64::from(fewer), f64::from(fewer + 1));
         let share = (fits.max(1.0) / low).ln() / (high / low).ln();
         out.push(Images {
-            time_ratio,
+            time_ratio: Interval::of_ratios(&times, &default),
+            frame_ratio: Interval::of_ratios(&frames(&times, update), &default_frame),
+            image_ms: Interval::of(times).median,
             error,
             error_equal_time: a * (b / a).powf(share) / fits.min(1.0),
             samples_equal_time: fits,

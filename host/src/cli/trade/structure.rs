@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::choices::Subject;
 use super::image::Budget;
 use super::quantile::Interval;
+use super::update::{Frame, Updates};
 use crate::cli::times::ms;
 use crate::cli::variance::irradiance::irradiance;
 use crate::error::HostError;
@@ -19,8 +20,10 @@ const TRIALS: u32 = 32;
 pub(super) struct Structure {
     pub bytes_per_light: f64,
     pub build_ms: f64,
-    /// All lights move.
+    /// Edits and new bounds of a frame; 0 where every frame has a new tree.
     pub refit_ms: f64,
+    /// All that the update policy does for a frame, on average over the animation.
+    pub update_ms: f64,
     /// All candidates of a sample.
     pub ns_per_sample: f64,
     /// Time of a sample over the default's, turn by turn.
@@ -32,11 +35,12 @@ pub(super) struct Structure {
 
 pub(super) fn structures(
     subjects: &mut [Box<dyn Subject>],
-    lights: &Lights,
-    later: &Lights,
+    frame: &Frame<'_>,
+    updates: Vec<Updates>,
     points: &[ShadingPoint],
     budget: &Budget,
 ) -> Result<Vec<Structure>, HostError> {
+    let lights = frame.lights;
     let triangles = lights.triangles();
     let sent: Vec<Vec<f64>> = points
         .par_iter()
@@ -55,11 +59,8 @@ pub(super) fn structures(
             times
                 .sample
                 .push(1e6 * time / f64::from(budget.passes) / points.len() as f64);
-            times
-                .refit
-                .push(ms(subject.follow(if turn % 2 == 0 { later } else { lights })?));
             if turn < 3 {
-                times.build.push(ms(subject.build(lights)));
+                times.build.push(ms(subject.build(frame)?));
             }
         }
     }
@@ -67,12 +68,13 @@ pub(super) fn structures(
     subjects
         .iter_mut()
         .zip(times)
-        .map(|(subject, times)| {
-            subject.follow(lights)?;
+        .zip(updates)
+        .map(|((subject, times), updates)| {
             Ok(Structure {
                 bytes_per_light: subject.bytes() as f64 / triangles.len() as f64,
                 build_ms: Interval::of(times.build).median,
-                refit_ms: Interval::of(times.refit).median,
+                refit_ms: updates.refit_ms(),
+                update_ms: updates.mean_ms(),
                 sample_ratio: Interval::of_ratios(&times.sample, &default),
                 ns_per_sample: Interval::of(times.sample).median,
                 variance: variance(&**subject, lights, points, &sent),
@@ -84,7 +86,6 @@ pub(super) fn structures(
 #[derive(Clone, Debug, Default)]
 struct Times {
     sample: Vec<f64>,
-    refit: Vec<f64>,
     build: Vec<f64>,
 }
 
