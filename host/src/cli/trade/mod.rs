@@ -4,6 +4,7 @@
 mod choices;
 mod front;
 mod image;
+mod light;
 mod quantile;
 mod structure;
 mod update;
@@ -54,7 +55,8 @@ struct Point {
     structure: Structure,
     #[serde(flatten)]
     images: Images,
-    /// Whether nothing else takes less time for a frame of the same rays and has less error in it.
+    /// Whether nothing else surely takes less time for a frame of the same rays, or surely has less error in it, at no surely greater
+    /// cost of the other.
     pareto: bool,
 }
 
@@ -128,6 +130,7 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<Vec<Point>, 
     let structures = structures(
         &mut subjects,
         &Frame::new(&scene, args.frame, &last),
+        &arrays.rays.surfaces(),
         updates,
         &points,
         budget,
@@ -181,10 +184,21 @@ fn print(points: &[Point]) -> Result<(), HostError> {
             ("image ms", |p| format!("{:.1}", p.images.image_ms)),
             ("sample ns", |p| format!("{:.0}", p.structure.ns_per_sample)),
             ("to default", |p| ratio(&p.structure.sample_ratio)),
-            ("variance", |p| format!("{:.3}", p.structure.variance)),
+            ("variance", |p| format!("{:.3}", p.structure.variances.variance)),
+            ("median", |p| {
+                format!("{:.3}", p.structure.variances.variance_median)
+            }),
+            ("shadowed", |p| {
+                format!("{:.2}", p.structure.variances.shadowed_variance)
+            }),
+            ("median", |p| {
+                format!("{:.2}", p.structure.variances.shadowed_variance_median)
+            }),
             ("frame time", |p| ratio(&p.images.frame_ratio)),
             ("error", |p| format!("{:.0}", p.images.error)),
+            ("to default", |p| ratio(&p.images.error_ratio)),
             ("at equal time", |p| format!("{:.0}", p.images.error_equal_time)),
+            ("to default", |p| ratio(&p.images.equal_time_ratio)),
             ("front", |p| table::yes(p.pareto)),
         ],
     )?)
