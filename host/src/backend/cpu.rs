@@ -35,6 +35,11 @@ impl<C: Choice<W>, const W: usize> CpuBackend<C, W> {
     pub fn bvh(&self) -> &Bvh<C, W> {
         &self.bvh
     }
+
+    /// The BVH, to bring it to another frame; it must be refitted before the next pass.
+    pub fn bvh_mut(&mut self) -> &mut Bvh<C, W> {
+        &mut self.bvh
+    }
 }
 
 impl<C: Choice<W>, const W: usize> Backend for CpuBackend<C, W> {

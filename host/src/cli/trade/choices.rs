@@ -1,4 +1,4 @@
-//! The configurations that are measured: by importance, layout, width, builder, levels and candidates, one axis at a time from the
+//! The configurations that are measured: by importance, layout, width, builder, levels, update and candidates, one axis at a time from the
 //! default.
 
 use std::marker::PhantomData;
@@ -8,17 +8,18 @@ use lightbvh::exact::hash;
 use lightbvh::importance::DefaultImportance;
 use lightbvh::node::{FullMomentNode, LeanMomentNode};
 use lightbvh::{
-    BuildParams, CompactNode, Cycles, Eq4, Falcor, Flux, FluxOverDistance, ImportanceModel, LightNode,
-    Lights, MomentNode, Moments, Pbrt, Random64, ShadingPoint, SphericalGaussian,
+    CompactNode, Cycles, Eq4, Falcor, Flux, FluxOverDistance, ImportanceModel, LightNode, Lights, MomentNode,
+    Moments, Pbrt, Random64, ShadingPoint, SphericalGaussian,
 };
 use lightbvh_kernels::bvh::Choice;
 use lightbvh_kernels::render::RenderParams;
 use serde::Serialize;
 
+use super::update::{Followed, Frame, Spent, Update};
 use crate::backend::{Backend, Bvh, CpuBackend, Integrator, Sampler, SceneArrays, Timed};
 use crate::error::HostError;
 use crate::method::Builder;
-use crate::workload::{build, instance_of};
+use crate::workload::instance_of;
 
 /// What a user can choose.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -30,6 +31,7 @@ pub(super) struct Config {
     pub layout: &'static str,
     pub width: usize,
     pub builder: Builder,
+    pub update: Update,
     /// Candidates of each sample.
     pub candidates: u32,
 }
@@ -50,6 +52,8 @@ pub(super) enum Axis {
     Builder,
     /// One level or two.
     Levels,
+    /// How the tree follows moving lights.
+    Update,
     /// Candidates of a sample.
     Candidates,
 }
@@ -84,11 +88,11 @@ pub(super) trait Subject {
 
     fn bytes(&self) -> usize;
 
-    /// Builds the tree again.
-    fn build(&self, lights: &Lights) -> Duration;
+    /// Builds the tree of a frame, beside the one there is.
+    fn build(&self, frame: &Frame<'_>) -> Result<Duration, HostError>;
 
-    /// Brings the tree to other lights of the same meshes.
-    fn follow(&mut self, lights: &Lights) -> Result<Duration, HostError>;
+    /// Brings the tree to the next frame.
+    fn advance(&mut self, frame: &Frame<'_>) -> Result<Spent, HostError>;
 
     /// Samples each point once. Numbers begin with hash(`first`).
     fn sample(&self, points: &[ShadingPoint], first: u32) -> Duration;
@@ -112,20 +116,30 @@ where
 {
     config: Config,
     backend: CpuBackend<Pair<N, I>, W>,
+    followed: Followed,
 }
 
-/// All configurations over `lights`, the default first.
-pub(super) fn all(lights: &Lights) -> Vec<Box<dyn Subject>> {
+/// All configurations over the lights of the `first` frame of the animation, the default first.
+pub(super) fn all(first: &Frame<'_>) -> Result<Vec<Box<dyn Subject>>, HostError> {
     use Axis as A;
     type D = DefaultImportance;
     let with = |axis| With {
-        lights,
+        first,
         axis,
         levels: Sampler::TwoLevel,
         builder: Builder::Ward,
+        update: Update::usual(Sampler::TwoLevel),
         candidates: 1,
     };
-    let levels = |axis, levels| With { levels, ..with(axis) };
+    let levels = |axis, levels| With {
+        levels,
+        update: Update::usual(levels),
+        ..with(axis)
+    };
+    let update = |levels_of, update| With {
+        update,
+        ..levels(A::Update, levels_of)
+    };
     let builder = |axis, builder| With {
         builder,
         ..with(axis)
@@ -135,7 +149,7 @@ pub(super) fn all(lights: &Lights) -> Vec<Box<dyn Subject>> {
         ..with(A::Candidates)
     };
     let (one, saoh) = (Sampler::SingleLevel, Builder::Saoh);
-    vec![
+    [
         with(A::Default).of::<MomentNode<8>, D, 8>("moments+1/64"),
         with(A::Importance).of::<MomentNode<8>, Moments, 8>("moments"),
         builder(A::Importance, saoh).of::<CompactNode<4>, Eq4, 4>("eq4"),
@@ -158,30 +172,40 @@ pub(super) fn all(lights: &Lights) -> Vec<Box<dyn Subject>> {
             ..levels(A::Levels, one)
         }
         .of::<CompactNode<4>, Eq4, 4>("eq4"),
+        update(Sampler::TwoLevel, Update::Refit).of::<MomentNode<8>, D, 8>("moments+1/64"),
+        update(Sampler::TwoLevel, Update::Rebuild).of::<MomentNode<8>, D, 8>("moments+1/64"),
+        update(Sampler::TwoLevel, Update::EveryEighth).of::<MomentNode<8>, D, 8>("moments+1/64"),
+        update(one, Update::Rebuild).of::<MomentNode<8>, D, 8>("moments+1/64"),
+        update(one, Update::EveryEighth).of::<MomentNode<8>, D, 8>("moments+1/64"),
         candidates(2).of::<MomentNode<8>, D, 8>("moments+1/64"),
         candidates(4).of::<MomentNode<8>, D, 8>("moments+1/64"),
         candidates(8).of::<MomentNode<8>, D, 8>("moments+1/64"),
         candidates(16).of::<MomentNode<8>, D, 8>("moments+1/64"),
     ]
+    .into_iter()
+    .collect()
 }
 
 /// What does not take a type.
 struct With<'a> {
-    lights: &'a Lights,
+    first: &'a Frame<'a>,
     axis: Axis,
     levels: Sampler,
     builder: Builder,
+    update: Update,
     candidates: u32,
 }
 
 impl With<'_> {
-    fn of<N, I, const W: usize>(self, importance: &'static str) -> Box<dyn Subject>
+    fn of<N, I, const W: usize>(self, importance: &'static str) -> Result<Box<dyn Subject>, HostError>
     where
         N: LightNode<W> + std::fmt::Debug + 'static,
         I: ImportanceModel<N, W> + Clone + std::fmt::Debug + Send + Sync + 'static,
     {
-        let bvh: Bvh<Pair<N, I>, W> = build(self.lights, self.levels, &self.builder.params());
-        Box::new(Built::<N, I, W> {
+        let params = self.builder.params();
+        let (bvh, followed): (Bvh<Pair<N, I>, W>, _) =
+            Followed::build(self.first, self.levels, self.update, params)?;
+        Ok(Box::new(Built::<N, I, W> {
             config: Config {
                 axis: self.axis,
                 levels: self.levels,
@@ -189,10 +213,12 @@ impl With<'_> {
                 layout: N::NAME,
                 width: W,
                 builder: self.builder,
+                update: self.update,
                 candidates: self.candidates,
             },
             backend: CpuBackend::new(bvh),
-        })
+            followed,
+        }))
     }
 }
 
@@ -235,15 +261,25 @@ where
         self.backend.bvh().bytes()
     }
 
-    fn build(&self, lights: &Lights) -> Duration {
-        let params: BuildParams = self.config.builder.params();
+    fn build(&self, frame: &Frame<'_>) -> Result<Duration, HostError> {
+        let Config {
+            levels,
+            update,
+            builder,
+            ..
+        } = self.config;
         let start = Instant::now();
-        std::hint::black_box(build::<N, I, W>(lights, self.config.levels, &params));
-        start.elapsed()
+        std::hint::black_box(Followed::build::<N, I, W>(
+            frame,
+            levels,
+            update,
+            builder.params(),
+        )?);
+        Ok(start.elapsed())
     }
 
-    fn follow(&mut self, lights: &Lights) -> Result<Duration, HostError> {
-        Ok(self.backend.refit(lights)?.time)
+    fn advance(&mut self, frame: &Frame<'_>) -> Result<Spent, HostError> {
+        self.followed.advance(self.backend.bvh_mut(), frame)
     }
 
     fn sample(&self, points: &[ShadingPoint], first: u32) -> Duration {

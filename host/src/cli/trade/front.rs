@@ -4,9 +4,10 @@ use std::fmt;
 
 use super::Point;
 use super::choices::{Axis, Config};
+use super::quantile::Interval;
 
-/// Differences below this are noise: of times, and of errors.
-const NOISE: f64 = 1.03;
+/// Differences below this are none, however sure: of times, and of errors.
+const LEAST: f64 = 1.03;
 
 /// The front of one scene.
 pub(super) struct Front {
@@ -16,12 +17,16 @@ pub(super) struct Front {
     pub sentences: Vec<String>,
 }
 
-/// The points that no other beats: takes no more time for an image of the same rays, has no more error in it, and clearly less of one.
+/// The points that no other beats: another one beats a point if it surely takes less time for a frame of the same rays or surely has
+/// less error in it, and does not surely have more of the other. What is sure lies beyond the interval of the ratios, seed by seed, so
+/// that noise does not decide.
 pub(super) fn fronts(points: &[Point]) -> Front {
+    let less = |interval: Interval| interval.high * LEAST < 1.0;
+    let more = |interval: Interval| interval.low > LEAST;
     let beats = |a: &Point, b: &Point| {
-        let time = a.images.time_ratio.median / b.images.time_ratio.median;
-        let error = a.images.error / b.images.error;
-        time <= NOISE && error <= NOISE && (time * NOISE * NOISE < 1.0 || error * NOISE * NOISE < 1.0)
+        let time = Interval::of_ratios(&a.images.frames, &b.images.frames);
+        let error = Interval::of_ratios(&a.images.errors, &b.images.errors);
+        (less(time) && !more(error)) || (less(error) && !more(time))
     };
     let pareto: Vec<bool> = points
         .iter()
@@ -33,7 +38,7 @@ pub(super) fn fronts(points: &[Point]) -> Front {
         .filter_map(|(point, &pareto)| pareto.then_some(point))
         .collect();
     front.sort_by(|a, b| {
-        let (a, b) = (a.images.time_ratio.median, b.images.time_ratio.median);
+        let (a, b) = (a.images.frame_ratio.median, b.images.frame_ratio.median);
         a.total_cmp(&b)
     });
     let sentences = front
@@ -42,10 +47,10 @@ pub(super) fn fronts(points: &[Point]) -> Front {
             let [a, b] = [pair[0], pair[1]];
             let percent = |b: f64, a: f64| 100.0 * (b / a - 1.0);
             format!(
-                "from {} to {}: {:+.0} % time of an image, {:+.0} % error by the same rays, {:+.0} % at equal time",
+                "from {} to {}: {:+.0} % time of a frame, {:+.0} % error by the same rays, {:+.0} % at equal time",
                 a.config,
                 b.config,
-                percent(b.images.time_ratio.median, a.images.time_ratio.median),
+                percent(b.images.frame_ratio.median, a.images.frame_ratio.median),
                 percent(b.images.error, a.images.error),
                 percent(b.images.error_equal_time, a.images.error_equal_time),
             )
@@ -69,6 +74,7 @@ impl fmt::Display for Config {
             Axis::Width => write!(f, "{} children", self.width),
             Axis::Builder => write!(f, "built by {builder}"),
             Axis::Levels => write!(f, "{}, {}", self.levels.name(), self.importance),
+            Axis::Update => write!(f, "{}, {}", self.levels.name(), self.update.name()),
             Axis::Candidates => write!(f, "1 of {} candidates", self.candidates),
         }
     }

@@ -14,6 +14,9 @@ use crate::render::Film;
 /// Seeds from here on belong to the reference.
 const REFERENCE_SEED: u32 = 1 << 31;
 
+/// Shadow rays of a pixel that count as fitting into a frame even where nothing does.
+const LEAST_SAMPLES: f64 = 0.05;
+
 /// How much is measured.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Budget {
@@ -49,27 +52,43 @@ impl Budget {
         width: 96,
         height: 54,
         samples: 12,
-        seeds: 3,
+        seeds: 7,
         reference: 512,
     };
 }
 
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Images {
+    /// Time of an image by the same shadow rays.
+    pub image_ms: f64,
     /// Time of an image by the same shadow rays over the default's, seed by seed.
     pub time_ratio: Interval,
+    /// The same of a frame: an update and an image.
+    pub frame_ratio: Interval,
     /// Mean squared error of such images as displayed, in squared steps of a byte, without the reference's own.
     pub error: f64,
-    /// The error by as many shadow rays as fit into the default's time: between the errors of images by the whole numbers beside that.
+    /// The error over the default's, seed by seed.
+    pub error_ratio: Interval,
+    /// The error by as many shadow rays as fit into the default's frame beside the update: between the errors of images by the whole
+    /// numbers beside that.
     pub error_equal_time: f64,
+    /// The same over the default's, seed by seed.
+    pub equal_time_ratio: Interval,
     /// How many those are.
     pub samples_equal_time: f64,
     /// The mean of all pixels over the reference's, less 1: of images by equal rays, each a measurement.
     pub bias: Option<Estimate>,
+    /// Time of a frame, seed by seed, ms.
+    #[serde(skip)]
+    pub frames: Vec<f64>,
+    /// Errors by equal rays, seed by seed.
+    #[serde(skip)]
+    pub errors: Vec<f64>,
 }
 
 pub(super) fn images(
     subjects: &mut [Box<dyn Subject>],
+    updates_ms: &[f64],
     arrays: &SceneArrays,
     background: [f32; 3],
     budget: &Budget,
@@ -87,44 +106,70 @@ pub(super) fn images(
         background,
     };
     let reference = Reference::of(subjects, arrays, budget, params)?;
-    let (mut times, mut errors) = (vec![Vec::new(); subjects.len()], vec![0.0; subjects.len()]);
+    let (mut times, mut errors) = (vec![Vec::new(); subjects.len()], vec![Vec::new(); subjects.len()]);
     let mut biases = vec![Vec::new(); subjects.len()];
     for seed in 0..budget.seeds {
+        let mut least = vec![f64::INFINITY; subjects.len()];
+        // What interrupts one image does not interrupt the same one in the other turn.
+        for k in 0..subjects.len() {
+            let at = (k + 3 * seed as usize) % subjects.len();
+            least[at] = ms(subjects[at].render(arrays, params(budget.samples, seed))?.time);
+        }
         for k in 0..subjects.len() {
             let at = (k + seed as usize) % subjects.len();
             let image = subjects[at].render(arrays, params(budget.samples, seed))?;
-            times[at].push(ms(image.time));
+            times[at].push(least[at].min(ms(image.time)));
             biases[at].push(mean(&image.value) / reference.mean - 1.0);
-            errors[at] += reference.error(image.value, budget)? / f64::from(budget.seeds);
+            errors[at].push(reference.error(image.value, budget)?);
         }
     }
+    let frames = |times: &[f64], update: f64| times.iter().map(|time| time + update).collect::<Vec<f64>>();
     let default = times[0].clone();
+    let default_frames = frames(&default, updates_ms[0]);
+    let default_errors = errors[0].clone();
+    let mut default_equal_time = Vec::new();
     let mut out = Vec::new();
-    let measured = times.into_iter().zip(errors).zip(biases);
-    for (subject, ((times, error), biases)) in subjects.iter_mut().zip(measured) {
-        let time_ratio = Interval::of_ratios(&times, &default);
-        let fits = f64::from(budget.samples) / time_ratio.median;
+    let measured = times.into_iter().zip(errors).zip(biases).zip(updates_ms);
+    for (subject, (((times, errors), biases), &update)) in subjects.iter_mut().zip(measured) {
+        let left: Vec<f64> = default_frames.iter().map(|frame| frame - update).collect();
+        // An update that leaves no time at all has no image.
+        let fits = (f64::from(budget.samples) * Interval::of_ratios(&left, &times).median).max(LEAST_SAMPLES);
         let fewer = (fits.floor() as u32).max(1);
-        let mut beside = [0.0; 2];
-        for (error, samples) in beside.iter_mut().zip([fewer, fewer + 1]) {
-            for seed in 0..budget.seeds {
-                let image = subject.render(arrays, params(samples, budget.seeds + seed))?;
-                *error += reference.error(image.value, budget)? / f64::from(budget.seeds);
-            }
-        }
         // Errors fall by powers of the samples between them; by their inverse below one.
-        let [a, b] = beside.map(|error: f64| error.max(1e-9));
-        let (low, high) = (f64::from(fewer), f64::from(fewer + 1));
-        let share = (fits.max(1.0) / low).ln() / (high / low).ln();
+        let share = (fits.max(1.0) / f64::from(fewer)).ln() / (f64::from(fewer + 1) / f64::from(fewer)).ln();
+        let mut equal_time = Vec::new();
+        for seed in budget.seeds..budget.seeds + budget.seeds.div_ceil(2) {
+            let mut beside = [0.0; 2];
+            for (error, samples) in beside.iter_mut().zip([fewer, fewer + 1]) {
+                let image = subject.render(arrays, params(samples, seed))?;
+                *error = reference.error(image.value, budget)?.max(1e-9);
+            }
+            let [a, b] = beside;
+            equal_time.push(a * (b / a).powf(share) / fits.min(1.0));
+        }
+        if out.is_empty() {
+            default_equal_time.clone_from(&equal_time);
+        }
+        let frames = frames(&times, update);
         out.push(Images {
-            time_ratio,
-            error,
-            error_equal_time: a * (b / a).powf(share) / fits.min(1.0),
+            time_ratio: Interval::of_ratios(&times, &default),
+            frame_ratio: Interval::of_ratios(&frames, &default_frames),
+            image_ms: Interval::of(times).median,
+            error: average(&errors),
+            error_ratio: Interval::of_ratios(&errors, &default_errors),
+            error_equal_time: average(&equal_time),
+            equal_time_ratio: Interval::of_ratios(&equal_time, &default_equal_time),
             samples_equal_time: fits,
             bias: Estimate::of(&biases),
+            frames,
+            errors,
         });
     }
     Ok(out)
+}
+
+fn average(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
 }
 
 /// An image of many samples by the default, as displayed.

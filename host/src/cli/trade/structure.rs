@@ -2,14 +2,16 @@
 
 use lightbvh::exact::hash;
 use lightbvh::{Lights, Random64, ShadingPoint};
+use lightbvh_kernels::shading::trace::Surfaces;
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::choices::Subject;
 use super::image::Budget;
+use super::light::{Sent, sent};
 use super::quantile::Interval;
+use super::update::{Frame, Updates};
 use crate::cli::times::ms;
-use crate::cli::variance::irradiance::irradiance;
 use crate::error::HostError;
 
 /// Trials of several candidates at each point.
@@ -19,28 +21,43 @@ const TRIALS: u32 = 32;
 pub(super) struct Structure {
     pub bytes_per_light: f64,
     pub build_ms: f64,
-    /// All lights move.
+    /// Edits and new bounds of a frame; 0 where every frame has a new tree.
     pub refit_ms: f64,
+    /// All that the update policy does for a frame, on average over the animation.
+    pub update_ms: f64,
     /// All candidates of a sample.
     pub ns_per_sample: f64,
     /// Time of a sample over the default's, turn by turn.
     pub sample_ratio: Interval,
-    /// Of the estimate of unshadowed diffuse light by one sample, over the squared mean: mean over the points. Exact for one candidate,
-    /// by trials for more.
+    #[serde(flatten)]
+    pub variances: Variances,
+}
+
+/// Of the estimate of diffuse light by one sample, over the squared mean. Exact for one candidate, by trials for more, up to the rays
+/// that tell which share of a light is seen.
+#[derive(Clone, Debug, Default, Serialize)]
+pub(super) struct Variances {
+    /// Without shadows: mean over the points.
     pub variance: f64,
+    pub variance_median: f64,
+    /// With one shadow ray, to the one of the candidates that is taken by its light without shadows.
+    pub shadowed_variance: f64,
+    pub shadowed_variance_median: f64,
 }
 
 pub(super) fn structures(
     subjects: &mut [Box<dyn Subject>],
-    lights: &Lights,
-    later: &Lights,
+    frame: &Frame<'_>,
+    surfaces: &Surfaces<'_>,
+    updates: Vec<Updates>,
     points: &[ShadingPoint],
     budget: &Budget,
 ) -> Result<Vec<Structure>, HostError> {
+    let lights = frame.lights;
     let triangles = lights.triangles();
-    let sent: Vec<Vec<f64>> = points
+    let sent: Vec<Vec<Sent>> = points
         .par_iter()
-        .map(|point| triangles.iter().map(|t| irradiance(t, point)).collect())
+        .map(|point| sent(triangles, surfaces, point))
         .collect();
     let mut times = vec![Times::default(); subjects.len()];
     for turn in 0..budget.turns {
@@ -55,11 +72,8 @@ pub(super) fn structures(
             times
                 .sample
                 .push(1e6 * time / f64::from(budget.passes) / points.len() as f64);
-            times
-                .refit
-                .push(ms(subject.follow(if turn % 2 == 0 { later } else { lights })?));
             if turn < 3 {
-                times.build.push(ms(subject.build(lights)));
+                times.build.push(ms(subject.build(frame)?));
             }
         }
     }
@@ -67,15 +81,16 @@ pub(super) fn structures(
     subjects
         .iter_mut()
         .zip(times)
-        .map(|(subject, times)| {
-            subject.follow(lights)?;
+        .zip(updates)
+        .map(|((subject, times), updates)| {
             Ok(Structure {
                 bytes_per_light: subject.bytes() as f64 / triangles.len() as f64,
                 build_ms: Interval::of(times.build).median,
-                refit_ms: Interval::of(times.refit).median,
+                refit_ms: updates.refit_ms(),
+                update_ms: updates.mean_ms(),
                 sample_ratio: Interval::of_ratios(&times.sample, &default),
                 ns_per_sample: Interval::of(times.sample).median,
-                variance: variance(&**subject, lights, points, &sent),
+                variances: variances(&**subject, lights, points, &sent),
             })
         })
         .collect()
@@ -84,38 +99,80 @@ pub(super) fn structures(
 #[derive(Clone, Debug, Default)]
 struct Times {
     sample: Vec<f64>,
-    refit: Vec<f64>,
     build: Vec<f64>,
 }
 
-fn variance(subject: &dyn Subject, lights: &Lights, points: &[ShadingPoint], sent: &[Vec<f64>]) -> f64 {
-    let (mut sum, mut lit) = (0.0, 0);
-    let mut found = Vec::new();
+fn variances(
+    subject: &dyn Subject,
+    lights: &Lights,
+    points: &[ShadingPoint],
+    sent: &[Vec<Sent>],
+) -> Variances {
+    let (mut unshadowed, mut shadowed) = (Vec::new(), Vec::new());
     for (number, (point, sent)) in (0u32..).zip(points.iter().zip(sent)) {
-        let mean: f64 = sent.iter().sum();
+        let mean: f64 = sent.iter().map(|sent| sent.light).sum();
         if mean <= 0.0 {
             continue;
         }
-        lit += 1;
-        if subject.config().candidates == 1 {
-            let of = |(light, &sent): (u32, &f64)| match sent {
-                0.0 => 0.0,
-                _ => sent * sent / f64::from(subject.pmf(lights, point, light)),
-            };
-            let square: f64 = (0..).zip(sent).map(of).sum();
-            sum += (square / (mean * mean) - 1.0).max(0.0);
-        } else {
-            for trial in 0..TRIALS {
-                let random = Random64::from(hash(number * TRIALS + trial));
-                subject.candidates(point, random, &mut found);
-                let of = |&(light, pmf): &(u32, f32)| match pmf {
-                    0.0 => 0.0,
-                    _ => sent.get(light as usize).copied().unwrap_or(0.0) / f64::from(pmf),
-                };
-                let estimate = found.iter().map(of).sum::<f64>() / found.len() as f64;
-                sum += (estimate / mean - 1.0).powi(2) / f64::from(TRIALS);
-            }
+        let arrives: f64 = sent.iter().map(|sent| sent.light * sent.seen).sum();
+        let [square, seen] = match subject.config().candidates {
+            1 => squares(subject, lights, point, sent),
+            _ => squares_of_trials(subject, number, point, sent, [mean, arrives]),
+        };
+        unshadowed.push((square / (mean * mean) - 1.0).max(0.0));
+        if arrives > 0.0 {
+            shadowed.push((seen / (arrives * arrives) - 1.0).max(0.0));
         }
     }
-    sum / f64::from(lit.max(1))
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
+    let median = |values: Vec<f64>| match values.is_empty() {
+        true => 0.0,
+        false => Interval::of(values).median,
+    };
+    Variances {
+        variance: mean(&unshadowed),
+        shadowed_variance: mean(&shadowed),
+        variance_median: median(unshadowed),
+        shadowed_variance_median: median(shadowed),
+    }
+}
+
+/// The expected squares of the estimate without and with shadows, by one candidate: sums over all lights.
+fn squares(subject: &dyn Subject, lights: &Lights, point: &ShadingPoint, sent: &[Sent]) -> [f64; 2] {
+    let mut sums = [0.0; 2];
+    for (light, of) in (0..).zip(sent).filter(|(_, of)| of.light > 0.0) {
+        let square = of.light * of.light / f64::from(subject.pmf(lights, point, light));
+        sums[0] += square;
+        sums[1] += square * of.seen;
+    }
+    sums
+}
+
+/// The same by several, each taken in proportion to its light over its probability: the mean over trials, and over what is taken.
+/// Around the known `means`, so that few trials do.
+fn squares_of_trials(
+    subject: &dyn Subject,
+    number: u32,
+    point: &ShadingPoint,
+    sent: &[Sent],
+    means: [f64; 2],
+) -> [f64; 2] {
+    let mut sums = means.map(|mean| mean * mean);
+    let mut found = Vec::new();
+    for trial in 0..TRIALS {
+        subject.candidates(point, Random64::from(hash(number * TRIALS + trial)), &mut found);
+        let of = |&(light, pmf): &(u32, f32)| match (sent.get(light as usize), pmf) {
+            (Some(sent), pmf) if pmf > 0.0 => (sent.light / f64::from(pmf), sent.seen),
+            _ => (0.0, 0.0),
+        };
+        let weights: Vec<(f64, f64)> = found.iter().map(of).collect();
+        let sum: f64 = weights.iter().map(|(weight, _)| weight).sum();
+        let visible: f64 = weights.iter().map(|(weight, seen)| weight * seen).sum();
+        let estimate = sum / found.len() as f64;
+        let hidden = if sum > 0.0 { 1.0 - visible / sum } else { 0.0 };
+        let around = |mean: f64| (estimate - mean).powi(2);
+        sums[0] += around(means[0]) / f64::from(TRIALS);
+        sums[1] += (hidden * means[1].powi(2) + (1.0 - hidden) * around(means[1])) / f64::from(TRIALS);
+    }
+    sums
 }
