@@ -12,7 +12,7 @@ mod ssim;
 
 pub use estimate::Estimate;
 pub use flip::{flip_map, mean_flip};
-pub use mse::{mean_squared_error, psnr, relative_mean_squared_error, squared_error};
+pub use mse::{mean_squared_error, psnr, relative_mean_squared_error, relative_squared_error, squared_error};
 pub use region::Region;
 pub use ssim::{luma, ssim};
 
@@ -168,6 +168,11 @@ impl Judged<'_> {
     /// The image as displayed, three bytes per pixel.
     pub fn shown(&self) -> &[u8] {
         &self.shown
+    }
+
+    /// FLIP of each pixel, 0 to 1.
+    pub fn flip(&self) -> &[f32] {
+        &self.flip
     }
 
     /// Measures a region. FLIP sees the whole images, as a viewer does, and is averaged over the region; the other measures

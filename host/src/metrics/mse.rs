@@ -19,15 +19,19 @@ pub fn mean_squared_error<T: Into<f64> + Copy>(image: &[[T; 3]], reference: &[[T
 
 /// Mean over all channels of all pixels of `(x - r)² / (r² + 0.01)`, with image `x` and reference `r` scaled by `exposure`.
 pub fn relative_mean_squared_error(image: &[[f32; 3]], reference: &[[f32; 3]], exposure: f32) -> f64 {
+    let pairs = image.iter().zip(reference);
+    let sum: f64 = pairs.map(|(&x, &r)| relative_squared_error(x, r, exposure)).sum();
+    sum / image.len().max(1) as f64
+}
+
+/// The same of one pixel: the mean over its channels.
+pub fn relative_squared_error(pixel: [f32; 3], reference: [f32; 3], exposure: f32) -> f64 {
     let scale = f64::from(exposure);
-    let pairs = image.iter().flatten().zip(reference.iter().flatten());
-    let sum: f64 = pairs
-        .map(|(&x, &r)| {
-            let (x, r) = (f64::from(x) * scale, f64::from(r) * scale);
-            (x - r).powi(2) / (r * r + DARK)
-        })
-        .sum();
-    sum / (3 * image.len().max(1)) as f64
+    let of = |(x, r): (f32, f32)| {
+        let (x, r) = (f64::from(x) * scale, f64::from(r) * scale);
+        (x - r).powi(2) / (r * r + DARK)
+    };
+    pixel.into_iter().zip(reference).map(of).sum::<f64>() / 3.0
 }
 
 /// Peak signal-to-noise ratio of 8-bit images, dB: `10 log10(255² / mse)`, infinite for no error.

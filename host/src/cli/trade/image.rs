@@ -8,7 +8,7 @@ use super::quantile::Interval;
 use crate::backend::SceneArrays;
 use crate::cli::times::ms;
 use crate::error::HostError;
-use crate::metrics::{Estimate, mean_squared_error};
+use crate::metrics::{Estimate, Judge, Quality, mean_squared_error};
 use crate::render::Film;
 
 /// Seeds from here on belong to the reference.
@@ -55,6 +55,10 @@ impl Budget {
         seeds: 7,
         reference: 512,
     };
+
+    fn film(&self, pixels: Vec<[f32; 3]>) -> Result<Film, HostError> {
+        Ok(Film::new(self.width, self.height, pixels)?)
+    }
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -78,6 +82,11 @@ pub(super) struct Images {
     pub samples_equal_time: f64,
     /// The mean of all pixels over the reference's, less 1: of images by equal rays, each a measurement.
     pub bias: Option<Estimate>,
+    /// Every measure of images by equal rays, means over the seeds.
+    pub quality: Quality,
+    /// An image of the default's time, as nearly as whole rays allow, and its shadow rays of a pixel.
+    #[serde(skip)]
+    pub shown: (Film, u32),
     /// Time of a frame, seed by seed, ms.
     #[serde(skip)]
     pub frames: Vec<f64>,
@@ -92,7 +101,7 @@ pub(super) fn images(
     arrays: &SceneArrays,
     background: [f32; 3],
     budget: &Budget,
-) -> Result<Vec<Images>, HostError> {
+) -> Result<(Vec<Images>, Judge), HostError> {
     let params = |samples, seed| RenderParams {
         width: budget.width,
         height: budget.height,
@@ -107,7 +116,7 @@ pub(super) fn images(
     };
     let reference = Reference::of(subjects, arrays, budget, params)?;
     let (mut times, mut errors) = (vec![Vec::new(); subjects.len()], vec![Vec::new(); subjects.len()]);
-    let mut biases = vec![Vec::new(); subjects.len()];
+    let (mut biases, mut qualities) = (vec![Vec::new(); subjects.len()], vec![Vec::new(); subjects.len()]);
     for seed in 0..budget.seeds {
         let mut least = vec![f64::INFINITY; subjects.len()];
         // What interrupts one image does not interrupt the same one in the other turn.
@@ -120,7 +129,9 @@ pub(super) fn images(
             let image = subjects[at].render(arrays, params(budget.samples, seed))?;
             times[at].push(least[at].min(ms(image.time)));
             biases[at].push(mean(&image.value) / reference.mean - 1.0);
-            errors[at].push(reference.error(image.value, budget)?);
+            let film = budget.film(image.value)?;
+            errors[at].push(reference.error(&film));
+            qualities[at].push(reference.judge.quality(&film)?);
         }
     }
     let frames = |times: &[f64], update: f64| times.iter().map(|time| time + update).collect::<Vec<f64>>();
@@ -129,20 +140,33 @@ pub(super) fn images(
     let default_errors = errors[0].clone();
     let mut default_equal_time = Vec::new();
     let mut out = Vec::new();
-    let measured = times.into_iter().zip(errors).zip(biases).zip(updates_ms);
-    for (subject, (((times, errors), biases), &update)) in subjects.iter_mut().zip(measured) {
+    let measured = times
+        .into_iter()
+        .zip(errors)
+        .zip(biases)
+        .zip(qualities)
+        .zip(updates_ms);
+    for (subject, ((((times, errors), biases), qualities), &update)) in subjects.iter_mut().zip(measured) {
         let left: Vec<f64> = default_frames.iter().map(|frame| frame - update).collect();
         // An update that leaves no time at all has no image.
         let fits = (f64::from(budget.samples) * Interval::of_ratios(&left, &times).median).max(LEAST_SAMPLES);
         let fewer = (fits.floor() as u32).max(1);
         // Errors fall by powers of the samples between them; by their inverse below one.
         let share = (fits.max(1.0) / f64::from(fewer)).ln() / (f64::from(fewer + 1) / f64::from(fewer)).ln();
-        let mut equal_time = Vec::new();
+        let nearest = if fits - f64::from(fewer) < 0.5 {
+            fewer
+        } else {
+            fewer + 1
+        };
+        let (mut equal_time, mut shown) = (Vec::new(), None);
         for seed in budget.seeds..budget.seeds + budget.seeds.div_ceil(2) {
             let mut beside = [0.0; 2];
             for (error, samples) in beside.iter_mut().zip([fewer, fewer + 1]) {
-                let image = subject.render(arrays, params(samples, seed))?;
-                *error = reference.error(image.value, budget)?.max(1e-9);
+                let film = budget.film(subject.render(arrays, params(samples, seed))?.value)?;
+                *error = reference.error(&film).max(1e-9);
+                if samples == nearest && shown.is_none() {
+                    shown = Some((film, samples));
+                }
             }
             let [a, b] = beside;
             equal_time.push(a * (b / a).powf(share) / fits.min(1.0));
@@ -161,21 +185,33 @@ pub(super) fn images(
             equal_time_ratio: Interval::of_ratios(&equal_time, &default_equal_time),
             samples_equal_time: fits,
             bias: Estimate::of(&biases),
+            quality: mean_quality(&qualities),
+            shown: shown.expect("one of the two counts of rays is the nearest"),
             frames,
             errors,
         });
     }
-    Ok(out)
+    Ok((out, reference.judge))
+}
+
+fn mean_quality(of: &[Quality]) -> Quality {
+    let mean = |measure: fn(&Quality) -> f64| average(&of.iter().map(measure).collect::<Vec<f64>>());
+    Quality {
+        mse: mean(|q| q.mse),
+        ssim: mean(|q| q.ssim),
+        flip: mean(|q| q.flip),
+        linear_mse: mean(|q| q.linear_mse),
+        relative_mse: mean(|q| q.relative_mse),
+    }
 }
 
 fn average(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// An image of many samples by the default, as displayed.
+/// An image of many samples by the default.
 struct Reference {
-    shown: Vec<u8>,
-    exposure: f32,
+    judge: Judge,
     noise: f64,
     mean: f64,
 }
@@ -194,24 +230,22 @@ impl Reference {
         let halves = [half(0)?, half(1)?];
         let pairs = halves[0].iter().zip(&halves[1]);
         let both = pairs.map(|(a, b)| std::array::from_fn(|k| 0.5 * (a[k] + b[k])));
-        let whole = Film::new(budget.width, budget.height, both.collect())?;
+        let whole = budget.film(both.collect())?;
         let exposure = whole.auto_exposure();
         let mean = mean(whole.pixels());
         let mut shown = Vec::new();
         for half in halves {
-            shown.push(Film::new(budget.width, budget.height, half)?.shown(exposure));
+            shown.push(budget.film(half)?.shown(exposure));
         }
         Ok(Self {
-            shown: whole.shown(exposure),
-            exposure,
             noise: difference(&shown[0], &shown[1]) / 4.0,
             mean,
+            judge: Judge::new(whole, exposure)?,
         })
     }
 
-    fn error(&self, image: Vec<[f32; 3]>, budget: &Budget) -> Result<f64, HostError> {
-        let film = Film::new(budget.width, budget.height, image)?;
-        Ok(difference(&film.shown(self.exposure), &self.shown) - self.noise)
+    fn error(&self, image: &Film) -> f64 {
+        difference(&image.shown(self.judge.exposure()), self.judge.shown()) - self.noise
     }
 }
 

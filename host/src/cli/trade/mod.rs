@@ -6,9 +6,11 @@ mod front;
 mod image;
 mod light;
 pub(super) mod quantile;
+mod report;
 mod structure;
 mod update;
 
+use std::path::PathBuf;
 use std::time::Instant;
 
 use serde::Serialize;
@@ -18,11 +20,13 @@ use self::choices::{Axis, Config, Subject, all};
 use self::front::{Front, fronts};
 use self::image::{Budget, Images, images};
 use self::quantile::Interval;
+use self::report::Report;
 use self::structure::{Structure, structures};
 use self::update::{Frame, Updates};
 use super::variance::points;
 use super::{Context, Outcome, table};
 use crate::error::HostError;
+use crate::metrics::Judge;
 use crate::scene::Scene;
 use crate::workload::{arrays_at, lights_at};
 
@@ -40,6 +44,9 @@ pub(super) struct Args {
     /// Size of the images, in place of 192x108, or 96x54 of --quick.
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(u32, u32)>,
+    /// Also write a page with plots, images and error maps, and the JSON, to this folder: trade.html, trade.json.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
     /// One scene, fewer turns, smaller images: within a minute.
     #[arg(long)]
     quick: bool,
@@ -49,6 +56,8 @@ pub(super) struct Args {
 #[derive(Clone, Debug, Serialize)]
 struct Point {
     scene: String,
+    /// What differs from the default, in words.
+    choice: String,
     config: Config,
     default: bool,
     #[serde(flatten)]
@@ -72,28 +81,37 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     };
     let mut all_points = Vec::new();
     let mut steps = Vec::new();
+    let mut report = args
+        .out
+        .as_ref()
+        .map(|folder| Report::begin(folder, named.len()))
+        .transpose()?;
     for name in named {
         let start = Instant::now();
-        let points = scene_points(&name, args, &budget)?;
+        let (points, judge) = scene_points(&name, args, &budget)?;
         let Front { pareto, sentences } = fronts(&points);
         steps.extend(
             sentences
                 .into_iter()
                 .map(|sentence| format!("{name}: {sentence}")),
         );
-        all_points.extend(
-            points
-                .into_iter()
-                .zip(pareto)
-                .map(|(point, pareto)| Point { pareto, ..point }),
-        );
+        let pareto = points.into_iter().zip(pareto);
+        let points: Vec<Point> = pareto.map(|(point, pareto)| Point { pareto, ..point }).collect();
+        if let Some(report) = &mut report {
+            report.scene(&name, args.frame, &points, &judge)?;
+        }
+        all_points.extend(points);
         eprintln!("{name}: {:.1} s", start.elapsed().as_secs_f64());
     }
+    let measured = json!({
+        "frame": args.frame, "samples": budget.samples, "width": budget.width, "height": budget.height,
+        "turns": budget.turns, "threads": rayon::current_num_threads(), "points": all_points, "steps": steps,
+    });
+    if let (Some(report), Some(folder)) = (&report, &args.out) {
+        report.write(folder, &measured)?;
+    }
     if context.json {
-        table::print_json(&json!({
-            "frame": args.frame, "samples": budget.samples, "width": budget.width, "height": budget.height,
-            "turns": budget.turns, "threads": rayon::current_num_threads(), "points": all_points, "steps": steps,
-        }))?;
+        table::print_json(&measured)?;
     } else {
         print(&all_points)?;
         for step in steps {
@@ -103,7 +121,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     Ok(Outcome::Good)
 }
 
-fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<Vec<Point>, HostError> {
+fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>, Judge), HostError> {
     let scene = Scene::open(name)?;
     for warning in scene.warnings() {
         eprintln!("{name}: {warning}");
@@ -137,20 +155,22 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<Vec<Point>, 
     )?;
     let updates_ms: Vec<f64> = structures.iter().map(|structure| structure.update_ms).collect();
     let background = scene.frame(args.frame).background;
-    let images = images(&mut subjects, &updates_ms, &arrays, background, budget)?;
+    let (images, judge) = images(&mut subjects, &updates_ms, &arrays, background, budget)?;
     let both = structures.into_iter().zip(images);
-    Ok(subjects
+    let points = subjects
         .iter()
         .zip(both)
         .map(|(subject, (structure, images))| Point {
             scene: name.to_owned(),
+            choice: subject.config().to_string(),
             config: subject.config(),
             default: subject.config().axis == Axis::Default,
             structure,
             images,
             pareto: false,
         })
-        .collect())
+        .collect();
+    Ok((points, judge))
 }
 
 /// `WxH`, pixels.

@@ -1,0 +1,123 @@
+//! What was measured as one page, and as JSON: `trade.html` needs nothing beside it, no network and no other file.
+
+mod machine;
+mod page;
+mod pictures;
+mod tree;
+
+use std::fs;
+use std::path::Path;
+
+use image::ExtendedColorType;
+use lightbvh::importance::DefaultImportance;
+use lightbvh::{Bvh, MomentNode};
+use lightbvh_kernels::bvh::Standard;
+use lightbvh_kernels::render::RenderParams;
+use serde::Serialize;
+use serde_json::Value;
+
+use self::machine::Made;
+use self::pictures::{Pictures, Room, pictures, png};
+use self::tree::{Drawn, drawn};
+use super::Point;
+use super::update::{Followed, Frame, Update};
+use crate::backend::{Backend, CpuBackend, Integrator, Sampler};
+use crate::error::HostError;
+use crate::method::Builder;
+use crate::metrics::Judge;
+use crate::render::{Film, write_whole};
+use crate::scene::Scene;
+use crate::workload::{arrays_at, lights_at};
+
+/// Rows of the picture that a tree is drawn over, and its shadow rays of a pixel.
+const ROWS: u32 = 300;
+const RAYS: u32 = 48;
+
+/// A page in the making.
+pub(super) struct Report {
+    made: Made,
+    scenes: Vec<SceneShown>,
+    of_each: usize,
+}
+
+/// What a page shows of a scene beside its points.
+#[derive(Debug, Serialize)]
+struct SceneShown {
+    name: String,
+    lights: usize,
+    pictures: Pictures,
+    tree: Drawn,
+}
+
+impl Report {
+    /// Of so many scenes, into `folder`, which is made where it is not there: better now than after the measurements.
+    pub fn begin(folder: &Path, scenes: usize) -> Result<Self, HostError> {
+        fs::create_dir_all(folder).map_err(|source| HostError::Folder {
+            path: folder.to_owned(),
+            source,
+        })?;
+        Ok(Self {
+            made: Made::now(),
+            scenes: Vec::new(),
+            of_each: scenes,
+        })
+    }
+
+    /// Adds a scene: images of its points beside the reference, the default's tree over its image.
+    pub fn scene(
+        &mut self,
+        name: &str,
+        frame: u32,
+        points: &[Point],
+        judge: &Judge,
+    ) -> Result<(), HostError> {
+        let scene = Scene::open(name)?;
+        let lights = lights_at(&scene, frame)?;
+        let of = Frame::new(&scene, frame, &lights);
+        let levels = Sampler::TwoLevel;
+        let params = Builder::Ward.params();
+        let (bvh, _): (Bvh<MomentNode<8>, DefaultImportance, 8>, _) =
+            Followed::build(&of, levels, Update::usual(levels), params)?;
+        let (width, height) = judge.size();
+        let columns = (ROWS * width / height).clamp(1, 4 * ROWS);
+        let arrays = arrays_at(&scene, frame, columns, ROWS)?;
+        let mut backend = CpuBackend::<Standard, 8>::new(bvh);
+        let params = RenderParams {
+            width: columns,
+            height: ROWS,
+            samples: RAYS,
+            candidates: 1,
+            scattered: 0,
+            part: 0,
+            parts: 1,
+            seed: 0,
+            jitter: 0,
+            background: scene.frame(frame).background,
+        };
+        let image = backend.render(&arrays, &params, levels, Integrator::Direct)?;
+        let film = Film::new(columns, ROWS, image.value)?;
+        let shown = film.shown(judge.exposure());
+        let picture = png(&shown, (columns, ROWS), ExtendedColorType::Rgb8)?;
+        self.scenes.push(SceneShown {
+            name: name.to_owned(),
+            lights: lights.triangles().len(),
+            pictures: pictures(points, judge, &mut Room::of_each(self.of_each))?,
+            tree: drawn(&backend.bvh().tree(), &arrays.camera, (columns, ROWS), picture),
+        });
+        Ok(())
+    }
+
+    /// Writes `trade.json`, what `--json` prints and the machine, and `trade.html` into `folder`, each whole or not at all.
+    pub fn write(&self, folder: &Path, measured: &Value) -> Result<(), HostError> {
+        let store = |name: &str, bytes: &[u8]| {
+            let path = folder.join(name);
+            write_whole(&path, bytes).map_err(|source| HostError::Store { path, source })
+        };
+        let json = |value: &Value| serde_json::to_string(value).map_err(std::io::Error::from);
+        let mut measured = measured.clone();
+        measured["made"] = serde_json::to_value(&self.made).map_err(std::io::Error::from)?;
+        store("trade.json", format!("{}\n", json(&measured)?).as_bytes())?;
+        measured["scenes"] = serde_json::to_value(&self.scenes).map_err(std::io::Error::from)?;
+        store("trade.html", page::html(&json(&measured)?).as_bytes())
+    }
+}

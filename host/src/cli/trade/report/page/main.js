@@ -1,0 +1,95 @@
+// The page as a whole: its controls, and what is drawn again when.
+const drawScene = () => {
+  state.point = null;
+  address();
+  drawLegend();
+  drawPlot();
+  drawAxes();
+  drawImages();
+  drawTree();
+  drawDepths();
+  drawTables();
+};
+
+const theme = (chosen) => {
+  state.theme = chosen;
+  if (chosen) document.documentElement.dataset.theme = chosen;
+  else delete document.documentElement.dataset.theme;
+  byId("theme").textContent = `Colours: ${chosen || "as the system"}`;
+  address();
+};
+
+const begin = () => {
+  const { made } = data;
+  byId("made").textContent = `lightbvh ${made.version} on ${made.machine}, ${made.threads} threads, ${made.date}`;
+  const scenes = data.scenes.map((scene) => {
+    const input = element("input", { type: "radio", name: "scene", value: scene.name });
+    input.checked = scene.name === state.scene;
+    input.addEventListener("change", () => {
+      state.scene = scene.name;
+      drawScene();
+    });
+    return element("label", {}, input, scene.name);
+  });
+  byId("scenes").append(...scenes);
+  for (const axis of ["x", "y"]) {
+    byId(axis).append(...Object.entries(measures).map(([key, { label }]) => element("option", { value: key }, label)));
+    byId(axis).value = state[axis];
+    byId(axis).addEventListener("change", (event) => {
+      state[axis] = event.target.value;
+      address();
+      drawPlot();
+    });
+  }
+  byId("log").addEventListener("change", (event) => {
+    state.log = event.target.checked;
+    drawPlot();
+  });
+  for (const side of ["left", "right"]) {
+    byId(side).addEventListener("change", (event) => {
+      state[side] = event.target.value;
+      drawImages();
+    });
+  }
+  for (const input of document.querySelectorAll("#view input")) {
+    input.addEventListener("change", () => {
+      state.view = input.value;
+      drawImages();
+    });
+  }
+  byId("slider").addEventListener("input", divide);
+  byId("depth").addEventListener("input", (event) => {
+    state.depth = Number(event.target.value);
+    drawTree();
+  });
+  byId("dim").addEventListener("change", drawTree);
+  byId("axis").append(element("option", { value: "" }, "all"), ...axisNames.map((axis) => element("option", { value: axis }, axis)));
+  byId("axis").addEventListener("change", (event) => {
+    state.axis = event.target.value;
+    drawTables();
+  });
+  byId("theme").addEventListener("click", () => theme({ "": "light", light: "dark", dark: "" }[state.theme]));
+  byId("paper-hint").textContent = "Measures and times as the paper's tables have them, of every choice here; “eq4” is the paper's importance.";
+  const how = {
+    command: element("code", {}, made.command),
+    program: `lightbvh ${made.version}${made.optimised ? "" : ", not optimised: times say nothing"}`,
+    machine: `${made.machine}, ${made.threads} threads`,
+    date: made.date,
+    images: `${data.width} × ${data.height} pixels, frame ${data.frame}, ${data.samples} shadow rays a pixel where all have the same; errors are of images as displayed, squared steps of a byte`,
+    times: `in turn, ${data.turns} turns for samples; ratios are taken turn by turn and seed by seed, intervals are of 95 %`,
+    front: "a choice is off the front where another one surely takes less time for a frame and has no more error, or surely has less error and takes no more time",
+  };
+  byId("how").append(...Object.entries(how).flatMap(([key, text]) => [element("dt", {}, key), element("dd", {}, text)]));
+  theme(state.theme);
+  drawScene();
+  let width = innerWidth;
+  addEventListener("resize", () => {
+    if (innerWidth === width) return;
+    width = innerWidth;
+    drawPlot();
+    drawAxes();
+    drawDepths();
+  });
+};
+
+begin();
