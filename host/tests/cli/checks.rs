@@ -36,10 +36,29 @@ fn verify_compares_words_on_every_device() {
     }
 }
 
-/// Three widths: the default is one of them, and some choice is on the front.
+/// Three widths: the default is one of them, and some choice is on the front. What is printed is what is written.
 #[test]
 fn trade_measures_each_choice() {
-    let report = json("trade --json --quick --axes width");
+    let folder = Folder::new("trade");
+    let report = json(&format!(
+        "trade --json --quick --axes width --out {}",
+        folder.file("")
+    ));
+    let page = std::fs::read_to_string(folder.file("trade.html")).expect("a page");
+    assert!(page.starts_with("<!doctype html>") && page.trim_end().ends_with("</html>"));
+    let written = std::fs::read(folder.file("trade.json")).expect("JSON");
+    let mut written: serde_json::Value = serde_json::from_slice(&written).expect("JSON");
+    let made = written
+        .as_object_mut()
+        .and_then(|all| all.remove("made"))
+        .expect("the machine");
+    assert!(
+        made["command"]
+            .as_str()
+            .is_some_and(|line| line.starts_with("lightbvh trade ")),
+        "{made}"
+    );
+    assert_eq!(written, report);
     let points = report["points"].as_array().expect("points");
     assert_eq!(points.len(), 3);
     let defaults: Vec<bool> = points.iter().map(|point| point["default"] == true).collect();

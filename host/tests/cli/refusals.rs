@@ -26,6 +26,11 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
         said.contains("--bounces 65") && said.contains("1 to 64"),
         "{said}"
     );
+    // A folder that cannot be made is found before anything is measured.
+    let file = folder.file("file");
+    std::fs::write(&file, "no folder").expect("a file");
+    let said = refused(&format!("trade --quick --out {file}/report"));
+    assert!(said.contains("file/report") && said.contains("--out"), "{said}");
     // What would have no effect.
     for (options, needs) in [
         ("--bounces 3", "--integrator path"),

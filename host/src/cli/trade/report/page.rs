@@ -56,6 +56,7 @@ mod tests {
     #[test]
     fn the_page_asks_for_nothing_from_elsewhere() {
         let page = html("{}");
+        let page = page.replace("url(#", "");
         for word in ["http://", "https://", "src=\"", "@import", "url("] {
             let found = page.matches(word).count();
             // The namespace of SVG elements is a name, not an address to load.

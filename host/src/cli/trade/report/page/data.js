@@ -52,15 +52,17 @@ const axisNames = [...new Set(data.points.map((point) => point.config.axis))];
 const color = (axis) => `var(--c${Math.max(0, axisNames.indexOf(axis)) % 10})`;
 
 // What the user chose; a part of the address, so that it can be sent to others.
-const state = { scene: data.scenes[0].name, x: "frame", y: "error", log: true, point: null, left: null, right: null, view: "image", depth: 2, axis: "", theme: "" };
+const state = { scene: data.scenes[0].name, x: "frame", y: "error", log: true, near: "", point: null, left: null, right: null, view: "image", depth: 2, axis: "", theme: "" };
 for (const [key, value] of new URLSearchParams(location.hash.slice(1))) {
   if (key === "scene" && data.scenes.some((scene) => scene.name === value)) state.scene = value;
   if ((key === "x" || key === "y") && Object.hasOwn(measures, value)) state[key] = value;
+  if (key === "near" && ["2", "1.2"].includes(value)) state.near = value;
   if (key === "theme" && ["light", "dark"].includes(value)) state.theme = value;
 }
 
 const address = () => {
   const parts = new URLSearchParams({ scene: state.scene, x: state.x, y: state.y });
+  if (state.near) parts.set("near", state.near);
   if (state.theme) parts.set("theme", state.theme);
   history.replaceState(null, "", `#${parts}`);
 };

@@ -41,6 +41,12 @@ const begin = () => {
       drawPlot();
     });
   }
+  byId("near").value = state.near;
+  byId("near").addEventListener("change", (event) => {
+    state.near = event.target.value;
+    address();
+    drawPlot();
+  });
   byId("log").addEventListener("change", (event) => {
     state.log = event.target.checked;
     drawPlot();

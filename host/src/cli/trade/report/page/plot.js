@@ -42,9 +42,9 @@ const shape = (axis) => {
   return axis === "default" || at < 0 ? drawing("circle", { r: 6, fill: color(axis) }) : drawing("path", { d: shapes[at % shapes.length], fill: color(axis) });
 };
 
-// No other point has both less; of the front that was measured where the axes are its own.
-const frontOf = (points, x, y) => {
-  if (state.x === "frame" && state.y === "error") return points.filter((p) => p.pareto);
+// What no other point has less of in both, by medians; of the measured front alone where the axes are its own.
+const frontOf = (all, x, y) => {
+  const points = state.x === "frame" && state.y === "error" ? all.filter((p) => p.pareto) : all;
   const better = (m, a, b) => (m.less ? a < b : a > b);
   const beats = (a, b) => {
     const [ax, bx, ay, by] = [x.of(a).median, x.of(b).median, y.of(a).median, y.of(b).median];
@@ -53,13 +53,45 @@ const frontOf = (points, x, y) => {
   return points.filter((p) => !points.some((other) => beats(other, p)));
 };
 
+// Those that are neither far above nor far below the default in either measure; all where the range is not narrowed.
+const within = (points, x, y) => {
+  const home = points.find((p) => p.default);
+  const near = (m, p) => {
+    const [a, b] = [m.of(p).median, m.of(home).median];
+    return a === b || (a > 0 && b > 0 && Math.max(a / b, b / a) <= Number(state.near));
+  };
+  return points.map((_, at) => at).filter((at) => !state.near || (near(x, points[at]) && near(y, points[at])));
+};
+
+// Names of points where they cover neither each other nor a point: of the front first.
+const labels = (points, shown, place, width) => {
+  const marks = shown.map((at) => place(points[at])).map(([x, y]) => ({ left: x - 8, right: x + 8, top: y - 8, bottom: y + 8 }));
+  const clear = (box, taken) => !taken.some((other) => box.left < other.right && other.left < box.right && box.top < other.bottom && other.top < box.bottom);
+  const made = [];
+  const order = [...shown].sort((a, b) => (points[b].default - points[a].default) || (points[b].pareto - points[a].pareto));
+  for (const at of order) {
+    const [x, y] = place(points[at]);
+    const long = points[at].choice.length * 6 + 4;
+    const places = [[x + 12, y + 4, "start"], [x - 12, y + 4, "end"], [x, y - 13, "middle"], [x, y + 21, "middle"], [x + 10, y - 9, "start"], [x + 10, y + 17, "start"], [x - 10, y - 9, "end"], [x - 10, y + 17, "end"]];
+    for (const [tx, ty, anchor] of places) {
+      const left = tx - { start: 0, middle: long / 2, end: long }[anchor];
+      const box = { left, right: left + long, top: ty - 11, bottom: ty + 3 };
+      if (left < 60 || box.right > width - 4 || box.top < 4 || !clear(box, made.map((label) => label.box)) || !clear(box, marks)) continue;
+      made.push({ box, text: drawing("text", { class: "label", x: tx, y: ty, "text-anchor": anchor }, points[at].choice) });
+      break;
+    }
+  }
+  return made.map((label) => label.text);
+};
+
 const drawPlot = () => {
   const [x, y] = [measures[state.x], measures[state.y]];
   const points = scenePoints();
+  const shown = within(points, x, y);
   const hold = byId("plot");
   const width = Math.max(300, Math.round(hold.clientWidth || 800));
   const height = Math.round(Math.min(520, Math.max(320, width * 0.56)));
-  const all = (m) => points.flatMap((p) => Object.values(m.of(p)));
+  const all = (m) => shown.flatMap((at) => Object.values(m.of(points[at])));
   const log = (m) => state.log && all(m).every((v) => v > 0);
   const across = scale(all(x), [58, width - 16], log(x));
   const up = scale(all(y), [height - 48, 14], log(y));
@@ -75,11 +107,11 @@ const drawPlot = () => {
   svg.append(drawing("text", { x: (58 + width - 16) / 2, y: height - 10, "text-anchor": "middle" }, x.label));
   svg.append(drawing("text", { transform: `translate(14 ${(height - 34) / 2}) rotate(-90)`, "text-anchor": "middle" }, y.label));
   const place = (p) => [across.at(x.of(p).median), up.at(y.of(p).median)];
-  const front = frontOf(points, x, y).map(place).sort((a, b) => a[0] - b[0]);
+  const front = frontOf(points, x, y).filter((p) => shown.includes(points.indexOf(p))).map(place).sort((a, b) => a[0] - b[0]);
   svg.append(drawing("polyline", { class: "front", points: front.map((at) => at.join(",")).join(" ") }));
   // By place from left to right: the order of the keyboard.
-  const order = points.map((_, at) => at).sort((a, b) => place(points[a])[0] - place(points[b])[0]);
-  const current = points[state.point] ? state.point : points.findIndex((p) => p.default);
+  const order = [...shown].sort((a, b) => place(points[a])[0] - place(points[b])[0]);
+  const current = shown.includes(state.point) ? state.point : points.findIndex((p) => p.default);
   const groups = new Map();
   for (const at of order) {
     const point = points[at];
@@ -90,7 +122,6 @@ const drawPlot = () => {
     group.append(drawing("line", { class: "range", stroke: color(point.config.axis), x1: px, x2: px, y1: up.at(ry.low), y2: up.at(ry.high) }));
     const mark = drawing("g", { transform: `translate(${px} ${py})` }, drawing("circle", { class: "halo", r: 12 }), shape(point.config.axis));
     if (point.pareto) mark.append(drawing("circle", { class: "ring", r: 9.5 }));
-    if (point.default) mark.append(drawing("text", { x: 0, y: -14, "text-anchor": px > width - 60 ? "end" : "middle" }, "default"));
     group.append(mark);
     group.addEventListener("pointerenter", () => tip.show(wholeText(point), mark.getBoundingClientRect()));
     group.addEventListener("pointerleave", tip.hide);
@@ -101,9 +132,12 @@ const drawPlot = () => {
     groups.set(at, group);
     svg.append(group);
   }
+  svg.append(...labels(points, shown, place, width));
   hold.replaceChildren(svg);
+  byId("chosen").hidden = state.point === null;
+  if (state.point !== null) byId("chosen").textContent = wholeText(points[state.point]);
   const own = state.x === "frame" && state.y === "error";
-  byId("plot-hint").textContent = `Each point is a choice; lines about it are intervals of 95 %. ${own ? "The dashed line is the front: what nothing else surely beats" : "The dashed line joins what nothing has less of in both, by medians; rings mark the front of frame time and error"}. Tab enters the points, arrow keys go along them, Enter chooses one.`;
+  byId("plot-hint").textContent = `Each point is a choice; lines about it are intervals of 95 %. ${own ? "Rings mark the front: what nothing else surely beats; the dashed line goes along it by medians" : "The dashed line joins what nothing is better than in both, by medians; rings mark the front of frame time and error"}. Tab enters the points, arrow keys go along them, Enter chooses one.`;
 };
 
 const move = (event, order, at, groups) => {

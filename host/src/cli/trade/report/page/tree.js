@@ -15,7 +15,7 @@ const drawTree = () => {
     const strength = Math.sqrt(e.share / most);
     const ellipse = drawing("ellipse", {
       cx: e.x, cy: e.y, rx: Math.max(e.rx, 1.2), ry: Math.max(e.ry, 1.2), transform: `rotate(${e.turn} ${e.x} ${e.y})`,
-      fill: "#ffd34d", "fill-opacity": 0.06 + 0.16 * strength, stroke: "#ffb000", "stroke-opacity": 0.4 + 0.6 * strength, "stroke-width": 0.7 + 1.1 * strength,
+      fill: "#ffd34d", "fill-opacity": Math.min(0.14, 0.02 + 300 / (e.rx * e.ry + 2000)), stroke: "#ffb000", "stroke-opacity": 0.35 + 0.6 * strength, "stroke-width": 0.6 + 0.9 * strength,
     });
     if (e.kind === "mesh") ellipse.setAttribute("stroke-dasharray", "4 2");
     if (e.kind === "light") ellipse.setAttribute("stroke-dasharray", "1 2");
