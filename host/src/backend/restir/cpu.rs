@@ -1,5 +1,7 @@
 //! ReSTIR on the CPU: the kernels' functions for each pixel, over all cores of the current rayon pool.
 
+use std::sync::Arc;
+
 use lightbvh::{EmissiveTriangle, Instance};
 use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::emitters::Emitters;
@@ -96,7 +98,7 @@ pub(in crate::backend) fn resample<P: PickLight + Sync>(
         instances: view.emitters.instances.to_vec(),
     };
     let shadow_rays = shaded.iter().map(|pixel| u64::from(pixel.shadow_rays)).sum();
-    restir.keep(frame, super::Left::Cpu(left), shadow_rays);
+    restir.keep(frame, super::Left::Cpu(Arc::new(left)), shadow_rays);
     shaded.iter().map(|pixel| pixel.radiance).collect()
 }
 

@@ -1,5 +1,6 @@
 //! ReSTIR on a Vulkan device.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use bytemuck::bytes_of;
@@ -114,7 +115,7 @@ pub(in crate::backend) fn resample<C: Choice<W>, const W: usize>(
         gbuffer,
         reservoirs,
     };
-    restir.keep(frame, super::Left::Device(Box::new(left)), shadow_rays);
+    restir.keep(frame, super::Left::Device(Arc::new(left)), shadow_rays);
     Ok(Timed {
         value: shaded.iter().map(|pixel| pixel.radiance).collect(),
         time,

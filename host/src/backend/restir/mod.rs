@@ -118,6 +118,9 @@ pub struct RestirFrame<'a> {
 /// The history ends, as by [`reset`](Self::reset), where it cannot be used: the image has another size, reflectances differ, another
 /// processor has rendered it, or the number of listed lights differs without a remap to say how. Two levels need none: there
 /// lights keep their numbers.
+///
+/// A clone goes on from the same frame by itself.
+#[derive(Clone)]
 pub struct Restir {
     options: RestirOptions,
     last: Option<Last>,
@@ -125,6 +128,7 @@ pub struct Restir {
 }
 
 /// The frame before.
+#[derive(Clone)]
 struct Last {
     scene: Arc<SceneArrays>,
     size: (u32, u32),
@@ -132,9 +136,10 @@ struct Last {
 }
 
 /// What a frame left where it was rendered.
+#[derive(Clone)]
 enum Left {
-    Cpu(cpu::Left),
-    Device(Box<device::Left>),
+    Cpu(Arc<cpu::Left>),
+    Device(Arc<device::Left>),
 }
 
 impl Restir {

@@ -1,5 +1,5 @@
-//! The configurations that are measured: by importance, layout, width, builder, levels, update and candidates, one axis at a time from the
-//! default.
+//! The configurations that are measured: by importance, layout, width, builder, levels, update, candidates and integrator, one axis at
+//! a time from the default.
 
 use std::marker::PhantomData;
 use std::time::{Duration, Instant};
@@ -15,6 +15,7 @@ use lightbvh_kernels::bvh::Choice;
 use lightbvh_kernels::render::RenderParams;
 use serde::Serialize;
 
+use super::reservoirs::Reservoirs;
 use super::update::{Followed, Frame, Spent, Update};
 use crate::backend::{Backend, Bvh, CpuBackend, Integrator, Sampler, SceneArrays, Timed};
 use crate::error::HostError;
@@ -26,6 +27,8 @@ use crate::workload::instance_of;
 pub(super) struct Config {
     /// What differs from the default.
     pub axis: Axis,
+    /// What becomes of samples: `direct`, each counts by itself; `restir`, pixels and frames share them.
+    pub integrator: &'static str,
     pub levels: Sampler,
     pub importance: &'static str,
     pub layout: &'static str,
@@ -56,11 +59,13 @@ pub(super) enum Axis {
     Update,
     /// Candidates of a sample.
     Candidates,
+    /// Whether pixels and frames share samples.
+    Integrator,
 }
 
 /// A layout and an importance, as a choice of the CPU's renderer.
 #[derive(Debug)]
-struct Pair<N, I>(PhantomData<(N, I)>);
+pub(super) struct Pair<N, I>(PhantomData<(N, I)>);
 
 impl<N, I> Clone for Pair<N, I> {
     fn clone(&self) -> Self {
@@ -103,6 +108,11 @@ pub(super) trait Subject {
     /// The probability of a light.
     fn pmf(&self, lights: &Lights, point: &ShadingPoint, light: u32) -> f32;
 
+    /// Shadow rays of a pixel in the least image; images have multiples of it.
+    fn least_rays(&self) -> u32 {
+        1
+    }
+
     fn render(
         &mut self,
         arrays: &SceneArrays,
@@ -110,7 +120,8 @@ pub(super) trait Subject {
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError>;
 }
 
-struct Built<N: LightNode<W>, I, const W: usize>
+/// A light BVH of one type.
+pub(super) struct Built<N: LightNode<W>, I, const W: usize>
 where
     Pair<N, I>: Choice<W, Node = N, Importance = I>,
 {
@@ -148,6 +159,11 @@ pub(super) fn all(first: &Frame<'_>) -> Result<Vec<Box<dyn Subject>>, HostError>
         candidates,
         ..with(A::Candidates)
     };
+    let reservoirs = |source| {
+        let tree = with(A::Integrator).built::<MomentNode<8>, D, 8>("moments+1/64")?;
+        let reservoirs = Reservoirs::new(source, tree, first)?;
+        Ok(Box::new(reservoirs) as Box<dyn Subject>)
+    };
     let (one, saoh) = (Sampler::SingleLevel, Builder::Saoh);
     [
         with(A::Default).of::<MomentNode<8>, D, 8>("moments+1/64"),
@@ -181,6 +197,8 @@ pub(super) fn all(first: &Frame<'_>) -> Result<Vec<Box<dyn Subject>>, HostError>
         candidates(4).of::<MomentNode<8>, D, 8>("moments+1/64"),
         candidates(8).of::<MomentNode<8>, D, 8>("moments+1/64"),
         candidates(16).of::<MomentNode<8>, D, 8>("moments+1/64"),
+        reservoirs(Sampler::Power),
+        reservoirs(Sampler::TwoLevel),
     ]
     .into_iter()
     .collect()
@@ -202,12 +220,21 @@ impl With<'_> {
         N: LightNode<W> + std::fmt::Debug + 'static,
         I: ImportanceModel<N, W> + Clone + std::fmt::Debug + Send + Sync + 'static,
     {
+        Ok(Box::new(self.built::<N, I, W>(importance)?))
+    }
+
+    fn built<N, I, const W: usize>(self, importance: &'static str) -> Result<Built<N, I, W>, HostError>
+    where
+        N: LightNode<W> + std::fmt::Debug + 'static,
+        I: ImportanceModel<N, W> + Clone + std::fmt::Debug + Send + Sync + 'static,
+    {
         let params = self.builder.params();
         let (bvh, followed): (Bvh<Pair<N, I>, W>, _) =
             Followed::build(self.first, self.levels, self.update, params)?;
-        Ok(Box::new(Built::<N, I, W> {
+        Ok(Built {
             config: Config {
                 axis: self.axis,
+                integrator: "direct",
                 levels: self.levels,
                 importance,
                 layout: N::NAME,
@@ -218,7 +245,7 @@ impl With<'_> {
             },
             backend: CpuBackend::new(bvh),
             followed,
-        }))
+        })
     }
 }
 
@@ -227,6 +254,11 @@ where
     N: LightNode<W> + std::fmt::Debug + 'static,
     I: ImportanceModel<N, W> + Clone + std::fmt::Debug + Send + Sync + 'static,
 {
+    /// As of the frame last advanced to.
+    pub fn bvh(&self) -> &Bvh<Pair<N, I>, W> {
+        self.backend.bvh()
+    }
+
     fn times<const COUNT: usize>(&self, points: &[ShadingPoint], first: u32) -> Duration {
         let tree = self.backend.bvh().tree();
         let start = Instant::now();

@@ -14,7 +14,7 @@ use crate::render::Film;
 /// Seeds from here on belong to the reference.
 const REFERENCE_SEED: u32 = 1 << 31;
 
-/// Shadow rays of a pixel that count as fitting into a frame even where nothing does.
+/// Least images that count as fitting into a frame even where nothing does.
 const LEAST_SAMPLES: f64 = 0.05;
 
 /// How much is measured.
@@ -74,7 +74,8 @@ pub(super) struct Images {
     /// The error over the default's, seed by seed.
     pub error_ratio: Interval,
     /// The error by as many shadow rays as fit into the default's frame beside the update: between the errors of images by the whole
-    /// numbers beside that.
+    /// numbers beside that. ReSTIR takes whole histories, of six rays at most: between the errors of so many; where less than one fits,
+    /// the error of one by what fits of it.
     pub error_equal_time: f64,
     /// The same over the default's, seed by seed.
     pub equal_time_ratio: Interval,
@@ -149,7 +150,9 @@ pub(super) fn images(
     for (subject, ((((times, errors), biases), qualities), &update)) in subjects.iter_mut().zip(measured) {
         let left: Vec<f64> = default_frames.iter().map(|frame| frame - update).collect();
         // An update that leaves no time at all has no image.
-        let fits = (f64::from(budget.samples) * Interval::of_ratios(&left, &times).median).max(LEAST_SAMPLES);
+        let least = subject.least_rays();
+        let of_all = f64::from((budget.samples / least).max(1));
+        let fits = (of_all * Interval::of_ratios(&left, &times).median).max(LEAST_SAMPLES);
         let fewer = (fits.floor() as u32).max(1);
         // Errors fall by powers of the samples between them; by their inverse below one.
         let share = (fits.max(1.0) / f64::from(fewer)).ln() / (f64::from(fewer + 1) / f64::from(fewer)).ln();
@@ -162,10 +165,10 @@ pub(super) fn images(
         for seed in budget.seeds..budget.seeds + budget.seeds.div_ceil(2) {
             let mut beside = [0.0; 2];
             for (error, samples) in beside.iter_mut().zip([fewer, fewer + 1]) {
-                let film = budget.film(subject.render(arrays, params(samples, seed))?.value)?;
+                let film = budget.film(subject.render(arrays, params(samples * least, seed))?.value)?;
                 *error = reference.error(&film).max(1e-9);
                 if samples == nearest && shown.is_none() {
-                    shown = Some((film, samples));
+                    shown = Some((film, samples * least));
                 }
             }
             let [a, b] = beside;
@@ -183,7 +186,7 @@ pub(super) fn images(
             error_ratio: Interval::of_ratios(&errors, &default_errors),
             error_equal_time: average(&equal_time),
             equal_time_ratio: Interval::of_ratios(&equal_time, &default_equal_time),
-            samples_equal_time: fits,
+            samples_equal_time: fits * f64::from(least),
             bias: Estimate::of(&biases),
             quality: mean_quality(&qualities),
             shown: shown.expect("one of the two counts of rays is the nearest"),

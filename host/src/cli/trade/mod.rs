@@ -7,10 +7,12 @@ mod image;
 mod light;
 pub(super) mod quantile;
 mod report;
+mod reservoirs;
 mod structure;
 mod update;
 
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Instant;
 
 use serde::Serialize;
@@ -21,6 +23,7 @@ use self::front::{Front, fronts};
 use self::image::{Budget, Images, images};
 use self::quantile::Interval;
 use self::report::Report;
+use self::reservoirs::HISTORY;
 use self::structure::{Structure, structures};
 use self::update::{Frame, Updates};
 use super::variance::points;
@@ -127,23 +130,37 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
         eprintln!("{name}: {warning}");
     }
     let (_, points) = points::of(name, 0, args.frame, budget.points)?;
-    let arrays = arrays_at(&scene, args.frame, budget.width, budget.height)?;
+    // ReSTIR looks back from the frame that is measured.
+    let looks_back = args.axes.is_empty() || args.axes.contains(&Axis::Integrator);
+    let arrays = |number: u32| {
+        let wanted = number == args.frame || (looks_back && number + HISTORY >= args.frame);
+        let made = wanted.then(|| arrays_at(&scene, number, budget.width, budget.height));
+        made.transpose().map(|arrays| arrays.map(Arc::new))
+    };
     let first = lights_at(&scene, 0)?;
-    let mut subjects: Vec<Box<dyn Subject>> = all(&Frame::new(&scene, 0, &first))?
-        .into_iter()
-        .filter(|subject| {
-            let axis = subject.config().axis;
-            axis == Axis::Default || args.axes.is_empty() || args.axes.contains(&axis)
-        })
-        .collect();
+    let mut shown = arrays(0)?;
+    let mut subjects: Vec<Box<dyn Subject>> =
+        all(&Frame::new(&scene, 0, &first).rendered_from(shown.as_ref()))?
+            .into_iter()
+            .filter(|subject| {
+                let axis = subject.config().axis;
+                axis == Axis::Default || args.axes.is_empty() || args.axes.contains(&axis)
+            })
+            .collect();
     let mut updates = vec![Updates::default(); subjects.len()];
     for number in 1..=args.frame {
         let lights = lights_at(&scene, number)?;
+        shown = arrays(number)?;
         for k in 0..subjects.len() {
             let at = (k + number as usize) % subjects.len();
-            updates[at].push(subjects[at].advance(&Frame::new(&scene, number, &lights))?);
+            let frame = Frame::new(&scene, number, &lights).rendered_from(shown.as_ref());
+            updates[at].push(subjects[at].advance(&frame)?);
         }
     }
+    let arrays = match shown {
+        Some(arrays) => arrays,
+        None => Arc::new(arrays_at(&scene, args.frame, budget.width, budget.height)?),
+    };
     let last = lights_at(&scene, args.frame)?;
     let structures = structures(
         &mut subjects,

@@ -1,5 +1,6 @@
 //! How trees follow the animation: built at its first frame, brought to each one after that by a policy, and timed.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use lightbvh::bvh::RebuildParams;
@@ -8,7 +9,7 @@ use serde::Serialize;
 use strum::IntoStaticStr;
 
 use super::quantile::Interval;
-use crate::backend::{BackendError, Sampler};
+use crate::backend::{BackendError, Sampler, SceneArrays};
 use crate::cli::times::ms;
 use crate::error::HostError;
 use crate::scene::{Instances, Scene};
@@ -59,6 +60,8 @@ pub(super) struct Frame<'a> {
     pub scene: &'a Scene,
     pub number: u32,
     pub lights: &'a Lights,
+    /// To render it from, of the frames that images depend on.
+    pub arrays: Option<&'a Arc<SceneArrays>>,
 }
 
 impl<'a> Frame<'a> {
@@ -67,7 +70,12 @@ impl<'a> Frame<'a> {
             scene,
             number,
             lights,
+            arrays: None,
         }
+    }
+
+    pub fn rendered_from(self, arrays: Option<&'a Arc<SceneArrays>>) -> Self {
+        Self { arrays, ..self }
     }
 }
 
