@@ -89,11 +89,13 @@ fn trade_measures_each_choice() {
         let [low, high] = ["low", "high"].map(|end| point["time_ratio"][end].as_f64().expect("an interval"));
         assert!(low <= high && low > 0.0);
     }
-    let steps = report["steps"].as_array().expect("sentences").len();
-    assert_eq!(
-        steps + 1,
-        points.iter().filter(|point| point["pareto"] == true).count()
-    );
+    // Each choice of the front is in some sentence.
+    let steps = report["steps"].to_string();
+    let front: Vec<&serde_json::Value> = points.iter().filter(|point| point["pareto"] == true).collect();
+    for point in &front {
+        let choice = point["choice"].as_str().expect("a name");
+        assert!(front.len() == 1 || steps.contains(choice), "{choice}: {steps}");
+    }
 }
 
 #[test]

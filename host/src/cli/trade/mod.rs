@@ -8,6 +8,7 @@ mod light;
 pub(super) mod quantile;
 mod report;
 mod reservoirs;
+mod steps;
 mod structure;
 mod update;
 
@@ -19,11 +20,12 @@ use serde::Serialize;
 use serde_json::json;
 
 use self::choices::{Axis, Config, Subject, all};
-use self::front::{Front, fronts};
+use self::front::front;
 use self::image::{Budget, Images, images};
 use self::quantile::Interval;
 use self::report::Report;
 use self::reservoirs::HISTORY;
+use self::steps::steps;
 use self::structure::{Structure, structures};
 use self::update::{Frame, Updates};
 use super::variance::points;
@@ -83,7 +85,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         (named, _) => named.to_vec(),
     };
     let mut all_points = Vec::new();
-    let mut steps = Vec::new();
+    let mut all_steps = Vec::new();
     let mut report = args
         .out
         .as_ref()
@@ -92,14 +94,11 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     for name in named {
         let start = Instant::now();
         let (points, judge) = scene_points(&name, args, &budget)?;
-        let Front { pareto, sentences } = fronts(&points);
-        steps.extend(
-            sentences
-                .into_iter()
-                .map(|sentence| format!("{name}: {sentence}")),
-        );
+        let pareto = front(&points);
         let pareto = points.into_iter().zip(pareto);
         let points: Vec<Point> = pareto.map(|(point, pareto)| Point { pareto, ..point }).collect();
+        let sentences = steps(&points).into_iter();
+        all_steps.extend(sentences.map(|sentence| format!("{name}: {sentence}")));
         if let Some(report) = &mut report {
             report.scene(&name, args.frame, &points, &judge)?;
         }
@@ -108,7 +107,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     }
     let measured = json!({
         "frame": args.frame, "samples": budget.samples, "width": budget.width, "height": budget.height,
-        "turns": budget.turns, "threads": rayon::current_num_threads(), "points": all_points, "steps": steps,
+        "turns": budget.turns, "threads": rayon::current_num_threads(), "points": all_points, "steps": all_steps,
     });
     if let (Some(report), Some(folder)) = (&report, &args.out) {
         report.write(folder, &measured)?;
@@ -117,7 +116,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         table::print_json(&measured)?;
     } else {
         print(&all_points)?;
-        for step in steps {
+        for step in all_steps {
             println!("{step}");
         }
     }
