@@ -55,6 +55,21 @@ impl Budget {
         seeds: 7,
         reference: 512,
     };
+
+    pub fn params(&self, samples: u32, seed: u32, background: [f32; 3]) -> RenderParams {
+        RenderParams {
+            width: self.width,
+            height: self.height,
+            samples,
+            candidates: 1,
+            scattered: 0,
+            part: 0,
+            parts: 1,
+            seed,
+            jitter: 0,
+            background,
+        }
+    }
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -94,18 +109,7 @@ pub(super) fn images(
     background: [f32; 3],
     budget: &Budget,
 ) -> Result<Vec<Images>, HostError> {
-    let params = |samples, seed| RenderParams {
-        width: budget.width,
-        height: budget.height,
-        samples,
-        candidates: 1,
-        scattered: 0,
-        part: 0,
-        parts: 1,
-        seed,
-        jitter: 0,
-        background,
-    };
+    let params = |samples, seed| budget.params(samples, seed, background);
     let reference = Reference::of(subjects, arrays, budget, params)?;
     let (mut times, mut errors) = (vec![Vec::new(); subjects.len()], vec![Vec::new(); subjects.len()]);
     let mut biases = vec![Vec::new(); subjects.len()];
@@ -171,12 +175,12 @@ pub(super) fn images(
     Ok(out)
 }
 
-fn average(values: &[f64]) -> f64 {
+pub(super) fn average(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
 /// An image of many samples by the default, as displayed.
-struct Reference {
+pub(super) struct Reference {
     shown: Vec<u8>,
     exposure: f32,
     noise: f64,
@@ -184,7 +188,7 @@ struct Reference {
 }
 
 impl Reference {
-    fn of(
+    pub fn of(
         subjects: &mut [Box<dyn Subject>],
         arrays: &SceneArrays,
         budget: &Budget,
@@ -212,7 +216,8 @@ impl Reference {
         })
     }
 
-    fn error(&self, image: Vec<[f32; 3]>, budget: &Budget) -> Result<f64, HostError> {
+    /// Mean squared, as displayed, in squared steps of a byte, without the reference's own.
+    pub fn error(&self, image: Vec<[f32; 3]>, budget: &Budget) -> Result<f64, HostError> {
         let film = Film::new(budget.width, budget.height, image)?;
         Ok(difference(&film.shown(self.exposure), &self.shown) - self.noise)
     }
