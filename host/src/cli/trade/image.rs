@@ -56,8 +56,23 @@ impl Budget {
         reference: 512,
     };
 
-    fn film(&self, pixels: Vec<[f32; 3]>) -> Result<Film, HostError> {
+    pub fn film(&self, pixels: Vec<[f32; 3]>) -> Result<Film, HostError> {
         Ok(Film::new(self.width, self.height, pixels)?)
+    }
+
+    pub fn params(&self, samples: u32, seed: u32, background: [f32; 3]) -> RenderParams {
+        RenderParams {
+            width: self.width,
+            height: self.height,
+            samples,
+            candidates: 1,
+            scattered: 0,
+            part: 0,
+            parts: 1,
+            seed,
+            jitter: 0,
+            background,
+        }
     }
 }
 
@@ -103,18 +118,7 @@ pub(super) fn images(
     background: [f32; 3],
     budget: &Budget,
 ) -> Result<(Vec<Images>, Judge), HostError> {
-    let params = |samples, seed| RenderParams {
-        width: budget.width,
-        height: budget.height,
-        samples,
-        candidates: 1,
-        scattered: 0,
-        part: 0,
-        parts: 1,
-        seed,
-        jitter: 0,
-        background,
-    };
+    let params = |samples, seed| budget.params(samples, seed, background);
     let reference = Reference::of(subjects, arrays, budget, params)?;
     let (mut times, mut errors) = (vec![Vec::new(); subjects.len()], vec![Vec::new(); subjects.len()]);
     let (mut biases, mut qualities) = (vec![Vec::new(); subjects.len()], vec![Vec::new(); subjects.len()]);
@@ -208,19 +212,19 @@ fn mean_quality(of: &[Quality]) -> Quality {
     }
 }
 
-fn average(values: &[f64]) -> f64 {
+pub(super) fn average(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
 /// An image of many samples by the default.
-struct Reference {
+pub(super) struct Reference {
     judge: Judge,
     noise: f64,
     mean: f64,
 }
 
 impl Reference {
-    fn of(
+    pub fn of(
         subjects: &mut [Box<dyn Subject>],
         arrays: &SceneArrays,
         budget: &Budget,
@@ -247,7 +251,8 @@ impl Reference {
         })
     }
 
-    fn error(&self, image: &Film) -> f64 {
+    /// Mean squared, as displayed, in squared steps of a byte, without the reference's own.
+    pub fn error(&self, image: &Film) -> f64 {
         difference(&image.shown(self.judge.exposure()), self.judge.shown()) - self.noise
     }
 }

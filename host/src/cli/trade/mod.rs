@@ -5,6 +5,7 @@ mod choices;
 mod front;
 mod image;
 mod light;
+mod pick;
 pub(super) mod quantile;
 mod report;
 mod reservoirs;
@@ -16,12 +17,14 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
+use lightbvh::ShadingPoint;
 use serde::Serialize;
 use serde_json::json;
 
 use self::choices::{Axis, Config, Subject, all};
 use self::front::front;
 use self::image::{Budget, Images, images};
+use self::pick::{Goal, Pick, pick};
 use self::quantile::Interval;
 use self::report::Report;
 use self::reservoirs::HISTORY;
@@ -30,6 +33,7 @@ use self::structure::{Structure, structures};
 use self::update::{Frame, Updates};
 use super::variance::points;
 use super::{Context, Outcome, table};
+use crate::backend::SceneArrays;
 use crate::error::HostError;
 use crate::metrics::Judge;
 use crate::scene::Scene;
@@ -50,8 +54,15 @@ pub(super) struct Args {
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(u32, u32)>,
     /// Also write a page with plots, images and error maps, and the JSON, to this folder: trade.html, trade.json.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["time", "error"])]
     out: Option<PathBuf>,
+    /// Picks what has the least error in a frame of so many milliseconds, update and image, in place of the table.
+    #[arg(long, value_name = "MS", value_parser = positive, conflicts_with = "error")]
+    time: Option<f64>,
+    /// Picks what takes the least time for a frame of this error, in place of the table: root mean square as displayed, as a share of
+    /// white, such as 0.05.
+    #[arg(long, value_name = "E", value_parser = positive)]
+    error: Option<f64>,
     /// One scene, fewer turns, smaller images: within a minute.
     #[arg(long)]
     quick: bool,
@@ -69,8 +80,8 @@ struct Point {
     structure: Structure,
     #[serde(flatten)]
     images: Images,
-    /// Whether nothing else surely takes less time for a frame of the same rays, or surely has less error in it, at no surely greater
-    /// cost of the other.
+    /// Whether it is on the front: nothing else takes less time for a frame of the same rays, or has less error in it, at no greater cost
+    /// of the other, and it is not the same as the default as far as can be told.
     pareto: bool,
 }
 
@@ -84,6 +95,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         ([], false) => ["street", "square", "carousel"].map(String::from).into(),
         (named, _) => named.to_vec(),
     };
+    if let Some(goal) = args.time.map(Goal::Time).or(args.error.map(Goal::Error)) {
+        return picks(context, args, &named, &budget, goal);
+    }
     let mut all_points = Vec::new();
     let mut all_steps = Vec::new();
     let mut report = args
@@ -123,7 +137,18 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     Ok(Outcome::Good)
 }
 
-fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>, Judge), HostError> {
+/// The configurations at the frame that is measured.
+struct Prepared {
+    scene: Scene,
+    points: Vec<ShadingPoint>,
+    subjects: Vec<Box<dyn Subject>>,
+    updates: Vec<Updates>,
+    arrays: Arc<SceneArrays>,
+    background: [f32; 3],
+}
+
+/// Builds what is asked for at the first frame and brings it to the one that is measured.
+fn prepare(name: &str, args: &Args, budget: &Budget) -> Result<Prepared, HostError> {
     let scene = Scene::open(name)?;
     for warning in scene.warnings() {
         eprintln!("{name}: {warning}");
@@ -160,6 +185,26 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
         Some(arrays) => arrays,
         None => Arc::new(arrays_at(&scene, args.frame, budget.width, budget.height)?),
     };
+    let background = scene.frame(args.frame).background;
+    Ok(Prepared {
+        scene,
+        points,
+        subjects,
+        updates,
+        arrays,
+        background,
+    })
+}
+
+fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>, Judge), HostError> {
+    let Prepared {
+        scene,
+        points,
+        mut subjects,
+        updates,
+        arrays,
+        background,
+    } = prepare(name, args, budget)?;
     let last = lights_at(&scene, args.frame)?;
     let structures = structures(
         &mut subjects,
@@ -170,7 +215,6 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
         budget,
     )?;
     let updates_ms: Vec<f64> = structures.iter().map(|structure| structure.update_ms).collect();
-    let background = scene.frame(args.frame).background;
     let (images, judge) = images(&mut subjects, &updates_ms, &arrays, background, budget)?;
     let both = structures.into_iter().zip(images);
     let points = subjects
@@ -187,6 +231,50 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
         })
         .collect();
     Ok((points, judge))
+}
+
+/// The best of each scene within a budget.
+fn picks(
+    context: &Context,
+    args: &Args,
+    scenes: &[String],
+    budget: &Budget,
+    goal: Goal,
+) -> Result<Outcome, HostError> {
+    let mut picks: Vec<Option<Pick>> = Vec::new();
+    for name in scenes {
+        let mut prepared = prepare(name, args, budget)?;
+        let updates_ms: Vec<f64> = prepared.updates.iter().map(Updates::mean_ms).collect();
+        let Prepared {
+            subjects,
+            arrays,
+            background,
+            ..
+        } = &mut prepared;
+        let picked = pick(name, subjects, &updates_ms, arrays, *background, budget, goal)?;
+        if !context.json {
+            match &picked {
+                Some(picked) => println!("{picked}"),
+                None => println!("{name}: no configuration keeps this budget; give it more"),
+            }
+        }
+        picks.push(picked);
+    }
+    if context.json {
+        table::print_json(&json!({
+            "frame": args.frame, "width": budget.width, "height": budget.height,
+            "threads": rayon::current_num_threads(), "pick": picks,
+        }))?;
+    }
+    Ok(Outcome::Good)
+}
+
+/// A finite number above zero.
+fn positive(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok();
+    number
+        .filter(|&number: &f64| number.is_finite() && number > 0.0)
+        .ok_or_else(|| format!("{text} is no finite number above 0"))
 }
 
 /// `WxH`, pixels.

@@ -1,57 +1,28 @@
 //! What each step along the front costs and buys, in words.
 
 use super::Point;
-use super::front::{less, more};
-use super::quantile::Interval;
+use super::front::alike;
 
-/// Sentences for the points of a scene, from the fastest on: the steps of the front, and what is as good as their ends.
+/// Sentences for the points of a scene: what is as good as the default, and the steps of the front from the fastest on.
 pub(super) fn steps(points: &[Point]) -> Vec<String> {
-    let groups = groups(points);
-    let mut sentences = Vec::new();
-    for (at, group) in groups.iter().enumerate() {
-        if at > 0 {
-            sentences.push(step(groups[at - 1][0], group[0]));
-        }
-        let [head, others @ ..] = &group[..] else { continue };
-        if !others.is_empty() {
-            let names: Vec<&str> = others.iter().map(|point| point.choice.as_str()).collect();
-            sentences.push(format!(
-                "not surely better or worse than {}: {}",
-                head.choice,
-                names.join("; ")
-            ));
+    let mut front: Vec<&Point> = points.iter().filter(|point| point.pareto).collect();
+    front.sort_by(|a, b| time(a).total_cmp(&time(b)));
+    let mut sentences: Vec<String> = front.windows(2).map(|pair| step(pair[0], pair[1])).collect();
+    if let Some(default) = points.iter().find(|point| point.default) {
+        let like: Vec<&str> = points
+            .iter()
+            .filter(|point| !point.default && alike(point, default))
+            .map(|point| point.choice.as_str())
+            .collect();
+        if !like.is_empty() {
+            sentences.push(format!("no different from the default here: {}", like.join("; ")));
         }
     }
     sentences
 }
 
-/// The front by time, what does not surely differ together. The default is the first of its group.
-fn groups(points: &[Point]) -> Vec<Vec<&Point>> {
-    let mut front: Vec<&Point> = points.iter().filter(|point| point.pareto).collect();
-    front.sort_by(|a, b| time(a).total_cmp(&time(b)));
-    let mut groups: Vec<Vec<&Point>> = Vec::new();
-    // The default first, so that what is like it is in its group and no other.
-    let (defaults, others): (Vec<&Point>, Vec<&Point>) = front.into_iter().partition(|point| point.default);
-    for point in defaults.into_iter().chain(others) {
-        match groups.iter_mut().find(|group| alike(group[0], point)) {
-            Some(group) => group.push(point),
-            None => groups.push(vec![point]),
-        }
-    }
-    groups.sort_by(|a, b| time(a[0]).total_cmp(&time(b[0])));
-    groups
-}
-
 fn time(point: &Point) -> f64 {
     point.images.frame_ratio.median
-}
-
-fn alike(a: &Point, b: &Point) -> bool {
-    let same = |a: &[f64], b: &[f64]| {
-        let ratio = Interval::of_ratios(a, b);
-        !less(ratio) && !more(ratio)
-    };
-    same(&a.images.frames, &b.images.frames) && same(&a.images.errors, &b.images.errors)
 }
 
 fn step(a: &Point, b: &Point) -> String {

@@ -83,7 +83,7 @@ const begin = () => {
     date: made.date,
     images: `${data.width} × ${data.height} pixels, frame ${data.frame}, ${data.samples} shadow rays a pixel where all have the same; errors are of images as displayed, squared steps of a byte`,
     times: `in turn, ${data.turns} turns for samples; ratios are taken turn by turn and seed by seed, intervals are of 95 %`,
-    front: "a choice is off the front where another one surely takes less time for a frame and has no more error, or surely has less error and takes no more time",
+    front: "a choice is on the front unless another one takes less time for a frame and has no more error, or has less error and takes no more time; less is at least a tenth of time, and of error what lies beyond the interval. What is like the default in both is counted as the default",
   };
   byId("how").append(...Object.entries(how).flatMap(([key, text]) => [element("dt", {}, key), element("dd", {}, text)]));
   theme(state.theme);

@@ -137,7 +137,7 @@ const drawPlot = () => {
   byId("chosen").hidden = state.point === null;
   if (state.point !== null) byId("chosen").textContent = wholeText(points[state.point]);
   const own = state.x === "frame" && state.y === "error";
-  byId("plot-hint").textContent = `Each point is a choice; lines about it are intervals of 95 %. ${own ? "Rings mark the front: what nothing else surely beats; the dashed line goes along it by medians" : "The dashed line joins what nothing is better than in both, by medians; rings mark the front of frame time and error"}. Tab enters the points, arrow keys go along them, Enter chooses one.`;
+  byId("plot-hint").textContent = `Each point is a choice; lines about it are intervals of 95 %. ${own ? "Rings mark the front: what nothing else beats, the default for all that are like it; the dashed line goes along it" : "The dashed line joins what nothing is better than in both, by medians; rings mark the front of frame time and error"}. Tab enters the points, arrow keys go along them, Enter chooses one.`;
 };
 
 const move = (event, order, at, groups) => {
