@@ -4,7 +4,7 @@ use crate::exact;
 use crate::light::EmissiveTriangle;
 use crate::point::ShadingPoint;
 
-/// What a light contributes to a point.
+/// What a light contributes to a point. Lights are as they stand in the world, their `mesh` the index of the instance.
 pub trait Lighting {
     /// Without shadows, up to a factor common to all lights and points; finite, not negative.
     fn light(&self, point: &ShadingPoint, light: &EmissiveTriangle) -> f64;

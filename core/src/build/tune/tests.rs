@@ -130,7 +130,7 @@ fn the_variance_is_that_of_the_estimates() {
             Diffuse.light(point, light)
         }
         fn seen(&self, _: &ShadingPoint, light: &EmissiveTriangle) -> f64 {
-            if light.mesh % 2 == 0 { 0.5 } else { 1.0 }
+            if light.p[0][0] as u32 % 2 == 0 { 0.5 } else { 1.0 }
         }
     }
     let mut tuning = Tuning::new(&points, &Half, 0.0).expect("sound");
