@@ -13,6 +13,7 @@ mod morton;
 mod primitive;
 mod split;
 mod topology;
+pub mod tune;
 mod ward;
 
 pub use cost::Heuristic;

@@ -98,6 +98,47 @@ fn trade_measures_each_choice() {
     }
 }
 
+/// ReSTIR beside the default: unbiased, by whole histories of six rays.
+#[test]
+fn trade_measures_restir() {
+    let report = json("trade --json --quick --axes integrator --size 48x27 --frame 12");
+    let points = report["points"].as_array().expect("points");
+    let restir: Vec<_> = points
+        .iter()
+        .filter(|point| point["config"]["integrator"] == "restir")
+        .collect();
+    let sources: Vec<_> = restir.iter().map(|point| &point["config"]["levels"]).collect();
+    assert_eq!(sources, ["power", "two-level"]);
+    for point in restir {
+        assert!(point["error"].as_f64() > Some(0.0), "{point}");
+        assert!(point["error_equal_time"].as_f64() > Some(0.0), "{point}");
+        let bias = point["bias"]["mean"].as_f64().expect("several images");
+        assert!(bias.abs() < 0.3, "{point}");
+    }
+}
+
+/// More time, less error; less error, more time.
+#[test]
+fn trade_picks_within_a_budget() {
+    let pick = |budget: &str| {
+        let line = format!("trade --json --scene street --axes candidates --size 48x27 --frame 3 {budget}");
+        let report = json(&line);
+        let pick = &report["pick"][0];
+        assert_eq!(pick["scene"], "street");
+        assert!(pick["config"]["importance"].is_string(), "{pick}");
+        assert!(pick["sentence"].is_string());
+        ["frame_ms", "error"].map(|figure| pick[figure].as_f64().expect("a figure"))
+    };
+    // More than any machine takes for one sample, and for many.
+    let [little, coarse] = pick("--time 200");
+    let [_, fine] = pick("--time 2000");
+    assert!(little <= 200.0 && fine < coarse, "{coarse} {fine}");
+    let [_, reached] = pick(&format!("--error {coarse}"));
+    assert_eq!(reached, coarse);
+    let none = json("trade --json --scene street --axes width --size 48x27 --frame 3 --time 1e-6");
+    assert!(none["pick"][0].is_null(), "{none}");
+}
+
 #[test]
 fn bench_reports_every_case() {
     let report = json("bench --json --lights 2000 --queries 5000 --no-trade");

@@ -60,6 +60,11 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
     let said = refused("bench --dynamic --mesh-triangles 100000");
     assert!(said.contains("1000000000") && said.contains("10000000"), "{said}");
     refused(&format!("render street --sampler best -o {image}"));
+    for budget in ["--time 0", "--time nan", "--error -1"] {
+        let said = refused(&format!("trade {budget}"));
+        assert!(said.contains("no finite number above 0"), "{said}");
+    }
+    refused("trade --time 5 --error 0.1");
     refused("verify --queries many");
     assert!(!Path::new(&image).exists());
 
