@@ -10,7 +10,7 @@ use super::quantile::Interval;
 /// Errors by the same seeds are the same in every run; a ratio of them below this is no difference, however sure.
 const LEAST_ERROR: f64 = 1.03;
 
-/// A ratio of times below this is no difference. Medians of ratios, turn by turn, moved by up to a fifteenth from run to run on two
+/// A ratio of times below this is no difference. Medians of ratios, turn by turn, moved by a seventh at most from run to run on two
 /// busy cores, where the ends of their intervals moved by half.
 const LEAST_TIME: f64 = 1.1;
 
