@@ -1,15 +1,15 @@
-//! The configurations that are measured: by importance, layout, width, builder, levels, update and candidates, one axis at a time from the
-//! default.
+//! The configurations that are measured: by importance, layout, width, builder, levels, update, candidates and arithmetic, one axis at a
+//! time from the default.
 
 use std::marker::PhantomData;
 use std::time::{Duration, Instant};
 
 use lightbvh::exact::hash;
-use lightbvh::importance::DefaultImportance;
+use lightbvh::importance::{DefaultImportance, NativeMath};
 use lightbvh::node::{FullMomentNode, LeanMomentNode};
 use lightbvh::{
-    CompactNode, Cycles, Eq4, Falcor, Flux, FluxOverDistance, ImportanceModel, LightNode, Lights, MomentNode,
-    Moments, Pbrt, Random64, ShadingPoint, SphericalGaussian,
+    CompactNode, Cycles, Defensive, Eq4, Falcor, Flux, FluxOverDistance, ImportanceModel, LightNode, Lights,
+    MomentNode, Moments, Pbrt, Random64, ShadingPoint, SphericalGaussian,
 };
 use lightbvh_kernels::bvh::Choice;
 use lightbvh_kernels::render::RenderParams;
@@ -56,6 +56,8 @@ pub(super) enum Axis {
     Update,
     /// Candidates of a sample.
     Candidates,
+    /// Operations that every processor computes alike, or its own.
+    Arithmetic,
 }
 
 /// A layout and an importance, as a choice of the CPU's renderer.
@@ -181,6 +183,7 @@ pub(super) fn all(first: &Frame<'_>) -> Result<Vec<Box<dyn Subject>>, HostError>
         candidates(4).of::<MomentNode<8>, D, 8>("moments+1/64"),
         candidates(8).of::<MomentNode<8>, D, 8>("moments+1/64"),
         candidates(16).of::<MomentNode<8>, D, 8>("moments+1/64"),
+        with(A::Arithmetic).of::<MomentNode<8>, Defensive<Moments<NativeMath>, 6>, 8>("moments+1/64, native"),
     ]
     .into_iter()
     .collect()

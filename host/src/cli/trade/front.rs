@@ -75,6 +75,7 @@ impl fmt::Display for Config {
             Axis::Builder => write!(f, "built by {builder}"),
             Axis::Levels => write!(f, "{}, {}", self.levels.name(), self.importance),
             Axis::Update => write!(f, "{}, {}", self.levels.name(), self.update.name()),
+            Axis::Arithmetic => write!(f, "native operations"),
             Axis::Candidates => write!(f, "1 of {} candidates", self.candidates),
         }
     }

@@ -1,6 +1,7 @@
 //! `lightbvh trade`: speed against accuracy, measured for what a user can choose: times, bytes, variance, and the error of images at
 //! equal samples and at equal time.
 
+mod arithmetic;
 mod choices;
 mod front;
 mod image;
@@ -21,7 +22,7 @@ use self::quantile::Interval;
 use self::structure::{Structure, structures};
 use self::update::{Frame, Updates};
 use super::variance::points;
-use super::{Context, Outcome, table};
+use super::{Context, Outcome, devices, table};
 use crate::error::HostError;
 use crate::scene::Scene;
 use crate::workload::{arrays_at, lights_at};
@@ -70,6 +71,12 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         ([], false) => ["street", "square", "carousel"].map(String::from).into(),
         (named, _) => named.to_vec(),
     };
+    let opened = if args.axes.is_empty() || args.axes.contains(&Axis::Arithmetic) {
+        devices::open(context)?
+    } else {
+        Vec::new()
+    };
+    let mut by_arithmetic = Vec::new();
     let mut all_points = Vec::new();
     let mut steps = Vec::new();
     for name in named {
@@ -87,19 +94,25 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                 .zip(pareto)
                 .map(|(point, pareto)| Point { pareto, ..point }),
         );
+        if args.axes.is_empty() || args.axes.contains(&Axis::Arithmetic) {
+            by_arithmetic.extend(arithmetic::measure(&name, args.frame, &opened, budget.turns)?);
+        }
         eprintln!("{name}: {:.1} s", start.elapsed().as_secs_f64());
     }
     if context.json {
         table::print_json(&json!({
             "frame": args.frame, "samples": budget.samples, "width": budget.width, "height": budget.height,
             "turns": budget.turns, "threads": rayon::current_num_threads(), "points": all_points, "steps": steps,
+            "arithmetic": by_arithmetic,
         }))?;
     } else {
         print(&all_points)?;
         for step in steps {
             println!("{step}");
         }
+        arithmetic::print(&by_arithmetic)?;
     }
+    devices::close(opened)?;
     Ok(Outcome::Good)
 }
 
