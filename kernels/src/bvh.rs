@@ -1,9 +1,10 @@
 //! The light BVHs that the kernels are compiled for, and their picker for the renderer.
 
-use lightbvh::importance::DefaultImportance;
+use lightbvh::importance::{DefaultImportance, NativeMath};
 use lightbvh::node::DefaultNode;
 use lightbvh::{
-    CompactNode, Eq4, ImportanceModel, LightNode, LightTree, Random64, SampledLight, ShadingPoint,
+    CompactNode, Defensive, Eq4, ImportanceModel, LightNode, LightTree, Moments, Random64, SampledLight,
+    ShadingPoint,
 };
 
 use crate::shading::pick::PickLight;
@@ -43,6 +44,18 @@ impl Choice<WIDTH> for Standard {
     const SUFFIX: &'static str = "";
 }
 
+/// The default's trees, chosen from by the processor's own operations: what exactness costs is measured against it. It has no
+/// refit of its own, and its words are those of one device alone.
+#[derive(Clone, Copy, Debug)]
+pub struct Native;
+
+impl Choice<WIDTH> for Native {
+    type Node = Node;
+    type Importance = Defensive<Moments<NativeMath>, 6>;
+    const NAME: &'static str = "native moments";
+    const SUFFIX: &'static str = "_native";
+}
+
 /// Children per node of [`Standard`].
 pub const WIDTH: usize = 8;
 /// Node of [`Standard`].
@@ -58,6 +71,10 @@ pub trait Kernels {
 }
 
 impl Kernels for Standard {
+    type Node = Node;
+}
+
+impl Kernels for Native {
     type Node = Node;
 }
 

@@ -9,6 +9,7 @@ mod falcor;
 mod flux;
 mod gaussian;
 mod glossy;
+mod math;
 mod moments;
 mod pbrt;
 mod phi;
@@ -22,8 +23,11 @@ pub use falcor::Falcor;
 pub use flux::FluxOverDistance;
 pub use gaussian::SphericalGaussian;
 pub use glossy::Glossy;
+#[cfg(any(feature = "std", target_arch = "spirv"))]
+pub use math::NativeMath;
+pub use math::{ExactMath, Math};
 pub use moments::Moments;
-pub(crate) use moments::{Lobe, frame, recip_positive, side, weight};
+pub(crate) use moments::{Lobe, dot_by, frame, side, weight};
 pub use pbrt::Pbrt;
 pub use phi::Flux;
 
@@ -44,6 +48,14 @@ pub trait ImportanceModel<N, const W: usize, P = ShadingPoint> {
     /// The weights of the children of `node` at `point`, a point in the node's space: each zero where the child has no flux,
     /// else positive and at most 2^120. Hostile words may give anything.
     fn weights(node: &N, point: &P) -> [f32; W];
+
+    /// The quotient that shares of uniform choice are computed by: correctly rounded, unless the importance takes the processor's own
+    /// operations.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn quotient(a: f32, b: f32) -> f32 {
+        exact::div(a, b)
+    }
 }
 
 /// The importance `I` with a share of 2^-`HALVINGS` of samples that choose among all lights alike (a defensive mixture:
@@ -70,6 +82,11 @@ impl<N, I: ImportanceModel<N, W, P>, P, const HALVINGS: u32, const W: usize> Imp
     #[inline(always)]
     fn weights(node: &N, point: &P) -> [f32; W] {
         I::weights(node, point)
+    }
+
+    #[inline(always)]
+    fn quotient(a: f32, b: f32) -> f32 {
+        I::quotient(a, b)
     }
 }
 

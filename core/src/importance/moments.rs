@@ -1,25 +1,35 @@
 //! The default importance: means of flux, distance and both cosines.
 
+use core::marker::PhantomData;
+
 use glam::Vec3;
 
-use super::ImportanceModel;
-use crate::exact::{self, pow2, rsqrt_rough};
+use super::{ExactMath, ImportanceModel, Math};
+use crate::exact::{self, pow2};
 use crate::node::{BREADTH_BIAS, MomentLayout};
 use crate::point::ShadingPoint;
-use crate::vector::{dot, greatest_exponent};
+use crate::vector::greatest_exponent;
 
 /// Φ · cos θ · cos θ' / d², each a mean over the lights of a child as their moments give it; on the layouts that hold
 /// [`LightMoments`](crate::moments::LightMoments). Formulas and constants are explained, with what was measured, in
 /// `docs/walk.md`.
+///
+/// Its weights have the same bits on every processor, unless it is told to take each processor's own operations:
+/// `Moments<NativeMath>`. `docs/numerics.md` says what that saves, and what it costs.
 #[derive(Clone, Copy, Debug)]
-pub struct Moments;
+pub struct Moments<M = ExactMath>(PhantomData<M>);
 
-impl<N: MomentLayout<W>, const W: usize> ImportanceModel<N, W> for Moments {
+impl<M: Math, N: MomentLayout<W>, const W: usize> ImportanceModel<N, W> for Moments<M> {
     const UNIFORM_HALVINGS: u32 = 0;
 
     #[inline(always)]
     fn weights(node: &N, point: &ShadingPoint) -> [f32; W] {
-        node.moment_weights(point.position(), point.normal())
+        node.moment_weights::<M>(point.position(), point.normal())
+    }
+
+    #[inline(always)]
+    fn quotient(a: f32, b: f32) -> f32 {
+        M::div(a, b)
     }
 }
 
@@ -112,40 +122,42 @@ pub(crate) struct Lobe {
 /// root and without its cancellation. As numerator and denominator, for one reciprocal serves both cosines and the
 /// distance; `a` comes doubled.
 #[inline(always)]
-fn soft(doubled: f32, s: f32, cut: f32) -> (f32, f32) {
+fn soft<M: Math>(doubled: f32, s: f32, cut: f32) -> (f32, f32) {
     let below = exact::abs(doubled) + s;
-    (exact::max(doubled, 0.0) * below + s * cut, below)
+    (M::add_product(exact::max(doubled, 0.0) * below, s, cut), below)
 }
 
-/// [`recip_rough`](exact::recip_rough) of a positive number, whose sign need not be kept.
+/// `(ax bx + ay by) + az bz`.
 #[inline(always)]
-pub(crate) fn recip_positive(x: f32) -> f32 {
-    let seed = f32::from_bits(0x7ef3_11c7_u32.wrapping_sub(x.to_bits()));
-    seed * (2.0 - x * seed)
+pub(crate) fn dot_by<M: Math>(a: Vec3, b: Vec3) -> f32 {
+    M::add_product(M::add_product(a.x * b.x, a.y, b.y), a.z, b.z)
 }
 
 /// Φ · soft cos θ · soft cos θ' / distance², positive for any positive Φ.
 #[inline(always)]
-pub(crate) fn weight(l: &Lobe, side: &Side) -> f32 {
+pub(crate) fn weight<M: Math>(l: &Lobe, side: &Side) -> f32 {
     let squared = l.breadth * l.breadth;
-    let d_squared = dot(l.x, l.x) + LEAST_DISTANCE;
-    let near = d_squared + NEAR * squared;
-    let inverse = rsqrt_rough(d_squared + FAR * squared);
+    let d_squared = dot_by::<M>(l.x, l.x) + LEAST_DISTANCE;
+    let near = M::add_product(d_squared, NEAR, squared);
+    let inverse = M::rsqrt(M::add_product(d_squared, FAR, squared));
     let u = l.breadth * inverse;
 
     // The receiver's side. The spread along its normal is the breadth, but less where that runs along the mean normal.
-    let turn = dot(side.for_m, l.m);
-    let incident_spread = SOFT + u * (1.0 + l.less * (turn * turn));
-    let incident = dot(side.n, l.x) * inverse;
+    let turn = dot_by::<M>(side.for_m, l.m);
+    let incident_spread = M::add_product(SOFT, u, M::add_product(1.0, l.less, turn * turn));
+    let incident = dot_by::<M>(side.n, l.x) * inverse;
     // What lies above the horizon is no more than the box allows: its top, where it is low, cuts the tail.
-    let cut = exact::min(exact::max(incident + l.reach * u, FLOOR), incident_spread);
-    let (n1, d1) = soft(incident, incident_spread, cut);
+    let cut = exact::min(
+        exact::max(M::add_product(incident, l.reach, u), FLOOR),
+        incident_spread,
+    );
+    let (n1, d1) = soft::<M>(incident, incident_spread, cut);
 
     // The emitters' side: spread by the depth of the set along its normal, and by the spread of the normals.
-    let depth = u + u * l.less;
-    let emitted_spread = (SOFT + depth) + l.spread * (0.5 - depth);
-    let emitted = dot(l.m, l.x) * (side.m_unit * inverse);
-    let (n2, d2) = soft(emitted, emitted_spread, emitted_spread);
+    let depth = M::add_product(u, u, l.less);
+    let emitted_spread = M::add_product(SOFT + depth, l.spread, 0.5 - depth);
+    let emitted = dot_by::<M>(l.m, l.x) * (side.m_unit * inverse);
+    let (n2, d2) = soft::<M>(emitted, emitted_spread, emitted_spread);
 
-    (l.phi * (n1 * n2)) * recip_positive((d1 * d2) * near)
+    (l.phi * (n1 * n2)) * M::recip((d1 * d2) * near)
 }

@@ -21,7 +21,7 @@ use bytemuck::Pod;
 use glam::Vec3;
 
 pub use crate::bounds::LightBounds;
-use crate::importance::Cluster;
+use crate::importance::{Cluster, Math};
 pub use crate::moments::LightMoments;
 use crate::summary::Lanes;
 pub use crate::summary::Summary;
@@ -95,7 +95,7 @@ pub trait BoundsNode<const W: usize>: LightNode<W, Summary = LightBounds> {
 
 /// A layout that stores [`LightMoments`].
 pub trait MomentLayout<const W: usize>: LightNode<W, Summary = LightMoments> {
-    /// The weights of the children at the point `p` with the normal `n`, in the node's space; see
+    /// The weights of the children at the point `p` with the normal `n`, in the node's space, by the operations `M`; see
     /// [`ImportanceModel::weights`](crate::ImportanceModel::weights).
-    fn moment_weights(&self, p: Vec3, n: Vec3) -> [f32; W];
+    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3) -> [f32; W];
 }

@@ -10,7 +10,7 @@ use super::codes::{
 };
 use super::{LightNode, MomentLayout};
 use crate::exact::{self, pow2};
-use crate::importance::{Lobe, frame, side, weight};
+use crate::importance::{Lobe, Math, dot_by, frame, side, weight};
 use crate::moments::{Frame, Framed, LightMoments, row};
 use crate::summary::{Lanes, SUMMARY_WORDS};
 use crate::vector::abs3;
@@ -246,7 +246,7 @@ impl<const W: usize, const ROWS: usize> LightNode<W> for PackedMomentNode<W, ROW
 
 impl<const W: usize, const ROWS: usize> MomentLayout<W> for PackedMomentNode<W, ROWS> {
     #[inline(always)]
-    fn moment_weights(&self, p: Vec3, n: Vec3) -> [f32; W] {
+    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3) -> [f32; W] {
         let frame = frame(self.origin(), self.unit_exponent(), p);
         let side = side(n, WORD_UNIT);
         let word_unit = frame.unit * WORD_UNIT;
@@ -265,17 +265,18 @@ impl<const W: usize, const ROWS: usize> MomentLayout<W> for PackedMomentNode<W, 
             let lobe = Lobe {
                 phi: f32::from_bits((w1 & PHI_MASK) << PHI_SHIFT),
                 x: Vec3::new(
-                    frame.x.x + fraction(w0, 0) * word_unit,
-                    frame.x.y + fraction(w0, 15) * word_unit,
-                    frame.x.z + fraction(w1, 0) * word_unit,
+                    M::add_product(frame.x.x, fraction(w0, 0), word_unit),
+                    M::add_product(frame.x.y, fraction(w0, 15), word_unit),
+                    M::add_product(frame.x.z, fraction(w1, 0), word_unit),
                 ),
                 breadth: f32::from_bits(((w3 << BREADTH_SHIFT) & BREADTH_MASK).wrapping_add(breadth_bias)),
                 less: fraction(w1, 15) * WORD_UNIT,
                 m: Vec3::new(fraction(w2, 0), fraction(w2, 8), fraction(w2, 16)),
                 spread: (w2 & 255) as i32 as f32 * SPREAD_UNIT,
-                reach: up_sum + ((up.x * fraction(w3, 0) + up.y * fraction(w3, 8)) + up.z * fraction(w3, 16)),
+                reach: up_sum
+                    + dot_by::<M>(up, Vec3::new(fraction(w3, 0), fraction(w3, 8), fraction(w3, 16))),
             };
-            weights[i] = weight(&lobe, &side);
+            weights[i] = weight::<M>(&lobe, &side);
         }
         weights
     }

@@ -6,7 +6,7 @@ use glam::Vec3;
 use super::codes::{SQRT_2, spread};
 use super::{LightNode, MomentLayout};
 use crate::exact::{self, exponent, pow2};
-use crate::importance::{Lobe, recip_positive, side, weight};
+use crate::importance::{Lobe, Math, dot_by, side, weight};
 use crate::moments::{LEAST_EXPONENT, LightMoments};
 use crate::summary::Lanes;
 use crate::vector::abs3;
@@ -134,7 +134,7 @@ impl<const W: usize> LightNode<W> for FullMomentNode<W> {
 
 impl<const W: usize> MomentLayout<W> for FullMomentNode<W> {
     #[inline(always)]
-    fn moment_weights(&self, p: Vec3, n: Vec3) -> [f32; W] {
+    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3) -> [f32; W] {
         // One scale for all: of the farthest or largest child with flux, and of the brightest one.
         let mut size = LEAST_EXPONENT;
         let mut greatest = 0.0;
@@ -167,10 +167,12 @@ impl<const W: usize> MomentLayout<W> for FullMomentNode<W> {
                 less: self.float(5, i) - 1.0,
                 m: Vec3::new(self.float(6, i), self.float(7, i), self.float(8, i)),
                 spread: self.float(9, i),
-                reach: ((up.x * self.float(10, i) + up.y * self.float(11, i)) + up.z * self.float(12, i))
-                    * (to_one * recip_positive(breadth)),
+                reach: dot_by::<M>(
+                    up,
+                    Vec3::new(self.float(10, i), self.float(11, i), self.float(12, i)),
+                ) * (to_one * M::recip(breadth)),
             };
-            weights[i] = weight(&lobe, &side);
+            weights[i] = weight::<M>(&lobe, &side);
         }
         weights
     }

@@ -9,7 +9,7 @@ use super::codes::{
 };
 use super::{LightNode, MomentLayout};
 use crate::exact::pow2;
-use crate::importance::{Lobe, frame, side, weight};
+use crate::importance::{Lobe, Math, frame, side, weight};
 use crate::moments::LightMoments;
 use crate::summary::Lanes;
 
@@ -139,7 +139,7 @@ impl<const W: usize> LightNode<W> for LeanMomentNode<W> {
 
 impl<const W: usize> MomentLayout<W> for LeanMomentNode<W> {
     #[inline(always)]
-    fn moment_weights(&self, p: Vec3, n: Vec3) -> [f32; W] {
+    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3) -> [f32; W] {
         let frame = frame(self.origin(), (self.0[0][3] & 255) as i32 - 127, p);
         let side = side(n, WORD_UNIT);
         let word_unit = frame.unit * WORD_UNIT;
@@ -150,9 +150,9 @@ impl<const W: usize> MomentLayout<W> for LeanMomentNode<W> {
             let lobe = Lobe {
                 phi: f32::from_bits((w1 & PHI_MASK) << PHI_SHIFT),
                 x: Vec3::new(
-                    frame.x.x + fraction(w0, 0) * word_unit,
-                    frame.x.y + fraction(w0, 15) * word_unit,
-                    frame.x.z + fraction(w1, 0) * word_unit,
+                    M::add_product(frame.x.x, fraction(w0, 0), word_unit),
+                    M::add_product(frame.x.y, fraction(w0, 15), word_unit),
+                    M::add_product(frame.x.z, fraction(w1, 0), word_unit),
                 ),
                 breadth: f32::from_bits(((w1 << 10) & LEAN_MASK).wrapping_add(breadth_bias)),
                 less: 0.0,
@@ -161,7 +161,7 @@ impl<const W: usize> MomentLayout<W> for LeanMomentNode<W> {
                 // As high as a box may be: only a narrow set below the horizon is cut.
                 reach: EXTENT_RANGE,
             };
-            weights[i] = weight(&lobe, &side);
+            weights[i] = weight::<M>(&lobe, &side);
         }
         weights
     }

@@ -181,7 +181,7 @@ fn uniform_probability<N: LightNode<W>, I: ImportanceModel<N, W, P>, P, const W:
             tree.lights
         };
         let share = taken as i32 as f32 * exact::pow2(-(FULL_BITS as i32));
-        probability = exact::div(exact::div(share, at_least_one(own)), at_least_one(tree.live));
+        probability = I::quotient(I::quotient(share, at_least_one(own)), at_least_one(tree.live));
     }
     probability
 }

@@ -121,7 +121,15 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
         kernel: &str,
         queries: &[Query],
     ) -> Result<Timed<Vec<T>>, BackendError> {
-        let kernel = self.kernel(kernel)?;
+        self.query_by(&*self.kernel(kernel)?, queries)
+    }
+
+    /// Answers queries pass by pass, by a kernel that takes what `sample` takes.
+    pub(crate) fn query_by<T: bytemuck::Pod>(
+        &self,
+        kernel: &Kernel,
+        queries: &[Query],
+    ) -> Result<Timed<Vec<T>>, BackendError> {
         let mut all = Timed {
             value: Vec::with_capacity(queries.len()),
             time: Duration::ZERO,
@@ -136,7 +144,7 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
             let mut bindings = self.tree.bindings().to_vec();
             bindings.extend([input.bind(), output.bind()]);
             let mut pass = Pass::new();
-            pass.dispatch(&kernel, &bindings, bytes_of(&push), push.count);
+            pass.dispatch(kernel, &bindings, bytes_of(&push), push.count);
             all.time += device_time(&self.device.run(&pass)?);
             all.value.extend(output.read()?);
         }

@@ -1,6 +1,7 @@
 //! Devices: list them, pick one, open it, close it.
 
 use super::error::{CallContext, VulkanError};
+use super::fma;
 use super::instance::Instance;
 use super::options::Options;
 use super::probe::{Candidate, Probe};
@@ -193,10 +194,15 @@ fn create(instance: &Instance, candidate: &Candidate, options: Options) -> Resul
     let mut vulkan12 = vk::PhysicalDeviceVulkan12Features::default()
         .vulkan_memory_model(true)
         .scalar_block_layout(available.scalar_block_layout);
-    let info = vk::DeviceCreateInfo::default()
+    let mut info = vk::DeviceCreateInfo::default()
         .queue_create_infos(&queues)
         .enabled_features(&features)
         .push_next(&mut vulkan12);
+    let mut fused = fma::Features::wanted();
+    let extensions = [fma::NAME.as_ptr()];
+    if available.shader_fma_32 {
+        info = info.enabled_extension_names(&extensions).push_next(&mut fused);
+    }
     // SAFETY: the physical device comes from this instance, the queue family and every enabled feature from its own
     // report, and `info` with all it points to outlives the call.
     unsafe { instance.raw.create_device(candidate.physical, &info, None) }

@@ -25,6 +25,7 @@
 mod buffer;
 mod device;
 mod error;
+mod fma;
 mod instance;
 mod kernel;
 mod memory;

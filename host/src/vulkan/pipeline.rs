@@ -6,7 +6,7 @@ use super::kernel::Kernel;
 use super::shared::Shared;
 use ash::vk;
 use lightbvh_gpu::spirv::Interface;
-use lightbvh_gpu::{KERNELS, with_float_modes};
+use lightbvh_gpu::{KERNELS, with_float_modes, with_shader_fma};
 use std::ffi::CString;
 use std::sync::Arc;
 
@@ -81,7 +81,10 @@ impl Kernel {
             source,
         };
         let interface = Interface::read(words).map_err(bad_module)?;
-        let words = with_float_modes(words, shared.probe.float_controls.into()).map_err(bad_module)?;
+        let mut words = with_float_modes(words, shared.probe.float_controls.into()).map_err(bad_module)?;
+        if shared.probe.features.shader_fma_32 {
+            words = with_shader_fma(&words).map_err(bad_module)?;
+        }
         check_limits(shared, name, &interface)?;
         let mut kernel = Self {
             name: name.into(),

@@ -13,6 +13,7 @@ pub mod float_modes;
 mod frame;
 pub mod kernel;
 mod memory_model;
+mod native;
 mod query;
 mod refit;
 #[cfg(feature = "kernels")]
@@ -45,3 +46,5 @@ pub use device::{PUSH_CONSTANTS, REQUIRED_FEATURES, STORAGE_BUFFERS, VULKAN, wit
 pub use float_modes::{FloatControls, FloatEnvironment, with_float_modes};
 #[doc(hidden)]
 pub use kernel::{Access, Binding, Kernel, ROW_GROUPS, groups};
+#[doc(hidden)]
+pub use native::{contractible, with_shader_fma};

@@ -121,6 +121,21 @@ pub static PMF_EQ4: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `pmf_native`.
+pub static PMF_NATIVE: Kernel = Kernel {
+    name: "pmf_native",
+    bytes: include_bytes!("../spirv/pmf_native.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 132 },
+        Binding { binding: 2, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 3, name: "queries", access: Read, stride: 32 },
+        Binding { binding: 4, name: "results", access: Write, stride: 4 },
+    ],
+    push_constants: 24,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `refit_bottom`.
 pub static REFIT_BOTTOM: Kernel = Kernel {
     name: "refit_bottom",
@@ -458,6 +473,21 @@ pub static SAMPLE_EQ4: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `sample_native`.
+pub static SAMPLE_NATIVE: Kernel = Kernel {
+    name: "sample_native",
+    bytes: include_bytes!("../spirv/sample_native.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 132 },
+        Binding { binding: 2, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 3, name: "queries", access: Read, stride: 32 },
+        Binding { binding: 4, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 24,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `self_test`.
 pub static SELF_TEST: Kernel = Kernel {
     name: "self_test",
@@ -479,6 +509,7 @@ pub static KERNELS: &[&Kernel] = &[
     &PATH_UNIFORM,
     &PMF,
     &PMF_EQ4,
+    &PMF_NATIVE,
     &REFIT_BOTTOM,
     &REFIT_BOTTOM_EQ4,
     &REFIT_ROOTS,
@@ -499,5 +530,6 @@ pub static KERNELS: &[&Kernel] = &[
     &RESTIR_TEMPORAL_UNBIASED,
     &SAMPLE,
     &SAMPLE_EQ4,
+    &SAMPLE_NATIVE,
     &SELF_TEST,
 ];

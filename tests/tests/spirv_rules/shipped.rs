@@ -7,6 +7,7 @@ use lightbvh_kernels::{ROW_GROUPS, WORKGROUP};
 use lightbvh_kernels_builder::decorate::decorate;
 use lightbvh_kernels_builder::manifest::{self, ManifestError};
 use lightbvh_kernels_builder::verify::{VerifyError, verify};
+use rspirv::binary::Disassemble;
 use std::path::Path;
 
 pub fn root() -> &'static Path {
@@ -34,6 +35,26 @@ fn shipped_modules_obey_the_rules() {
         let interface = record.interface(&words).unwrap();
         assert_eq!(interface.workgroup, [WORKGROUP, 1, 1], "{}", record.file);
         assert!(interface.push_constants <= 128, "{}", record.file);
+    }
+}
+
+/// Native kernels hold the device's own instructions, one for each operation that shared code writes out; no other kernel may.
+#[test]
+fn native_operations_are_native_kernels_alone() {
+    for record in manifest::read(root()).unwrap().modules {
+        let words = manifest::read_module(root(), &record).unwrap();
+        let text = rspirv::dr::load_words(&words).unwrap().disassemble();
+        let native = record.file.ends_with("_native.spv");
+        for instruction in ["OpFDiv", "InverseSqrt", "Fma"] {
+            assert_eq!(
+                text.contains(instruction),
+                native,
+                "{} {instruction}",
+                record.file
+            );
+        }
+        assert_eq!(verify("kernel.spv", &words).is_err(), native, "{}", record.file);
+        assert!(!text.contains(" Sqrt"), "{}", record.file);
     }
 }
 

@@ -3,7 +3,9 @@
 use glam::Vec3;
 
 use super::{Random, Wide, dot, minus, narrow, normalize, top, wide};
-use crate::importance::{ImportanceModel, Moments};
+#[cfg(feature = "std")]
+use crate::importance::NativeMath;
+use crate::importance::{ExactMath, ImportanceModel, Math, Moments};
 use crate::node::{FullMomentNode, LeanMomentNode, MomentLayout, MomentNode, kind};
 use crate::point::ShadingPoint;
 use crate::{LightMoments, exact, vector};
@@ -184,7 +186,7 @@ fn known(point: &ShadingPoint, size: f32) -> LightMoments {
 
 /// Weights are, within [`ROUGH`], those of the words as they are read; and within `codes`, in the mean, those of the words as they
 /// were given.
-fn check<N: MomentLayout<4>>(stored: Stored, seed: u32, codes: f64) {
+fn check<N: MomentLayout<4>, M: Math>(stored: Stored, seed: u32, codes: f64) {
     let random = &mut Random(seed);
     let (mut seen, mut off, mut high) = (Seen::default(), 0.0, 0);
     for _ in 0..20_000 {
@@ -207,7 +209,7 @@ fn check<N: MomentLayout<4>>(stored: Stored, seed: u32, codes: f64) {
             node.set_child(slot, kind::LIGHT, slot as u32);
         }
         node.set_summaries(&sets);
-        let weights = Moments::weights(&node, &point).map(f64::from);
+        let weights = Moments::<M>::weights(&node, &point).map(f64::from);
         let children = [0, 1, 2, 3].map(|i| {
             let q = spread(sets[i].m);
             // Packed in units of 1/255.
@@ -244,17 +246,25 @@ fn check<N: MomentLayout<4>>(stored: Stored, seed: u32, codes: f64) {
 
 #[test]
 fn weights_of_full_nodes_are_the_table_s() {
-    check::<FullMomentNode<4>>(Stored::Full, 1, 0.003);
+    check::<FullMomentNode<4>, ExactMath>(Stored::Full, 1, 0.003);
 }
 
 #[test]
 fn weights_of_packed_nodes_are_the_table_s() {
-    check::<MomentNode<4>>(Stored::Packed, 2, 0.05);
+    check::<MomentNode<4>, ExactMath>(Stored::Packed, 2, 0.05);
 }
 
 #[test]
 fn weights_of_lean_nodes_are_the_table_s_without_a_box() {
-    check::<LeanMomentNode<4>>(Stored::Lean, 3, 0.075);
+    check::<LeanMomentNode<4>, ExactMath>(Stored::Lean, 3, 0.075);
+}
+
+#[test]
+#[cfg(feature = "std")]
+fn native_weights_are_the_table_s() {
+    check::<FullMomentNode<4>, NativeMath>(Stored::Full, 4, 0.003);
+    check::<MomentNode<4>, NativeMath>(Stored::Packed, 5, 0.05);
+    check::<LeanMomentNode<4>, NativeMath>(Stored::Lean, 6, 0.075);
 }
 
 /// Down to 2^-40 of the distance a frame's unit is what it is.

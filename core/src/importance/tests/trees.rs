@@ -5,6 +5,8 @@ extern crate std;
 use std::vec::Vec;
 
 use super::{Random, cross, dot, minus};
+#[cfg(feature = "std")]
+use crate::importance::NativeMath;
 use crate::importance::{
     Cycles, Eq4, Falcor, Flux, FluxOverDistance, ImportanceModel, Moments, Pbrt, SphericalGaussian,
 };
@@ -131,4 +133,12 @@ fn each_importance_is_unbiased() {
     check::<MomentNode<8>, SphericalGaussian, 8>(12);
     check::<FullMomentNode<4>, SphericalGaussian, 4>(13);
     check::<LeanMomentNode<16>, SphericalGaussian, 16>(14);
+}
+
+#[test]
+#[cfg(feature = "std")]
+fn native_operations_are_unbiased() {
+    check::<MomentNode<8>, Moments<NativeMath>, 8>(15);
+    check::<FullMomentNode<4>, Moments<NativeMath>, 4>(16);
+    check::<LeanMomentNode<16>, Moments<NativeMath>, 16>(17);
 }

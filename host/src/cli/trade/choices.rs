@@ -1,15 +1,15 @@
-//! The configurations that are measured: by importance, layout, width, builder, levels, update, candidates and integrator, one axis at
-//! a time from the default.
+//! The configurations that are measured: by importance, layout, width, builder, levels, update, candidates, integrator and arithmetic,
+//! one axis at a time from the default.
 
 use std::marker::PhantomData;
 use std::time::{Duration, Instant};
 
 use lightbvh::exact::hash;
-use lightbvh::importance::DefaultImportance;
+use lightbvh::importance::{DefaultImportance, NativeMath};
 use lightbvh::node::{FullMomentNode, LeanMomentNode};
 use lightbvh::{
-    CompactNode, Cycles, Eq4, Falcor, Flux, FluxOverDistance, ImportanceModel, LightNode, Lights, MomentNode,
-    Moments, Pbrt, Random64, ShadingPoint, SphericalGaussian,
+    CompactNode, Cycles, Defensive, Eq4, Falcor, Flux, FluxOverDistance, ImportanceModel, LightNode, Lights,
+    MomentNode, Moments, Pbrt, Random64, ShadingPoint, SphericalGaussian,
 };
 use lightbvh_kernels::bvh::Choice;
 use lightbvh_kernels::render::RenderParams;
@@ -61,6 +61,8 @@ pub(super) enum Axis {
     Candidates,
     /// Whether pixels and frames share samples.
     Integrator,
+    /// Operations that every processor computes alike, or its own.
+    Arithmetic,
 }
 
 /// A layout and an importance, as a choice of the CPU's renderer.
@@ -199,6 +201,7 @@ pub(super) fn all(first: &Frame<'_>) -> Result<Vec<Box<dyn Subject>>, HostError>
         candidates(16).of::<MomentNode<8>, D, 8>("moments+1/64"),
         reservoirs(Sampler::Power),
         reservoirs(Sampler::TwoLevel),
+        with(A::Arithmetic).of::<MomentNode<8>, Defensive<Moments<NativeMath>, 6>, 8>("moments+1/64, native"),
     ]
     .into_iter()
     .collect()

@@ -78,6 +78,7 @@ impl fmt::Display for Config {
                 self.candidates,
                 self.levels.name()
             ),
+            Axis::Arithmetic => write!(f, "native operations"),
             Axis::Candidates => write!(f, "1 of {} candidates", self.candidates),
         }
     }

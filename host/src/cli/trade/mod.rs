@@ -1,11 +1,13 @@
 //! `lightbvh trade`: speed against accuracy, measured for what a user can choose: times, bytes, variance, and the error of images at
 //! equal samples and at equal time.
 
+mod arithmetic;
 mod choices;
 mod front;
 mod image;
 mod light;
 mod pick;
+mod prepare;
 pub(super) mod quantile;
 mod report;
 mod reservoirs;
@@ -14,30 +16,29 @@ mod structure;
 mod update;
 
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::Instant;
 
-use lightbvh::ShadingPoint;
 use serde::Serialize;
 use serde_json::json;
 
-use self::choices::{Axis, Config, Subject, all};
+use self::choices::{Axis, Config};
 use self::front::front;
 use self::image::{Budget, Images, images};
-use self::pick::{Goal, Pick, pick};
+use self::pick::{Goal, picks};
+use self::prepare::{Prepared, prepare};
 use self::quantile::Interval;
 use self::report::Report;
-use self::reservoirs::HISTORY;
 use self::steps::steps;
 use self::structure::{Structure, structures};
-use self::update::{Frame, Updates};
-use super::variance::points;
-use super::{Context, Outcome, table};
-use crate::backend::SceneArrays;
+use self::update::Frame;
+use super::range::{self, given};
+use super::{Context, Outcome, devices, table};
 use crate::error::HostError;
 use crate::metrics::Judge;
-use crate::scene::Scene;
-use crate::workload::{arrays_at, lights_at};
+use crate::workload::lights_at;
+
+/// All frames up to the measured one are gone through.
+const MAX_FRAME: u64 = 10_000;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -86,6 +87,7 @@ struct Point {
 }
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
+    range::check(&[given("--frame", args.frame, 0..=MAX_FRAME)])?;
     let mut budget = if args.quick { Budget::QUICK } else { Budget::FULL };
     if let Some((width, height)) = args.size {
         (budget.width, budget.height) = (width, height);
@@ -98,6 +100,14 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     if let Some(goal) = args.time.map(Goal::Time).or(args.error.map(Goal::Error)) {
         return picks(context, args, &named, &budget, goal);
     }
+    // Devices take long: only where the axis is named, or nothing is hurried.
+    let on_devices = args.axes.contains(&Axis::Arithmetic) || (args.axes.is_empty() && !args.quick);
+    let opened = if on_devices {
+        devices::open(context)?
+    } else {
+        Vec::new()
+    };
+    let mut by_arithmetic = Vec::new();
     let mut all_points = Vec::new();
     let mut all_steps = Vec::new();
     let mut report = args
@@ -117,11 +127,15 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             report.scene(&name, args.frame, &points, &judge)?;
         }
         all_points.extend(points);
+        if on_devices {
+            by_arithmetic.extend(arithmetic::measure(&name, args.frame, &opened, budget.turns)?);
+        }
         eprintln!("{name}: {:.1} s", start.elapsed().as_secs_f64());
     }
     let measured = json!({
         "frame": args.frame, "samples": budget.samples, "width": budget.width, "height": budget.height,
         "turns": budget.turns, "threads": rayon::current_num_threads(), "points": all_points, "steps": all_steps,
+        "arithmetic": by_arithmetic,
     });
     if let (Some(report), Some(folder)) = (&report, &args.out) {
         report.write(folder, &measured)?;
@@ -133,67 +147,10 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         for step in all_steps {
             println!("{step}");
         }
+        arithmetic::print(&by_arithmetic)?;
     }
+    devices::close(opened)?;
     Ok(Outcome::Good)
-}
-
-/// The configurations at the frame that is measured.
-struct Prepared {
-    scene: Scene,
-    points: Vec<ShadingPoint>,
-    subjects: Vec<Box<dyn Subject>>,
-    updates: Vec<Updates>,
-    arrays: Arc<SceneArrays>,
-    background: [f32; 3],
-}
-
-/// Builds what is asked for at the first frame and brings it to the one that is measured.
-fn prepare(name: &str, args: &Args, budget: &Budget) -> Result<Prepared, HostError> {
-    let scene = Scene::open(name)?;
-    for warning in scene.warnings() {
-        eprintln!("{name}: {warning}");
-    }
-    let (_, points) = points::of(name, 0, args.frame, budget.points)?;
-    // ReSTIR looks back from the frame that is measured.
-    let looks_back = args.axes.is_empty() || args.axes.contains(&Axis::Integrator);
-    let arrays = |number: u32| {
-        let wanted = number == args.frame || (looks_back && number + HISTORY >= args.frame);
-        let made = wanted.then(|| arrays_at(&scene, number, budget.width, budget.height));
-        made.transpose().map(|arrays| arrays.map(Arc::new))
-    };
-    let first = lights_at(&scene, 0)?;
-    let mut shown = arrays(0)?;
-    let mut subjects: Vec<Box<dyn Subject>> =
-        all(&Frame::new(&scene, 0, &first).rendered_from(shown.as_ref()))?
-            .into_iter()
-            .filter(|subject| {
-                let axis = subject.config().axis;
-                axis == Axis::Default || args.axes.is_empty() || args.axes.contains(&axis)
-            })
-            .collect();
-    let mut updates = vec![Updates::default(); subjects.len()];
-    for number in 1..=args.frame {
-        let lights = lights_at(&scene, number)?;
-        shown = arrays(number)?;
-        for k in 0..subjects.len() {
-            let at = (k + number as usize) % subjects.len();
-            let frame = Frame::new(&scene, number, &lights).rendered_from(shown.as_ref());
-            updates[at].push(subjects[at].advance(&frame)?);
-        }
-    }
-    let arrays = match shown {
-        Some(arrays) => arrays,
-        None => Arc::new(arrays_at(&scene, args.frame, budget.width, budget.height)?),
-    };
-    let background = scene.frame(args.frame).background;
-    Ok(Prepared {
-        scene,
-        points,
-        subjects,
-        updates,
-        arrays,
-        background,
-    })
 }
 
 fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>, Judge), HostError> {
@@ -231,42 +188,6 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
         })
         .collect();
     Ok((points, judge))
-}
-
-/// The best of each scene within a budget.
-fn picks(
-    context: &Context,
-    args: &Args,
-    scenes: &[String],
-    budget: &Budget,
-    goal: Goal,
-) -> Result<Outcome, HostError> {
-    let mut picks: Vec<Option<Pick>> = Vec::new();
-    for name in scenes {
-        let mut prepared = prepare(name, args, budget)?;
-        let updates_ms: Vec<f64> = prepared.updates.iter().map(Updates::mean_ms).collect();
-        let Prepared {
-            subjects,
-            arrays,
-            background,
-            ..
-        } = &mut prepared;
-        let picked = pick(name, subjects, &updates_ms, arrays, *background, budget, goal)?;
-        if !context.json {
-            match &picked {
-                Some(picked) => println!("{picked}"),
-                None => println!("{name}: no configuration keeps this budget; give it more"),
-            }
-        }
-        picks.push(picked);
-    }
-    if context.json {
-        table::print_json(&json!({
-            "frame": args.frame, "width": budget.width, "height": budget.height,
-            "threads": rayon::current_num_threads(), "pick": picks,
-        }))?;
-    }
-    Ok(Outcome::Good)
 }
 
 /// A finite number above zero.

@@ -3,11 +3,16 @@
 use std::fmt;
 
 use serde::Serialize;
+use serde_json::json;
 
+use super::Args;
 use super::choices::{Config, Subject};
 use super::image::{Budget, Reference, average};
+use super::prepare::{Prepared, prepare};
+use super::update::Updates;
 use crate::backend::SceneArrays;
 use crate::cli::times::ms;
+use crate::cli::{Context, Outcome, table};
 use crate::error::HostError;
 
 /// Rounds in which time and error of an image by equal rays are measured.
@@ -57,8 +62,44 @@ struct Measured {
     count: u32,
 }
 
+/// The best of each scene within a budget.
+pub(super) fn picks(
+    context: &Context,
+    args: &Args,
+    scenes: &[String],
+    budget: &Budget,
+    goal: Goal,
+) -> Result<Outcome, HostError> {
+    let mut picks: Vec<Option<Pick>> = Vec::new();
+    for name in scenes {
+        let mut prepared = prepare(name, args, budget)?;
+        let updates_ms: Vec<f64> = prepared.updates.iter().map(Updates::mean_ms).collect();
+        let Prepared {
+            subjects,
+            arrays,
+            background,
+            ..
+        } = &mut prepared;
+        let picked = pick(name, subjects, &updates_ms, arrays, *background, budget, goal)?;
+        if !context.json {
+            match &picked {
+                Some(picked) => println!("{picked}"),
+                None => println!("{name}: no configuration keeps this budget; give it more"),
+            }
+        }
+        picks.push(picked);
+    }
+    if context.json {
+        table::print_json(&json!({
+            "frame": args.frame, "width": budget.width, "height": budget.height,
+            "threads": rayon::current_num_threads(), "pick": picks,
+        }))?;
+    }
+    Ok(Outcome::Good)
+}
+
 /// The best of `subjects`, the default first; nothing where no configuration keeps the budget.
-pub(super) fn pick(
+fn pick(
     scene: &str,
     subjects: &mut [Box<dyn Subject>],
     updates_ms: &[f64],

@@ -30,9 +30,10 @@ impl Interval {
         }
     }
 
-    /// Of `a` over `b`, turn by turn.
+    /// Of `a` over `b`, turn by turn; nothing over nothing is 1.
     pub fn of_ratios(a: &[f64], b: &[f64]) -> Self {
-        Self::of(a.iter().zip(b).map(|(a, b)| a / b).collect())
+        let ratio = |(a, b): (&f64, &f64)| if a == b { 1.0 } else { a / b };
+        Self::of(a.iter().zip(b).map(ratio).collect())
     }
 }
 

@@ -26,20 +26,22 @@ fn time(point: &Point) -> f64 {
 }
 
 fn step(a: &Point, b: &Point) -> String {
-    let of = |get: fn(&Point) -> f64, [less, more]: [&str; 2]| {
-        let percent = 100.0 * (get(b) / get(a) - 1.0);
-        match percent < 0.0 {
-            true => format!("{:.0} % {less}", -percent),
-            false if percent < 300.0 => format!("{percent:.0} % {more}"),
-            false => format!("{:.1} times the", get(b) / get(a)),
+    let of = |get: fn(&Point) -> f64| {
+        let (before, after) = (get(a), get(b));
+        match after / before {
+            _ if before == after => "the same".to_owned(),
+            ratio if !ratio.is_finite() => "some, where there was no,".to_owned(),
+            ratio if ratio < 1.0 => format!("{:.0} % less", 100.0 * (1.0 - ratio)),
+            ratio if ratio < 4.0 => format!("{:.0} % more", 100.0 * (ratio - 1.0)),
+            ratio => format!("{ratio:.1} times the"),
         }
     };
     format!(
         "from {} to {}: a frame takes {} time and has {} error by the same rays, {} error at equal time",
         a.choice,
         b.choice,
-        of(time, ["less", "more"]),
-        of(|point| point.images.error, ["less", "more"]),
-        of(|point| point.images.error_equal_time, ["less", "more"]),
+        of(time),
+        of(|point| point.images.error),
+        of(|point| point.images.error_equal_time),
     )
 }
