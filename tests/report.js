@@ -57,7 +57,7 @@
   set("near", "2");
   check(points().length <= mine.length && seen().includes("default"), "the range narrows around the default");
   set("near", "");
-  check(location.hash.includes(`scene=${state.scene}`), "the address keeps the choice");
+  check(new URLSearchParams(location.hash.slice(1)).get("scene") === state.scene, "the address keeps the choice");
 
   // Pointer and keyboard.
   points()[0].dispatchEvent(new PointerEvent("pointerenter"));

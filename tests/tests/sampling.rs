@@ -522,6 +522,7 @@ fn splitting_is_unbiased<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usi
             };
             let bvh = bvh.by::<I>();
             let (all, found) = bvh.sample_split::<64>(&point, number(random));
+            assert!(all[..found].iter().all(|s| s.pmf > 0.0));
             let relative = estimate(&all[..found]) / sum;
             assert!(
                 (relative - 1.0).abs() < 1e-6,

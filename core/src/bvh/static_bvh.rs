@@ -32,9 +32,10 @@ pub struct StaticBvh<N, I, const W: usize, T = WithTrails> {
 }
 
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// What sampling reads, as of the last [`refit`](Self::refit).
+    /// What sampling reads, refitted: an instance removed and still in the tree would take its share of the samples for ever.
     #[must_use]
-    pub fn into_static(self) -> StaticBvh<N, I, W, T> {
+    pub fn into_static(mut self) -> StaticBvh<N, I, W, T> {
+        self.refit();
         let words = TreeWords::of(&self.arrays());
         StaticBvh {
             nodes: self.nodes.into_boxed_slice(),

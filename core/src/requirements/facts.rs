@@ -66,7 +66,7 @@ impl Requirements {
             fact(
                 "glossy receivers",
                 yes(self.declared.glossy),
-                "as declared; importances take receivers as diffuse".to_string(),
+                "as declared; importances but `Glossy` take receivers as diffuse".to_string(),
             ),
             fact(
                 "pmf of given lights",

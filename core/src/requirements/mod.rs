@@ -73,7 +73,7 @@ pub struct Requirements {
 
 impl Requirements {
     /// What `scene`, a `&Bvh` or `&Lights`, requires under what is `declared`. Takes time in proportion to its lights, about that of
-    /// a refit; each triangle's normal is sorted once more where triangles shine from one side.
+    /// a refit; triangles are sorted once more where their normals may cancel.
     #[must_use]
     pub fn of<'a>(scene: impl Into<SceneLights<'a>>, declared: Declared) -> Self {
         let scene = scene.into();

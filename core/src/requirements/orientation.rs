@@ -2,6 +2,7 @@
 
 use alloc::vec::Vec;
 
+use crate::exact::hash;
 use crate::light::EmissiveTriangle;
 use crate::moments::LightMoments;
 
@@ -67,6 +68,20 @@ impl Normals {
 /// Whether flux and normals, as bits, are the same set when all normals are turned.
 fn cancel(mut directed: Vec<[u32; 4]>) -> bool {
     let turn = |bits: u32| (0.0 - f32::from_bits(bits)).to_bits();
+    // Sums of hashes do not depend on the order: they tell most sets apart without sorting them.
+    let hashed = |[phi, x, y, z]: [u32; 4]| u64::from(hash(hash(hash(phi ^ hash(x)) ^ y) ^ z));
+    let sums = directed
+        .iter()
+        .fold([0_u64; 2], |[sum, of_turned], &[phi, x, y, z]| {
+            let other = [phi, turn(x), turn(y), turn(z)];
+            [
+                sum.wrapping_add(hashed([phi, x, y, z])),
+                of_turned.wrapping_add(hashed(other)),
+            ]
+        });
+    if sums[0] != sums[1] {
+        return false;
+    }
     let mut turned: Vec<[u32; 4]> = directed
         .iter()
         .map(|&[phi, x, y, z]| [phi, turn(x), turn(y), turn(z)])

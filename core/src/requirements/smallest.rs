@@ -4,7 +4,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::{Layout, Model, Orientation, Requirements, Structure, Updates};
+use super::{Layout, Model, Orientation, Requirements, Structure, TransformKind, Updates};
 
 impl Requirements {
     /// The smallest model that is sufficient. Layout, trails and updates keep the bits of probabilities. One level in place of several,
@@ -54,10 +54,12 @@ impl Requirements {
             && self.normals_to_come() == 0
     }
 
-    /// Triangles that may get a normal: needles that move or deform, and those that start to shine.
+    /// Triangles that may get a normal: needles that move, deform, or stand in the world otherwise than in their mesh, and those that start
+    /// to shine.
     fn normals_to_come(&self) -> usize {
         let changes = self.declared.changes;
-        let widen = usize::from(changes.triangles || changes.transforms);
+        let moved = self.transform() > TransformKind::Identity;
+        let widen = usize::from(changes.triangles || changes.transforms || moved);
         self.needles * widen + self.unlit * usize::from(changes.triangles)
     }
 
@@ -100,8 +102,8 @@ impl Requirements {
         ]);
         if self.declared.glossy && !self.declared.pmf {
             said.push(
-                "glossy surfaces: no importance knows their lobes, and without probabilities of given lights no ray into a lobe can share \
-                 a light with a sample; resample several candidates (`sample_many`) or ask for the probabilities"
+                "glossy surfaces: without probabilities of given lights no ray into a lobe can share a light with a sample; ask for them, \
+                 resample several candidates (`sample_many`), or let the importance know the lobe (`Glossy`), which takes longer"
                     .to_string(),
             );
         }

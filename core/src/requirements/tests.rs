@@ -6,7 +6,7 @@ mod models;
 
 use std::vec::Vec;
 
-use super::{Declared, Orientation, Requirements, TransformKind};
+use super::{Declared, Layout, Orientation, Requirements, TransformKind};
 use crate::bvh::LightBvh;
 use crate::exact::pow2;
 use crate::kit::Random;
@@ -107,6 +107,36 @@ fn needles_have_no_normal() {
         assert_eq!((found.needles, found.dark), (needles, 0));
         let expected = [Orientation::Present, Orientation::Absent][needles];
         assert_eq!(found.orientation, expected);
+    }
+}
+
+/// What has no normal in its mesh has one in the world where the map widens it, and a tree over the world knows it.
+#[test]
+fn widened_needles_keep_their_normals() {
+    let needle = EmissiveTriangle {
+        p: [[0.0; 3], [1.0, 0.0, 0.0], [0.0, pow2(-70), 0.0]],
+        radiance: [1.0; 3],
+        mesh: 0,
+        flags: 0,
+    };
+    let mut wide = Transform::IDENTITY;
+    wide.columns[1] = [0.0, pow2(40), 0.0];
+    for (transform, layout) in [
+        (Transform::IDENTITY, Layout::TwoSidedMoments),
+        (wide, Layout::Moments),
+    ] {
+        let mut bvh = LightBvh::default();
+        let mesh = bvh.add_mesh(std::vec![needle]).expect("a mesh");
+        let add = Edit::AddInstance {
+            mesh,
+            transform,
+            radiance: 1.0,
+        };
+        bvh.apply(std::vec![add]).expect("an instance");
+        bvh.refit();
+        let found = Requirements::of(&bvh, Declared::STATIC);
+        assert_eq!((found.needles, found.orientation), (1, Orientation::Absent));
+        assert_eq!(found.model().layout, layout);
     }
 }
 

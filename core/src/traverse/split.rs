@@ -77,6 +77,7 @@ pub(super) fn sample_split<N: LightNode<W>, I: ImportanceModel<N, W>, const W: u
         count -= 1;
     }
     let mut sampled = [SampledLight::NONE; MOST];
+    let mut found = 0;
     for k in 0..count {
         let mut walk = subtrees[k].walk;
         walk.number = random.spaced(k as u32, count as u32);
@@ -84,14 +85,15 @@ pub(super) fn sample_split<N: LightNode<W>, I: ImportanceModel<N, W>, const W: u
             walk.step(tree, point);
         }
         if walk.triangle != INVALID {
-            sampled[k] = SampledLight {
+            sampled[found] = SampledLight {
                 light: light_of(tree, walk.triangle, walk.instance),
                 instance: walk.instance,
                 pmf: walk.probability(),
             };
+            found += 1;
         }
     }
-    (sampled, count)
+    (sampled, found)
 }
 
 /// The subtree with the greatest gain, where any has one.

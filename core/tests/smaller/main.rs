@@ -137,6 +137,38 @@ fn samples_need_no_trails() {
     }
 }
 
+/// An instance removed before the light BVH comes to rest takes no samples of those that stay.
+#[test]
+fn static_light_bvhs_forget_what_was_removed() {
+    let mut bvh = scene::<MomentNode<8>, Moments, 8>(3, 0, BuildParams::BALANCED);
+    let triangles = vec![EmissiveTriangle {
+        p: [[0.0, 5.0, 0.0], [0.0, 5.0, 1.0], [1.0, 5.0, 0.0]],
+        radiance: [1.0e6; 3],
+        mesh: 0,
+        flags: 0,
+    }];
+    let added = [
+        Edit::AddMesh { triangles },
+        Edit::AddInstance {
+            mesh: lightbvh::MeshId::added(0),
+            transform: lightbvh::Transform::IDENTITY,
+            radiance: 1.0,
+        },
+    ];
+    let instance = bvh.apply(added.into()).expect("a bright lamp").instances[0];
+    bvh.refit();
+    bvh.remove_instance(instance).expect("it is there");
+    let still: StaticBvh<_, _, 8> = bvh.clone().into_static();
+    bvh.refit();
+    for point in points(3, &bvh.world_lights()) {
+        for number in 0..64_u32 {
+            let sampled = still.sample(&point, hash(number));
+            assert_eq!(sampled, bvh.sample(&point, hash(number)));
+            assert!(sampled.pmf > 0.0);
+        }
+    }
+}
+
 #[test]
 fn static_light_bvhs_say_the_same_in_fewer_bytes() {
     type D = Defensive<Moments, 6>;

@@ -133,6 +133,8 @@ impl Args {
             // A share of uniform choice finds its lights by trails.
             trails: chosen.trails || uniform_halvings > 0,
             updates: match self.updates {
+                // What a device mirrors is a light BVH with all its edits.
+                None if self.backend == BackendName::Vulkan => Updates::Meshes,
                 None => chosen.updates,
                 Some(UpdatesName::Nothing) => Updates::Nothing,
                 Some(UpdatesName::Instances) => Updates::Instances,

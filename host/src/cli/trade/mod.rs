@@ -228,22 +228,22 @@ fn print(points: &[Point]) -> Result<(), HostError> {
             ("update ms", |p| format!("{:.2}", p.structure.update_ms)),
             ("image ms", |p| format!("{:.1}", p.images.image_ms)),
             ("sample ns", |p| format!("{:.0}", p.structure.ns_per_sample)),
-            ("to default", |p| ratio(&p.structure.sample_ratio)),
+            ("sample to default", |p| ratio(&p.structure.sample_ratio)),
             ("variance", |p| format!("{:.3}", p.structure.variances.variance)),
-            ("median", |p| {
+            ("its median", |p| {
                 format!("{:.3}", p.structure.variances.variance_median)
             }),
             ("shadowed", |p| {
                 format!("{:.2}", p.structure.variances.shadowed_variance)
             }),
-            ("median", |p| {
+            ("its median", |p| {
                 format!("{:.2}", p.structure.variances.shadowed_variance_median)
             }),
             ("frame time", |p| ratio(&p.images.frame_ratio)),
             ("error", |p| format!("{:.0}", p.images.error)),
-            ("to default", |p| ratio(&p.images.error_ratio)),
+            ("error to default", |p| ratio(&p.images.error_ratio)),
             ("at equal time", |p| format!("{:.0}", p.images.error_equal_time)),
-            ("to default", |p| ratio(&p.images.equal_time_ratio)),
+            ("that to default", |p| ratio(&p.images.equal_time_ratio)),
             ("front", |p| table::yes(p.pareto)),
         ],
     )?)

@@ -53,6 +53,9 @@ mod tests {
             }
         );
         assert_eq!(of(4).median, 2.5);
+        // Images without any error are no different.
+        let ratio = Interval::of_ratios(&[0.0, 2.0, 0.0], &[0.0, 2.0, 0.0]);
+        assert_eq!((ratio.low, ratio.median, ratio.high), (1.0, 1.0, 1.0));
         // Tables of the binomial distribution: the 6th and the 15th of 20 for 95.9 %.
         let twenty = of(20);
         assert_eq!((twenty.low, twenty.high), (6.0, 15.0));

@@ -4,7 +4,7 @@ const verdict = (axis, points) => {
   const best = points.reduce((a, b) => (of(a).median <= of(b).median ? a : b));
   const surely = of(best).high < 1;
   const maybe = points.filter((p) => of(p).low <= 1 && of(p).high >= 1);
-  if (surely) return `${best.choice} has ${number(100 * (1 - of(best).median))} % less error at equal time than the default.`;
+  if (surely) return `${best.choice} has ${Math.round(100 * (1 - of(best).median))} % less error at equal time than the default.`;
   if (maybe.length) return `nothing is surely better than the default; not surely worse: ${maybe.map((p) => p.choice).join("; ")}.`;
   return `the default is surely better than all of them; the next is ${best.choice}, ${number(of(best).median)} times its error.`;
 };

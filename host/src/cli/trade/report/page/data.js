@@ -28,7 +28,8 @@ const number = (value) => {
 
 const interval = (of) => `${number(of.median)} [${number(of.low)}, ${number(of.high)}]`;
 
-const exactly = (value) => ({ median: value, low: value, high: value });
+// JSON has no infinity: what is not finite comes as nothing.
+const exactly = (value) => ({ median: value ?? NaN, low: value ?? NaN, high: value ?? NaN });
 
 const measures = {
   frame: { label: "time of a frame, over the default's", of: (p) => p.frame_ratio, less: true },
@@ -48,8 +49,11 @@ const measures = {
   ssim: { label: "SSIM by the same rays", of: (p) => exactly(p.quality.ssim), less: false },
 };
 
-const axisNames = [...new Set(data.points.map((point) => point.config.axis))];
-const color = (axis) => `var(--c${Math.max(0, axisNames.indexOf(axis)) % 10})`;
+// The same colours and shapes in every report, whichever axes it has.
+const allAxes = ["default", "importance", "layout", "width", "builder", "levels", "update", "candidates", "integrator", "arithmetic"];
+const axisNames = allAxes.filter((axis) => data.points.some((point) => point.config.axis === axis));
+const axisNumber = (axis) => Math.max(0, allAxes.indexOf(axis));
+const color = (axis) => `var(--c${axisNumber(axis)})`;
 
 // What the user chose; a part of the address, so that it can be sent to others.
 const state = { scene: data.scenes[0].name, x: "frame", y: "error", log: true, near: "", point: null, left: null, right: null, view: "image", depth: 2, axis: "", theme: "" };

@@ -38,8 +38,8 @@ const shapes = [
   "M0-6 2-2 6-1.5 3 1.5 4 6 0 3.5-4 6-3 1.5-6-1.5-2-2Z", "M-6-5H0L6 0 0 5H-6Z", "M6-5H0L-6 0 0 5H6Z", "M-3-6H3V6H-3Z", "M-6-3H6V3H-6Z",
 ];
 const shape = (axis) => {
-  const at = axisNames.indexOf(axis);
-  return axis === "default" || at < 0 ? drawing("circle", { r: 6, fill: color(axis) }) : drawing("path", { d: shapes[at % shapes.length], fill: color(axis) });
+  const at = axisNumber(axis);
+  return at === 0 ? drawing("circle", { r: 6, fill: color(axis) }) : drawing("path", { d: shapes[at], fill: color(axis) });
 };
 
 // What no other point has less of in both, by medians; of the measured front alone where the axes are its own.
@@ -60,7 +60,8 @@ const within = (points, x, y) => {
     const [a, b] = [m.of(p).median, m.of(home).median];
     return a === b || (a > 0 && b > 0 && Math.max(a / b, b / a) <= Number(state.near));
   };
-  return points.map((_, at) => at).filter((at) => !state.near || (near(x, points[at]) && near(y, points[at])));
+  const known = (at) => Object.values({ ...x.of(points[at]) }).concat(Object.values(y.of(points[at]))).every(Number.isFinite);
+  return points.map((_, at) => at).filter((at) => known(at) && (!state.near || (near(x, points[at]) && near(y, points[at]))));
 };
 
 // Names of points where they cover neither each other nor a point: of the front first.
@@ -137,7 +138,8 @@ const drawPlot = () => {
   byId("chosen").hidden = state.point === null;
   if (state.point !== null) byId("chosen").textContent = wholeText(points[state.point]);
   const own = state.x === "frame" && state.y === "error";
-  byId("plot-hint").textContent = `Each point is a choice; lines about it are intervals of 95 %. ${own ? "Rings mark the front: what nothing else beats, the default for all that are like it; the dashed line goes along it" : "The dashed line joins what nothing is better than in both, by medians; rings mark the front of frame time and error"}. Tab enters the points, arrow keys go along them, Enter chooses one.`;
+  const unknown = points.filter((p) => ![x.of(p).median, y.of(p).median].every(Number.isFinite)).map((p) => p.choice);
+  byId("plot-hint").textContent = `${unknown.length ? `Not shown, infinite or unknown: ${unknown.join("; ")}. ` : ""}Each point is a choice; lines about it are intervals of 95 %. ${own ? "Rings mark the front: what nothing else beats, the default for all that are like it; the dashed line goes along it" : "The dashed line joins what nothing is better than in both, by medians; rings mark the front of frame time and error"}. Tab enters the points, arrow keys go along them, Enter chooses one.`;
 };
 
 const move = (event, order, at, groups) => {
@@ -158,6 +160,11 @@ const move = (event, order, at, groups) => {
 const drawLegend = () => {
   const axes = axisNames.map((axis) => element("span", {}, drawing("svg", { viewBox: "-8 -8 16 16" }, shape(axis)), axis));
   byId("legend").replaceChildren(...axes, element("span", {}, drawing("svg", { viewBox: "-8 -8 16 16" }, drawing("circle", { class: "ring", r: 7 })), "on the front"));
+  const least = scenePoints().reduce((a, b) => (a.equal_time_ratio.median <= b.equal_time_ratio.median ? a : b));
+  const share = 1 - least.equal_time_ratio.median;
+  byId("best").textContent = least.default || least.equal_time_ratio.high >= 1
+    ? "At equal time nothing here has surely less error than the default."
+    : `At equal time ${least.choice} has the least error: ${number(Math.round(100 * share))} % less than the default.`;
   const mine = data.steps.filter((step) => step.startsWith(`${state.scene}: `)).map((step) => step.slice(state.scene.length + 2));
   byId("steps").replaceChildren(...(mine.length ? mine : ["The front is one point: the fastest choice has the least error."]).map((step) => element("li", {}, step)));
 };
