@@ -115,7 +115,7 @@ pub struct Resampling {
     pub sample: LightSample,
     /// The receiver's target at y.
     pub target: f32,
-    /// Which reservoir y came from: what [`merge`](Self::merge) was told.
+    /// Which reservoir y came from: what [`merge`](Self::merge) was told. Of candidates how many came before it.
     pub source: u32,
     /// The sum of all weights.
     pub weight_sum: f32,
@@ -158,8 +158,9 @@ impl Resampling {
         } else {
             0.0
         };
-        self.count = plus(self.count, 1);
-        self.update(sample, weight, target, 0, random);
+        let before = self.count;
+        self.count = plus(before, 1);
+        self.update(sample, weight, target, before, random);
     }
 
     /// Takes the sample of another reservoir for all those that it stands for (Algorithm 4): weight p̂ W M, with this

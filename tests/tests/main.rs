@@ -4,6 +4,7 @@
 mod bounds;
 mod broken_kernels;
 mod bsdf_sampling;
+mod coplanar;
 mod deep;
 mod deep_scene;
 mod encoding;

@@ -115,12 +115,16 @@ fn inverse_roots(module: &mut Module) {
         .filter(|inst| is_extended(inst, GLOp::Sqrt))
         .filter_map(|inst| Some((inst.result_id?, inst.operands.clone())))
         .collect();
+    let mut inverted = HashSet::new();
     for inst in module.all_inst_iter_mut() {
         let root = match (inst.class.opcode, inst.operands.as_slice()) {
-            (Op::FDiv, [Operand::IdRef(one), Operand::IdRef(root)]) if ones.contains(one) => roots.get(root),
+            (Op::FDiv, [Operand::IdRef(one), Operand::IdRef(root)]) if ones.contains(one) => {
+                roots.get_key_value(root)
+            }
             _ => None,
         };
-        if let Some(operands) = root {
+        if let Some((&id, operands)) = root {
+            inverted.insert(id);
             let mut operands = operands.clone();
             operands[1] = Operand::LiteralExtInstInteger(GLOp::InverseSqrt as u32);
             *inst = Instruction::new(Op::ExtInst, inst.result_type, inst.result_id, operands);
@@ -132,7 +136,8 @@ fn inverse_roots(module: &mut Module) {
         .collect();
     for block in (module.functions.iter_mut()).flat_map(|function| &mut function.blocks) {
         block.instructions.retain(|inst| {
-            !is_extended(inst, GLOp::Sqrt) || inst.result_id.is_some_and(|id| used.contains(&id))
+            inst.result_id
+                .is_none_or(|id| !inverted.contains(&id) || used.contains(&id))
         });
     }
 }

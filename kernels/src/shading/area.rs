@@ -55,6 +55,8 @@ pub struct Connection {
     pub contribution: Vec3,
     /// The end of the shadow ray: just before the light, metres.
     pub target: Vec3,
+    /// The point on the light, metres.
+    pub on: Vec3,
     /// Density over solid angle of finding the direction to this point of the light this way, 1/sr.
     pub density: f32,
     /// Density over solid angle of finding it by [`Material::sample`], 1/sr.
@@ -151,6 +153,7 @@ pub fn connect(
     Connection {
         contribution,
         target: y + shift,
+        on: y,
         density: density(squared, emitting, pmf),
         scattering_density,
     }

@@ -2,16 +2,17 @@
 //! sampling (J. Talbot, D. Cline, P. Egbert, "Importance Resampling for Global Illumination", 2005; ReSTIR Algorithm 3).
 
 use lightbvh::EmissiveTriangle;
-use lightbvh::exact::{clamp, hash, unit_f32};
-use lightbvh::reservoir::{LightSample, Resampling, Reservoir};
+use lightbvh::exact::{clamp, hash, max, min, rsqrt, unit_f32};
+use lightbvh::reservoir::{LightSample, MAX_WEIGHT, MIN_PMF, Resampling, Reservoir};
+use lightbvh::vector::length_squared;
 
-use super::grid::{STEP, flush_vector, snap_point};
+use super::grid::{STEP, bounded_quotient, flush_vector, snap_point};
 use super::pick::PickLight;
 use super::picks::Picks;
 use super::pixel::{Scene, load_material};
 use super::ray::{FAR, Ray};
 use super::restir::surface::Surface;
-use super::restir::target::lit;
+use super::restir::target::{Lit, lit, visible};
 use super::trace::{NONE, closest_hit};
 
 /// Most directions of a sample.
@@ -38,7 +39,8 @@ pub struct Candidates {
 /// With directions, the balance heuristic shares each point of a light among both kinds (E. Veach and L. Guibas, "Optimally Combining
 /// Sampling Techniques for Monte Carlo Rendering", 1995, section 3; within resampling: D. Lin et al., "Generalized Resampled
 /// Importance Sampling", 2022, section 4): however it was found, its weight is p̂ / (n p + m q), where p and q are the densities of
-/// n picks and m directions. So the estimate stays unbiased, and no weight has a small density alone below it.
+/// n picks and m directions. So no weight has a small density alone below it. What is visible and yet found by no direction, since
+/// another surface lies in the light's plane or just before it, only [`Chosen::arrives`] can tell.
 #[inline]
 #[must_use]
 pub fn resampled<P: PickLight>(
@@ -48,7 +50,7 @@ pub fn resampled<P: PickLight>(
     picks: &mut Picks,
     which: Candidates,
     seed: u32,
-) -> Reservoir {
+) -> Chosen {
     let scattered = if which.scattered < MAX_SCATTERED {
         which.scattered
     } else {
@@ -56,6 +58,7 @@ pub fn resampled<P: PickLight>(
     };
     let (n, m) = (which.count as i32 as f32, scattered as i32 as f32);
     let mut stream = Resampling::EMPTY;
+    let mut unfound = 1.0;
     for candidate in 0..which.count.wrapping_add(scattered) {
         let found = if candidate < which.count {
             let k = which.first.wrapping_add(candidate);
@@ -74,22 +77,74 @@ pub fn resampled<P: PickLight>(
         };
         let arriving = lit(scene.materials, &scene.emitters, surface, &found.sample);
         let mut density = found.pmf;
+        let mut alone = 1.0;
         if scattered > 0 {
-            density = if found.counts {
-                n * found.pmf + m * arriving.scattered
+            let (picked, directed) = (n * found.pmf, m * arriving.scattered);
+            density = if found.counts { picked + directed } else { 0.0 };
+            if candidate < which.count {
+                let missing = bounded_quotient(directed, max(picked, MIN_PMF));
+                alone = 1.0 + min(missing, MAX_WEIGHT);
             } else {
-                0.0
-            };
+                alone = 0.0;
+            }
         }
         let random = hash(seed.wrapping_add(candidate));
         stream.candidate(found.sample, arriving.target, density, random);
+        unfound = if stream.source == candidate {
+            alone
+        } else {
+            unfound
+        };
     }
     let whole = if scattered > 0 {
         1.0
     } else {
         stream.count as i32 as f32
     };
-    stream.finish_balanced(1.0, whole)
+    Chosen {
+        reservoir: stream.finish_balanced(1.0, whole),
+        unfound,
+    }
+}
+
+/// One of the candidates.
+#[derive(Clone, Copy, Debug)]
+pub struct Chosen {
+    /// It, with the weight that it has if it is visible, and if directions were tried, found by them.
+    pub reservoir: Reservoir,
+    /// What is missing from the weight of a pick that no direction finds, (n p + m q) / (n p): 1 where none would be tried. 0 for
+    /// what a direction found.
+    pub unfound: f32,
+}
+
+impl Chosen {
+    /// The factor on its weight when rays have told whether `arriving`, its light, arrives: 0 where it is hidden, 1 as a rule.
+    ///
+    /// A pick may be visible while directions to the same point meet something else: shadow rays end just before the light, and what
+    /// lies in its plane hides nothing. Directions then leave out what the balance heuristic left to them, so the pick takes all.
+    #[inline]
+    #[must_use]
+    pub fn arrives(&self, scene: &Scene<'_>, surface: &Surface, arriving: &Lit) -> f32 {
+        let light = self.reservoir.sample.light;
+        let mut factor = 1.0;
+        if self.unfound > 0.0 {
+            let mut found = NONE;
+            if self.unfound > 1.0 {
+                // Of length 1 as those of directions: rounding decides alike among surfaces at one distance.
+                let origin = surface.point.position();
+                let d = flush_vector(arriving.on - origin, STEP);
+                found = along(scene, &Ray::new(origin, d * rsqrt(length_squared(d)), FAR)).light;
+            }
+            if found != light {
+                factor = if visible(&scene.surfaces, surface, arriving.end, light) {
+                    self.unfound
+                } else {
+                    0.0
+                };
+            }
+        }
+        factor
+    }
 }
 
 /// A candidate.
@@ -117,21 +172,37 @@ fn mirrored<P: PickLight>(scene: &Scene<'_>, picker: &P, surface: &Surface, numb
         draw(numbers.wrapping_add(2)),
     ];
     let ray = Ray::new(surface.point.position(), material.sample(n, surface.wo(), u), FAR);
-    let hit = closest_hit(&scene.surfaces, &ray);
-    let triangles = scene.surfaces.triangles;
-    if hit.triangle < triangles.len() as u32 {
-        let light = triangles[hit.triangle as usize].light;
-        let instance = triangles[hit.triangle as usize].instance;
-        if light != NONE {
-            let uv = coordinates(&ray, &scene.emitters.light(light, instance));
-            found = Found {
-                sample: LightSample { light, instance, uv },
-                pmf: picker.pmf(&surface.point, light, instance),
-                counts: true,
-            };
-        }
+    let Met { light, instance } = along(scene, &ray);
+    if light != NONE {
+        let uv = coordinates(&ray, &scene.emitters.light(light, instance));
+        found = Found {
+            sample: LightSample { light, instance, uv },
+            pmf: picker.pmf(&surface.point, light, instance),
+            counts: true,
+        };
     }
     found
+}
+
+/// The light that is the nearest surface of a ray, if one is.
+struct Met {
+    light: u32,
+    instance: u32,
+}
+
+#[inline]
+fn along(scene: &Scene<'_>, ray: &Ray) -> Met {
+    let hit = closest_hit(&scene.surfaces, ray);
+    let triangles = scene.surfaces.triangles;
+    let mut met = Met {
+        light: NONE,
+        instance: NONE,
+    };
+    if hit.triangle < triangles.len() as u32 {
+        met.light = triangles[hit.triangle as usize].light;
+        met.instance = triangles[hit.triangle as usize].instance;
+    }
+    met
 }
 
 /// Numbers from one direction's to the next; beyond what draws among the candidates.

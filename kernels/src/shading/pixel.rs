@@ -1,7 +1,8 @@
 //! One pixel: what the camera sees, lit by sampled lights.
 
 use glam::Vec3;
-use lightbvh::exact::{div, hash, sqrt};
+use lightbvh::exact::{div, hash, min, sqrt};
+use lightbvh::reservoir::{MAX_WEIGHT, Reservoir};
 use lightbvh::vector::{cross, dot, length_squared};
 use lightbvh::{EmissiveTriangle, Instance, ShadingPoint};
 
@@ -15,7 +16,7 @@ use super::pick::PickLight;
 use super::picks::Picks;
 use super::ray::Ray;
 use super::restir::surface::Surface;
-use super::restir::target::{lit, visible, weighted};
+use super::restir::target::{lit, weighted};
 use super::trace::{NONE, RayNode, SurfaceTriangle, Surfaces, any_hit, closest_hit, vertex};
 
 /// Most candidates of a sample.
@@ -267,10 +268,12 @@ fn one_of_many<P: PickLight>(
                     .wrapping_add(samples.part.number(sample)),
             );
             let chosen = resampled(scene, picker, &surface, &mut picks, which, random);
-            if chosen.weight > 0.0 {
-                let arriving = lit(scene.materials, &scene.emitters, &surface, &chosen.sample);
-                if visible(&scene.surfaces, &surface, arriving.end, chosen.sample.light) {
-                    sum += weighted(arriving.contribution, chosen.weight);
+            let Reservoir { sample, weight, .. } = chosen.reservoir;
+            if weight > 0.0 {
+                let arriving = lit(scene.materials, &scene.emitters, &surface, &sample);
+                let factor = chosen.arrives(scene, &surface, &arriving);
+                if factor > 0.0 {
+                    sum += weighted(arriving.contribution, min(weight * factor, MAX_WEIGHT));
                 }
             }
         }

@@ -57,7 +57,8 @@ pub fn first_reservoir<P: PickLight>(
             &mut Picks::new(Numbers::of(seed), params.candidates),
             which,
             hash(seed.wrapping_add(Numbers::USED)),
-        );
+        )
+        .reservoir;
         if found.reservoir.weight > 0.0 {
             let sample = found.reservoir.sample;
             let end = lit(scene.materials, &scene.emitters, surface, &sample).end;

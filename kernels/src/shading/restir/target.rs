@@ -30,6 +30,8 @@ pub struct Lit {
     pub scattered: f32,
     /// The end of the shadow ray.
     pub end: Vec3,
+    /// The point on the light, which that is just before.
+    pub on: Vec3,
 }
 
 /// The light of `sample` at `surface`; nothing for a light or material that is not there.
@@ -41,6 +43,7 @@ pub fn lit(materials: &[Material], emitters: &Emitters<'_>, surface: &Surface, s
         target: 0.0,
         scattered: 0.0,
         end: Vec3::ZERO,
+        on: Vec3::ZERO,
     };
     if sample.light != NONE && surface.material < materials.len() as u32 && surface.is_lit() {
         let material = load_material(materials, surface.material);
@@ -58,6 +61,7 @@ pub fn lit(materials: &[Material], emitters: &Emitters<'_>, surface: &Surface, s
         lit.target = target(luminance([c.x, c.y, c.z]));
         lit.scattered = scattered(&connection);
         lit.end = connection.target;
+        lit.on = connection.on;
     }
     lit
 }
