@@ -9,7 +9,9 @@ use crate::importance::{Defensive, Eq4, Flux, Glossy, ImportanceModel, Moments};
 use crate::node::{CompactNode, FullMomentNode, LightNode, MomentNode, kind};
 use crate::point::{GlossyPoint, PointError, Receiver};
 use crate::summary::Summary;
-use crate::{BuildParams, Bvh, EmissiveTriangle, INVALID, LightMoments, Lights, ShadingPoint, exact};
+use crate::{
+    BuildParams, Bvh, Edit, EmissiveTriangle, INVALID, LightMoments, Lights, ShadingPoint, Transform, exact,
+};
 
 /// A surface at the origin of a view `to` away from it.
 fn surface(p: [f32; 3], n: [f32; 3], to: [f64; 3], specular: f32, log2: u32) -> GlossyPoint {
@@ -107,7 +109,6 @@ fn room(random: &mut Random) -> Lights {
     Lights::new((0..200).map(triangle).collect()).expect("within the domain")
 }
 
-/// A walk that is told of a shading point alone is today's, to the bit.
 /// The least and the greatest that an importance may give.
 struct Extremes;
 
@@ -144,6 +145,7 @@ fn weights_stay_in_their_range() {
     }
 }
 
+/// A walk that is told of a shading point alone is today's, to the bit.
 #[test]
 fn a_diffuse_receiver_is_a_shading_point() {
     type D = Defensive<Moments, 6>;
@@ -305,6 +307,54 @@ fn glossy_receivers_are_unbiased() {
         check::<MomentNode<8>, Defensive<Glossy<Moments>, 6>, 8>(two);
         check::<CompactNode<4>, Glossy<Eq4>, 4>(two);
     }
+}
+
+/// An instance turned and scaled is chosen from as its triangles in the world are. The map takes axes to axes, so that boxes stay boxes, and
+/// is not its own inverse.
+#[test]
+fn lobes_turn_with_instances() {
+    type G = Glossy<Moments>;
+    let mut map = Transform::at([3.0, -1.0, 2.0]);
+    map.columns = [[0.0, 2.0, 0.0], [0.0, 0.0, 2.0], [2.0, 0.0, 0.0]];
+    let (mut compared, mut sharp) = (0, 0);
+    for seed in 0..60 {
+        let random = &mut Random(seed);
+        let mut mesh = room(random).triangles()[..8].to_vec();
+        for triangle in &mut mesh {
+            triangle.mesh = 0;
+        }
+        let placed = |triangles: Vec<EmissiveTriangle>, transform| {
+            let mut bvh: Bvh<MomentNode<8>, G, 8> = Bvh::new(BuildParams::default());
+            let mesh = bvh.add_mesh(triangles).expect("within the domain");
+            let add = Edit::AddInstance {
+                mesh,
+                transform,
+                radiance: 1.0,
+            };
+            bvh.apply([add].into()).expect("an instance");
+            bvh.refit();
+            bvh
+        };
+        let turned = placed(mesh, map);
+        let world = placed(turned.world_lights(), Transform::IDENTITY);
+        for _ in 0..8 {
+            let mut receiver = any_surface(random, 5.0);
+            receiver.specular = 1.0;
+            receiver.diffuse = 0.0;
+            let pmf = |bvh: &Bvh<MomentNode<8>, G, 8>, light| bvh.tree().pmf_for(&receiver, light, 0);
+            for light in 0..8 {
+                let [a, b] = [pmf(&turned, light), pmf(&world, light)];
+                // Words of nodes are rounded in other places.
+                assert!(
+                    (a - b).abs() < 0.02 + 0.1 * b,
+                    "{a} and {b} of {light}: {receiver:?}"
+                );
+                compared += 1;
+                sharp += u32::from(b > 0.9);
+            }
+        }
+    }
+    assert!(compared > 3000 && sharp > 20, "{compared} {sharp}");
 }
 
 #[test]
