@@ -58,11 +58,11 @@ pub(super) struct Args {
     #[arg(long, value_name = "DIR", conflicts_with_all = ["time", "error"])]
     out: Option<PathBuf>,
     /// Picks what has the least error in a frame of so many milliseconds, update and image, in place of the table.
-    #[arg(long, value_name = "MS", value_parser = positive, conflicts_with = "error")]
+    #[arg(long, value_name = "MS", value_parser = positive, conflicts_with = "error", allow_negative_numbers = true)]
     time: Option<f64>,
     /// Picks what takes the least time for a frame of this error, in place of the table: root mean square as displayed, as a share of
     /// white, such as 0.05.
-    #[arg(long, value_name = "E", value_parser = positive)]
+    #[arg(long, value_name = "E", value_parser = positive, allow_negative_numbers = true)]
     error: Option<f64>,
     /// One scene, fewer turns, smaller images: within a minute.
     #[arg(long)]
