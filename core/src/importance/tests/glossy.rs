@@ -346,7 +346,7 @@ fn lobes_turn_with_instances() {
                 let [a, b] = [pmf(&turned, light), pmf(&world, light)];
                 // Words of nodes are rounded in other places.
                 assert!(
-                    (a - b).abs() < 0.02 + 0.1 * b,
+                    exact::abs(a - b) < 0.02 + 0.1 * b,
                     "{a} and {b} of {light}: {receiver:?}"
                 );
                 compared += 1;
