@@ -1,7 +1,7 @@
 //! The best configuration within a budget, measured on the caller's own points.
 //!
 //! Importance, layout, width and levels are types and calls of the caller's: each light BVH that is [added](Tuning::add) is one
-//! configuration with its number of candidates. [`BuildParams::within`] tries the presets of the builder for the defaults.
+//! configuration with its number of candidates. [`BuildParams::within`](crate::BuildParams::within) tries the presets of the builder for the defaults.
 //!
 //! ```
 //! use lightbvh::build::tune::{Budget, Diffuse, Tuning};
