@@ -142,14 +142,14 @@ pub mod transform;
 #[cfg(feature = "alloc")]
 #[doc(hidden)]
 pub mod validate;
+#[doc(hidden)]
+pub mod widest;
 
 mod emission;
 mod halves;
 #[cfg(test)]
 mod kit;
 mod prefetch;
-#[cfg(feature = "alloc")]
-mod widest;
 
 #[cfg(feature = "alloc")]
 #[doc(inline)]

@@ -6,7 +6,7 @@
 /// Runs `job` with the machine's widest registers. It is compiled for them where it is inlined, so closures are `#[inline(always)]`.
 #[cfg(feature = "simd")]
 #[inline(always)]
-pub(crate) fn widest<R>(job: impl FnOnce() -> R) -> R {
+pub fn widest<R>(job: impl FnOnce() -> R) -> R {
     use pulp::{Arch, Simd, WithSimd};
 
     struct Job<F>(F);
@@ -26,6 +26,6 @@ pub(crate) fn widest<R>(job: impl FnOnce() -> R) -> R {
 /// Runs `job`.
 #[cfg(not(feature = "simd"))]
 #[inline(always)]
-pub(crate) fn widest<R>(job: impl FnOnce() -> R) -> R {
+pub fn widest<R>(job: impl FnOnce() -> R) -> R {
     job()
 }

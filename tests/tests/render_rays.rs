@@ -5,7 +5,7 @@ use lightbvh_host::render::{RayBvh, RayBvhError};
 use lightbvh_kernels::shading::grid::{MAX_COORDINATE, snap};
 use lightbvh_kernels::shading::ray::{FAR, MISS, Ray};
 use lightbvh_kernels::shading::trace::{
-    Hit, NONE, RayNode, SurfaceTriangle, Surfaces, any_hit, closest_hit, vertex,
+    Hit, MAX_DEPTH, NONE, RayNode, SurfaceTriangle, Surfaces, WIDTH, any_hit, closest_hit, vertex,
 };
 use lightbvh_tests::generate::Random;
 use lightbvh_tests::soup::{in_cube, soup};
@@ -71,10 +71,21 @@ proptest! {
     }
 
     #[test]
-    fn hostile_words_end_in_bounded_steps(words in prop::collection::vec(any::<u32>(), 0..400), seed: u32) {
-        let nodes: Vec<RayNode> = words.chunks_exact(8).map(|w| {
-            let f = |i: usize| f32::from_bits(w[i]);
-            RayNode { min: [f(0), f(1), f(2)], skip: w[3] % 64, max: [f(4), f(5), f(6)], triangles: w[7] }
+    fn hostile_words_end_in_bounded_steps(
+        words in prop::collection::vec(any::<u32>(), 0..2000), seed: u32, near: bool,
+    ) {
+        const WORDS: usize = 7 * WIDTH;
+        let plane = |w: &[u32], k: usize| std::array::from_fn(|child| {
+            // Any word, or boxes that most rays hit and children that are nodes.
+            if near { if k < 3 { -2.0 } else { 2.0 } } else { f32::from_bits(w[k * WIDTH + child]) }
+        });
+        let nodes: Vec<RayNode> = words.chunks_exact(WORDS).map(|w| RayNode {
+            min: [plane(w, 0), plane(w, 1), plane(w, 2)],
+            max: [plane(w, 3), plane(w, 4), plane(w, 5)],
+            children: std::array::from_fn(|child| {
+                let word = w[6 * WIDTH + child];
+                if near { RayNode::inner(word % 40) } else { word % 1024 }
+            }),
         }).collect();
         let mut random = Random::new(seed);
         let triangles = soup(&mut random, 5, 1.0, 1.0, false);
@@ -110,30 +121,88 @@ fn the_excepted_light_casts_no_shadow_and_others_do() {
     assert!(!any_hit(&bvh.surfaces(), &short, NONE));
 }
 
-#[test]
-fn nodes_are_in_depth_first_order_and_cover_their_triangles() {
-    let triangles = soup(&mut Random::new(1), 5000, 100.0, 2.0, false);
-    let bvh = RayBvh::build(&triangles).unwrap();
-    assert_eq!(bvh, RayBvh::build(&triangles).unwrap());
-    assert_eq!(bvh.nodes[0].skip as usize, bvh.nodes.len());
-    let mut next_triangle = 0;
-    for (index, node) in bvh.nodes.iter().enumerate() {
-        let (first, count) = (node.triangles >> 4, node.triangles & 15);
-        assert!(node.skip as usize > index);
-        if count == 0 {
-            // The second child ends where its parent does.
-            let second = bvh.nodes[index + 1].skip as usize;
-            assert_eq!(bvh.nodes[second].skip, node.skip);
-        } else {
-            assert_eq!(node.skip as usize, index + 1);
-            assert_eq!(first, next_triangle);
-            next_triangle += count;
-            for p in (first..first + count).flat_map(|i| bvh.triangles[i as usize].p) {
-                assert!((0..3).all(|axis| node.min[axis] < p[axis] && p[axis] < node.max[axis]));
+/// What lies below a node, depth first: nodes and triangles in their order, and the longest path of nodes.
+struct Below<'a> {
+    bvh: &'a RayBvh,
+    next_node: u32,
+    next_triangle: u32,
+}
+
+impl Below<'_> {
+    fn check(&mut self, index: u32) -> usize {
+        assert_eq!(index, self.next_node);
+        self.next_node += 1;
+        let node = self.bvh.nodes[index as usize];
+        let used = node.children.iter().filter(|&&child| child != 0).count();
+        assert!(node.children[..used].iter().all(|&child| child != 0));
+        assert!(used >= 1);
+        let mut depth = 0;
+        for k in 0..used {
+            let (first, count) = (node.children[k] >> 4, node.children[k] & 15);
+            let triangles = self.next_triangle;
+            if count == 0 {
+                depth = depth.max(self.check(first));
+            } else {
+                assert_eq!(first, self.next_triangle);
+                self.next_triangle += count;
+            }
+            for p in (triangles..self.next_triangle).flat_map(|i| self.bvh.triangles[i as usize].p) {
+                assert!((0..3).all(|axis| node.min[axis][k] < p[axis] && p[axis] < node.max[axis][k]));
             }
         }
+        depth + 1
     }
-    assert_eq!(next_triangle as usize, triangles.len());
+
+    /// The longest path of nodes.
+    fn of(bvh: &RayBvh) -> usize {
+        let mut below = Below {
+            bvh,
+            next_node: 0,
+            next_triangle: 0,
+        };
+        let depth = below.check(0);
+        assert_eq!(below.next_node as usize, bvh.nodes.len());
+        assert_eq!(below.next_triangle as usize, bvh.triangles.len());
+        depth
+    }
+}
+
+#[test]
+fn nodes_are_in_depth_first_order_and_cover_their_triangles() {
+    for count in [1, 2, 4, 5, 8, 9, 33, 5000] {
+        let triangles = soup(&mut Random::new(1), count, 100.0, 2.0, false);
+        let bvh = RayBvh::build(&triangles).unwrap();
+        assert_eq!(bvh, RayBvh::build(&triangles).unwrap());
+        let depth = Below::of(&bvh);
+        assert!(depth <= MAX_DEPTH);
+        // Nodes hold several leaves each.
+        assert!(
+            count < 9 || bvh.nodes.len() * WIDTH < 3 * count,
+            "{}",
+            bvh.nodes.len()
+        );
+    }
+}
+
+/// Each triangle holds all before it, so that the binary tree is a list.
+#[test]
+fn no_path_is_longer_than_the_walk_remembers() {
+    let mut triangles = soup(&mut Random::new(3), 3000, 1.0, 1.0, false);
+    for (k, triangle) in triangles.iter_mut().enumerate() {
+        let size = 1.005_f32.powi(k as i32);
+        triangle.p = [[-size, -size, 0.0], [size, -size, 0.0], [0.0, size, size]];
+    }
+    let bvh = RayBvh::build(&triangles).unwrap();
+    let depth = Below::of(&bvh);
+    assert_eq!(depth, MAX_DEPTH, "the bound is not reached: no test of it");
+    let mut random = Random::new(4);
+    for _ in 0..100 {
+        let ray = random_ray(&mut random, 2.0);
+        assert_eq!(
+            closest_hit(&bvh.surfaces(), &ray),
+            brute_force(&bvh.triangles, &ray)
+        );
+    }
 }
 
 #[test]

@@ -1,12 +1,16 @@
-//! The ray BVH: built by `obvhs`, laid out for the kernels' stackless walk.
+//! The ray BVH: built by `obvhs`, laid out for the kernels' walk.
 
-use glam::{Vec3, Vec3A};
+use glam::Vec3A;
 use lightbvh_kernels::shading::grid::{MAX_COORDINATE, STEP, snap};
-use lightbvh_kernels::shading::trace::{MAX_LEAF, MAX_TRIANGLES, RayNode, SurfaceTriangle, Surfaces};
+use lightbvh_kernels::shading::trace::{
+    MAX_DEPTH, MAX_LEAF, MAX_TRIANGLES, RayNode, SurfaceTriangle, Surfaces, WIDTH,
+};
 use obvhs::BvhBuildParams;
+use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2_from_tris;
 use obvhs::triangle::Triangle;
+use std::ops::Range;
 use std::time::Duration;
 
 /// Boxes grow by this part of the scene's largest coordinate: two units in its last place, more than the ray-triangle
@@ -68,7 +72,7 @@ impl RayBvh {
         if snapped.is_empty() {
             return Ok(Self::default());
         }
-        Ok(lay_out(&build(&snapped), &snapped))
+        Ok(Layout::new(&build(&snapped), &snapped).written())
     }
 
     /// What rays hit.
@@ -112,57 +116,181 @@ fn build(triangles: &[SurfaceTriangle]) -> Bvh2 {
         .collect();
     let params = BvhBuildParams {
         max_prims_per_leaf: 4,
+        // A node is tested all at once, a triangle by itself.
+        collapse_traversal_cost: 1.0,
         ..BvhBuildParams::fast_build()
     };
     const { assert!(4 <= MAX_LEAF) };
     build_bvh2_from_tris(&corners, params, &mut Duration::default())
 }
 
-/// Writes the nodes depth first, each with the place where its subtree ends.
-fn lay_out(bvh: &Bvh2, triangles: &[SurfaceTriangle]) -> RayBvh {
-    let largest = triangles
-        .iter()
-        .flat_map(|t| t.p.iter().flatten())
-        .fold(0.0_f32, |m, c| m.max(c.abs()));
-    let padding = largest * PADDING + 2.0 * STEP;
-    let mut out = RayBvh {
-        nodes: Vec::with_capacity(bvh.nodes.len()),
-        triangles: Vec::with_capacity(triangles.len()),
-    };
-    enum Visit {
-        Enter(u32),
-        Leave(usize),
-    }
-    let mut stack = vec![Visit::Enter(0)];
-    while let Some(visit) = stack.pop() {
-        match visit {
-            Visit::Enter(index) => {
-                let node = &bvh.nodes[index as usize];
-                let written = out.nodes.len();
-                let mut leaf = 0;
-                stack.push(Visit::Leave(written));
+/// The binary tree as the walk's: its leaves in their order, and nodes over runs of them.
+struct Layout<'a> {
+    bvh: &'a Bvh2,
+    triangles: &'a [SurfaceTriangle],
+    padding: f32,
+    /// The binary leaves, depth first.
+    leaves: Vec<u32>,
+    /// Where the leaves of each binary node lie among them.
+    runs: Vec<Range<u32>>,
+}
+
+/// Some leaves, one after the other.
+#[derive(Clone)]
+enum Part {
+    /// Those of a binary node.
+    Node(u32),
+    /// Those of no node, halved in the middle: where the binary tree is deeper than walks go.
+    Run(Range<u32>),
+}
+
+/// A part that is to be written, and whose child it is.
+struct Visit {
+    part: Part,
+    parent: usize,
+    slot: usize,
+    /// Inner nodes that a path through it may have from here on.
+    levels: u32,
+}
+
+impl<'a> Layout<'a> {
+    fn new(bvh: &'a Bvh2, triangles: &'a [SurfaceTriangle]) -> Self {
+        let largest = triangles
+            .iter()
+            .flat_map(|t| t.p.iter().flatten())
+            .fold(0.0_f32, |m, c| m.max(c.abs()));
+        let mut leaves = Vec::new();
+        let mut runs = vec![0..0; bvh.nodes.len()];
+        // Twice on the stack: to begin its run, and to end it.
+        let mut stack = vec![(0_u32, false)];
+        while let Some((index, ends)) = stack.pop() {
+            let (node, at) = (&bvh.nodes[index as usize], index as usize);
+            if ends {
+                runs[at].end = leaves.len() as u32;
+            } else {
+                runs[at].start = leaves.len() as u32;
+                stack.push((index, true));
                 if node.is_leaf() {
-                    let first = out.triangles.len() as u32;
-                    let range = node.first_index as usize..(node.first_index + node.prim_count) as usize;
-                    out.triangles.extend(
-                        bvh.primitive_indices[range]
-                            .iter()
-                            .map(|&i| triangles[i as usize]),
-                    );
-                    leaf = RayNode::leaf(first, node.prim_count);
+                    leaves.push(index);
                 } else {
-                    stack.push(Visit::Enter(node.first_index + 1));
-                    stack.push(Visit::Enter(node.first_index));
+                    stack.push((node.first_index + 1, false));
+                    stack.push((node.first_index, false));
                 }
-                out.nodes.push(RayNode {
-                    min: (node.min - Vec3::splat(padding)).to_array().map(snap),
-                    skip: 0,
-                    max: (node.max + Vec3::splat(padding)).to_array().map(snap),
-                    triangles: leaf,
-                });
             }
-            Visit::Leave(written) => out.nodes[written].skip = out.nodes.len() as u32,
+        }
+        Self {
+            bvh,
+            triangles,
+            padding: largest * PADDING + 2.0 * STEP,
+            leaves,
+            runs,
         }
     }
-    out
+
+    fn run(&self, part: &Part) -> Range<u32> {
+        match part {
+            Part::Node(index) => self.runs[*index as usize].clone(),
+            Part::Run(run) => run.clone(),
+        }
+    }
+
+    fn bounds(&self, part: &Part) -> Aabb {
+        match part {
+            Part::Node(index) => *self.bvh.nodes[*index as usize].aabb(),
+            Part::Run(run) => self.leaves[run.start as usize..run.end as usize]
+                .iter()
+                .map(|&leaf| self.bvh.nodes[leaf as usize].aabb())
+                .fold(Aabb::empty(), |a, b| a.union(&b)),
+        }
+    }
+
+    /// The children of a part of several leaves, in their order. Of those that there are the largest is replaced by its own children
+    /// (I. Wald, C. Benthin, S. Boulos, "Getting Rid of Packets", 2008), unless one then had more leaves than fit below it.
+    fn children(&self, part: &Part, levels: u32) -> Vec<Part> {
+        let fits = |part: &Part| self.run(part).len() as u64 <= (WIDTH as u64).saturating_pow(levels - 1);
+        let mut children = vec![part.clone()];
+        while let Some((at, node)) = self.largest(&children)
+            && children.len() < WIDTH
+        {
+            let first = self.bvh.nodes[node as usize].first_index;
+            children.splice(at..=at, [Part::Node(first), Part::Node(first + 1)]);
+        }
+        if children.len() == 1 || !children.iter().all(fits) {
+            let run = self.run(part);
+            let (count, parts) = (run.len() as u64, run.len().min(WIDTH) as u64);
+            let bound = |k: u64| run.start + (count * k / parts) as u32;
+            children = (0..parts).map(|k| Part::Run(bound(k)..bound(k + 1))).collect();
+        }
+        children
+    }
+
+    /// The largest inner node of the binary tree among `parts`, and where it is.
+    fn largest(&self, parts: &[Part]) -> Option<(usize, u32)> {
+        let area = |index: u32| self.bvh.nodes[index as usize].aabb().half_area();
+        let nodes = parts.iter().enumerate().filter_map(|(at, part)| match part {
+            Part::Node(index) if !self.bvh.nodes[*index as usize].is_leaf() => Some((at, *index)),
+            _ => None,
+        });
+        nodes.max_by(|a, b| area(a.1).total_cmp(&area(b.1)).then(b.0.cmp(&a.0)))
+    }
+
+    fn written(&self) -> RayBvh {
+        let mut out = RayBvh {
+            nodes: vec![RayNode::EMPTY],
+            triangles: Vec::with_capacity(self.triangles.len()),
+        };
+        let mut stack = Vec::new();
+        self.push_children(&Part::Node(0), 0, MAX_DEPTH as u32, &mut out, &mut stack);
+        while let Some(Visit {
+            part,
+            parent,
+            slot,
+            levels,
+        }) = stack.pop()
+        {
+            let run = self.run(&part);
+            out.nodes[parent].children[slot] = if run.len() == 1 {
+                let leaf = &self.bvh.nodes[self.leaves[run.start as usize] as usize];
+                let first = out.triangles.len() as u32;
+                let range = leaf.first_index as usize..(leaf.first_index + leaf.prim_count) as usize;
+                let inside = self.bvh.primitive_indices[range].iter();
+                out.triangles.extend(inside.map(|&i| self.triangles[i as usize]));
+                RayNode::leaf(first, leaf.prim_count)
+            } else {
+                let index = out.nodes.len();
+                out.nodes.push(RayNode::EMPTY);
+                self.push_children(&part, index, levels, &mut out, &mut stack);
+                RayNode::inner(index as u32)
+            };
+        }
+        out
+    }
+
+    /// Writes the boxes of the children of `part`, which is node `index`, and leaves it to the `stack` to write those.
+    fn push_children(
+        &self,
+        part: &Part,
+        index: usize,
+        levels: u32,
+        out: &mut RayBvh,
+        stack: &mut Vec<Visit>,
+    ) {
+        let children = self.children(part, levels);
+        for (slot, child) in children.into_iter().enumerate().rev() {
+            let bounds = self.bounds(&child);
+            let low = (bounds.min - Vec3A::splat(self.padding)).to_array().map(snap);
+            let high = (bounds.max + Vec3A::splat(self.padding)).to_array().map(snap);
+            let node = &mut out.nodes[index];
+            for axis in 0..3 {
+                node.min[axis][slot] = low[axis];
+                node.max[axis][slot] = high[axis];
+            }
+            stack.push(Visit {
+                part: child,
+                parent: index,
+                slot,
+                levels: levels - 1,
+            });
+        }
+    }
 }

@@ -23,7 +23,7 @@ pub static PATH_BVH: Kernel = Kernel {
     name: "path_bvh",
     bytes: include_bytes!("../spirv/path_bvh.spv"),
     bindings: &[
-        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
         Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
@@ -42,7 +42,7 @@ pub static PATH_BVH_EQ4: Kernel = Kernel {
     name: "path_bvh_eq4",
     bytes: include_bytes!("../spirv/path_bvh_eq4.spv"),
     bindings: &[
-        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
         Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
@@ -61,7 +61,7 @@ pub static PATH_POWER: Kernel = Kernel {
     name: "path_power",
     bytes: include_bytes!("../spirv/path_power.spv"),
     bindings: &[
-        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
         Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
@@ -79,7 +79,7 @@ pub static PATH_UNIFORM: Kernel = Kernel {
     name: "path_uniform",
     bytes: include_bytes!("../spirv/path_uniform.spv"),
     bindings: &[
-        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
         Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
@@ -221,7 +221,7 @@ pub static RENDER_BVH: Kernel = Kernel {
     name: "render_bvh",
     bytes: include_bytes!("../spirv/render_bvh.spv"),
     bindings: &[
-        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
         Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
@@ -240,7 +240,7 @@ pub static RENDER_BVH_EQ4: Kernel = Kernel {
     name: "render_bvh_eq4",
     bytes: include_bytes!("../spirv/render_bvh_eq4.spv"),
     bindings: &[
-        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
         Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
@@ -259,7 +259,7 @@ pub static RENDER_POWER: Kernel = Kernel {
     name: "render_power",
     bytes: include_bytes!("../spirv/render_power.spv"),
     bindings: &[
-        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
         Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
@@ -277,7 +277,7 @@ pub static RENDER_UNIFORM: Kernel = Kernel {
     name: "render_uniform",
     bytes: include_bytes!("../spirv/render_uniform.spv"),
     bindings: &[
-        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
         Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
@@ -294,7 +294,7 @@ pub static RESTIR_INITIAL_BVH: Kernel = Kernel {
     name: "restir_initial_bvh",
     bytes: include_bytes!("../spirv/restir_initial_bvh.spv"),
     bindings: &[
-        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
         Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
@@ -314,7 +314,7 @@ pub static RESTIR_INITIAL_BVH_EQ4: Kernel = Kernel {
     name: "restir_initial_bvh_eq4",
     bytes: include_bytes!("../spirv/restir_initial_bvh_eq4.spv"),
     bindings: &[
-        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
         Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
@@ -334,7 +334,7 @@ pub static RESTIR_INITIAL_POWER: Kernel = Kernel {
     name: "restir_initial_power",
     bytes: include_bytes!("../spirv/restir_initial_power.spv"),
     bindings: &[
-        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
         Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
@@ -353,7 +353,7 @@ pub static RESTIR_SHADE: Kernel = Kernel {
     name: "restir_shade",
     bytes: include_bytes!("../spirv/restir_shade.spv"),
     bindings: &[
-        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
         Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
@@ -387,7 +387,7 @@ pub static RESTIR_SPATIAL_UNBIASED: Kernel = Kernel {
     name: "restir_spatial_unbiased",
     bytes: include_bytes!("../spirv/restir_spatial_unbiased.spv"),
     bindings: &[
-        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
         Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
@@ -424,7 +424,7 @@ pub static RESTIR_TEMPORAL_UNBIASED: Kernel = Kernel {
     name: "restir_temporal_unbiased",
     bytes: include_bytes!("../spirv/restir_temporal_unbiased.spv"),
     bindings: &[
-        Binding { binding: 0, name: "before_ray_nodes", access: Read, stride: 32 },
+        Binding { binding: 0, name: "before_ray_nodes", access: Read, stride: 224 },
         Binding { binding: 1, name: "before_surfaces", access: Read, stride: 48 },
         Binding { binding: 2, name: "before_triangles", access: Read, stride: 56 },
         Binding { binding: 3, name: "before_instances", access: Read, stride: 132 },

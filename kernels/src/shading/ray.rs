@@ -1,7 +1,7 @@
-//! A ray against a box and against a triangle.
+//! A ray against a triangle.
 
 use glam::Vec3;
-use lightbvh::exact::{abs, div, max, min, pow2, recip};
+use lightbvh::exact::{abs, div, pow2, recip};
 use lightbvh::vector::{cross, dot};
 
 use super::grid::{STEP, TINY_AREA, flush_vector, snap_point};
@@ -14,10 +14,6 @@ pub const FAR: f32 = pow2(40);
 
 /// Determinants up to this, m³, are misses: the triangle is seen edge-on, or its area is below 2^-55 m².
 const MIN_DETERMINANT: f32 = pow2(-54);
-
-/// Box distances are off by three roundings at most, 2^-24 each; widening by more than that keeps the test conservative
-/// (T. Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013).
-const WIDEN: f32 = 1.0 + 8.0 * pow2(-24);
 
 /// The part `0 < t < t_max` of the line `origin + t direction`.
 #[derive(Clone, Copy, Debug)]
@@ -44,21 +40,6 @@ impl Ray {
             inverse: Vec3::new(inverse(direction.x), inverse(direction.y), inverse(direction.z)),
             t_max,
         }
-    }
-
-    /// Whether the ray comes through the box before `nearest`. Never misses a box that it touches inside; may report one
-    /// that it passes within a rounding error.
-    #[inline]
-    #[must_use]
-    pub fn hits_box(&self, low: Vec3, high: Vec3, nearest: f32) -> bool {
-        let a = low - self.origin;
-        let b = high - self.origin;
-        let (ax, bx) = (a.x * self.inverse.x, b.x * self.inverse.x);
-        let (ay, by) = (a.y * self.inverse.y, b.y * self.inverse.y);
-        let (az, bz) = (a.z * self.inverse.z, b.z * self.inverse.z);
-        let enter = max(max(min(ax, bx), min(ay, by)), min(az, bz));
-        let leave = min(min(max(ax, bx), max(ay, by)), max(az, bz));
-        leave >= 0.0 && enter <= min(leave, nearest) * WIDEN
     }
 
     /// Distance to the triangle in multiples of the direction, if between 0 and `nearest`, otherwise [`MISS`]. Both

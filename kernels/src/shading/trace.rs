@@ -1,43 +1,68 @@
-//! The walk through the ray BVH: stackless, in the order of its nodes, with skip links.
+//! The walk through the ray BVH: depth first in the order of its nodes, several boxes at a time.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
+use lightbvh::exact::{max, min, pow2};
+use lightbvh::widest::widest;
 
-use super::ray::{MISS, Ray};
+use super::ray::{FAR, MISS, Ray};
 
 /// No triangle, no light.
 pub const NONE: u32 = u32::MAX;
 
+/// Children of a node: as many numbers as a vector register of 256 bits holds.
+pub const WIDTH: usize = 8;
+
 /// Most triangles in one leaf.
 pub const MAX_LEAF: u32 = (1 << LEAF_BITS) - 1;
-/// Most triangles in one ray BVH: what [`RayNode::triangles`] can count.
+/// Most triangles in one ray BVH: what a [`RayNode`] can count.
 pub const MAX_TRIANGLES: u32 = 1 << (32 - LEAF_BITS);
+/// Most inner nodes on the path to a leaf; the walk remembers two words of each.
+pub const MAX_DEPTH: usize = 16;
 const LEAF_BITS: u32 = 4;
 
-/// A node of the ray BVH; 32 bytes. Nodes lie in depth-first order: a ray that hits the box goes on with the next node,
-/// one that misses it with node `skip`.
+/// Box distances are off by three roundings at most, 2^-24 each; widening by more than that keeps the test conservative
+/// (T. Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013).
+const WIDEN: f32 = 1.0 + 8.0 * pow2(-24);
+
+/// All children.
+const ALL: u32 = (1 << WIDTH) - 1;
+
+/// An inner node of the ray BVH: its children's boxes, child by child in each plane. Nodes lie in depth-first order.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct RayNode {
-    /// Low corner of the box, on the grid, metres.
-    pub min: [f32; 3],
-    /// The node after this one's subtree; the number of nodes where there is none. Larger than the node's own index,
-    /// and read as if it were where it is not, so every walk ends.
-    pub skip: u32,
-    /// High corner of the box, on the grid, metres.
-    pub max: [f32; 3],
-    /// First triangle times 16 plus the number of triangles, at most [`MAX_LEAF`]; 0 for an inner node.
-    pub triangles: u32,
+    /// Low corners of the boxes, on the grid, metres: x of all children, y, z.
+    pub min: [[f32; WIDTH]; 3],
+    /// High corners of the boxes, on the grid, metres.
+    pub max: [[f32; WIDTH]; 3],
+    /// For a leaf its first triangle times 16 plus the number of its triangles, at most [`MAX_LEAF`]; for an inner node 16 times its
+    /// index, which is larger than this node's; 0 for no child, after all others.
+    pub children: [u32; WIDTH],
 }
 
-const _: () = assert!(size_of::<RayNode>() == 32);
+const _: () = assert!(size_of::<RayNode>() == 28 * WIDTH);
 
 impl RayNode {
-    /// The word [`triangles`](Self::triangles) of a leaf with `count` triangles from `first` on.
+    /// A node without children: boxes beyond all that rays reach.
+    pub const EMPTY: Self = Self {
+        min: [[FAR; WIDTH]; 3],
+        max: [[FAR; WIDTH]; 3],
+        children: [0; WIDTH],
+    };
+
+    /// The child that is a leaf with `count` triangles from `first` on.
     #[inline]
     #[must_use]
     pub const fn leaf(first: u32, count: u32) -> u32 {
         (first << LEAF_BITS) | count
+    }
+
+    /// The child that is node `index`.
+    #[inline]
+    #[must_use]
+    pub const fn inner(index: u32) -> u32 {
+        index << LEAF_BITS
     }
 }
 
@@ -87,7 +112,10 @@ pub fn vertex(triangles: &[SurfaceTriangle], index: u32, k: usize) -> Vec3 {
 #[inline]
 #[must_use]
 pub fn closest_hit(surfaces: &Surfaces<'_>, ray: &Ray) -> Hit {
-    walk::<false>(surfaces, ray, NONE)
+    widest(
+        #[inline(always)]
+        || walk::<false>(surfaces, ray, NONE),
+    )
 }
 
 /// Whether anything but the emissive triangle `except` lies on the ray. A light so never shadows itself, whatever the
@@ -95,11 +123,14 @@ pub fn closest_hit(surfaces: &Surfaces<'_>, ray: &Ray) -> Hit {
 #[inline]
 #[must_use]
 pub fn any_hit(surfaces: &Surfaces<'_>, ray: &Ray, except: u32) -> bool {
-    walk::<true>(surfaces, ray, except).triangle != NONE
+    widest(
+        #[inline(always)]
+        || walk::<true>(surfaces, ray, except).triangle != NONE,
+    )
 }
 
-/// Visits at most each node once, and [`MAX_LEAF`] triangles for each, whatever the words in the buffers.
-#[inline]
+/// Visits each node once at most, and [`MAX_LEAF`] triangles for each of its children, whatever the words in the buffers.
+#[inline(always)]
 fn walk<const ANY: bool>(surfaces: &Surfaces<'_>, ray: &Ray, except: u32) -> Hit {
     let nodes = surfaces.nodes;
     let triangles = surfaces.triangles;
@@ -109,16 +140,19 @@ fn walk<const ANY: bool>(surfaces: &Surfaces<'_>, ray: &Ray, except: u32) -> Hit
         triangle: NONE,
         t: ray.t_max,
     };
+    // Nodes on the path to `index` whose later children are still to be visited: which node, and which children.
+    let mut path = [0_u32; MAX_DEPTH];
+    let mut path_left = [0_u32; MAX_DEPTH];
+    let mut depth = 0;
     let mut index = 0;
-    while index < end {
-        let i = index as usize;
-        let low = Vec3::new(nodes[i].min[0], nodes[i].min[1], nodes[i].min[2]);
-        let high = Vec3::new(nodes[i].max[0], nodes[i].max[1], nodes[i].max[2]);
-        let skip = nodes[i].skip;
-        let packed = nodes[i].triangles;
-        let inside = ray.hits_box(low, high, hit.t);
-        let first = packed >> LEAF_BITS;
-        let count = if inside { packed & MAX_LEAF } else { 0 };
+    let mut left = 0;
+    // Nodes before this one have been visited, or were passed by.
+    let mut next = 0;
+    let mut child = RayNode::inner(0);
+    let mut go = end > 0;
+    while go {
+        let first = child >> LEAF_BITS;
+        let count = child & MAX_LEAF;
         for k in 0..count {
             let candidate = first + k;
             if candidate < triangle_count {
@@ -137,8 +171,66 @@ fn walk<const ANY: bool>(surfaces: &Surfaces<'_>, ray: &Ray, except: u32) -> Hit
                 }
             }
         }
-        let next = if inside || skip <= index { index + 1 } else { skip };
-        index = if ANY && hit.triangle != NONE { end } else { next };
+        if count == 0 && first >= next && first < end {
+            next = first + 1;
+            let found = hit_boxes(nodes, first, ray, hit.t);
+            if found != 0 {
+                if left != 0 && depth < MAX_DEPTH {
+                    path[depth] = index;
+                    path_left[depth] = left;
+                    depth += 1;
+                }
+                index = first;
+                left = found;
+            }
+        }
+        if left == 0 && depth > 0 {
+            depth -= 1;
+            index = path[depth];
+            left = path_left[depth];
+        }
+        go = left != 0 && !(ANY && hit.triangle != NONE);
+        if go {
+            let k = left.trailing_zeros() as usize & (WIDTH - 1);
+            child = nodes[index as usize].children[k];
+            left &= left - 1;
+        }
     }
     hit
+}
+
+/// The children of a node whose boxes the ray comes through before `nearest`, a bit for each. Never misses a box that the ray touches
+/// inside; may report one that it passes within a rounding error.
+#[inline(always)]
+fn hit_boxes(nodes: &[RayNode], index: u32, ray: &Ray, nearest: f32) -> u32 {
+    let i = index as usize;
+    let [x_enter, x_leave] = crossed(&nodes[i].min[0], &nodes[i].max[0], ray.origin.x, ray.inverse.x);
+    let [y_enter, y_leave] = crossed(&nodes[i].min[1], &nodes[i].max[1], ray.origin.y, ray.inverse.y);
+    let [z_enter, z_leave] = crossed(&nodes[i].min[2], &nodes[i].max[2], ray.origin.z, ray.inverse.z);
+    let mut misses = [0; WIDTH];
+    for k in 0..WIDTH {
+        let enter = max(max(x_enter[k], y_enter[k]), z_enter[k]);
+        let leave = min(min(x_leave[k], y_leave[k]), z_leave[k]);
+        let before = min(leave, nearest) * WIDEN - enter;
+        // Signs and no comparisons: the compiler makes vectors of these.
+        misses[k] = ((leave.to_bits() | before.to_bits()) >> 31) << k;
+    }
+    let mut all = 0;
+    for k in 0..WIDTH {
+        all |= misses[k];
+    }
+    all ^ ALL
+}
+
+/// Where a ray from `origin` comes between two planes of each box, and where it leaves.
+#[inline(always)]
+fn crossed(low: &[f32; WIDTH], high: &[f32; WIDTH], origin: f32, inverse: f32) -> [[f32; WIDTH]; 2] {
+    let (mut enter, mut leave) = ([0.0; WIDTH], [0.0; WIDTH]);
+    for k in 0..WIDTH {
+        let a = (low[k] - origin) * inverse;
+        let b = (high[k] - origin) * inverse;
+        enter[k] = min(a, b);
+        leave[k] = max(b, a);
+    }
+    [enter, leave]
 }

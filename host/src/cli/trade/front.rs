@@ -11,7 +11,7 @@ use super::quantile::Interval;
 const LEAST_ERROR: f64 = 1.03;
 
 /// A ratio of times below this is no difference. Medians of ratios, turn by turn, moved by a seventh at most from run to run on two
-/// busy cores, where the ends of their intervals moved by half.
+/// busy cores, so two measures must agree, and the interval must exclude what says the opposite.
 const LEAST_TIME: f64 = 1.1;
 
 /// The default, and the points that are others than it, as far as no other beats them: another one beats a point if it takes less time
@@ -34,14 +34,25 @@ pub(super) fn alike(a: &Point, b: &Point) -> bool {
     compared(a, b) == (Equal, Equal)
 }
 
-/// Time and error of `a` against those of `b`.
+/// Time and error of `a` against those of `b`. What interrupts a frame adds to its time: the least of the frames says the same as their
+/// median where there is a difference.
 fn compared(a: &Point, b: &Point) -> (Ordering, Ordering) {
-    let time = Interval::of_ratios(&a.images.frames, &b.images.frames).median;
+    let time = Interval::of_ratios(&a.images.frames, &b.images.frames);
+    let least = least(&a.images.frames) / least(&b.images.frames);
+    let by_time = match (
+        told(time.median, time.median, LEAST_TIME),
+        told(least, least, LEAST_TIME),
+    ) {
+        (Less, Less) if time.high < 1.0 => Less,
+        (Greater, Greater) if time.low > 1.0 => Greater,
+        _ => Equal,
+    };
     let error = Interval::of_ratios(&a.images.errors, &b.images.errors);
-    (
-        told(time, time, LEAST_TIME),
-        told(error.low, error.high, LEAST_ERROR),
-    )
+    (by_time, told(error.low, error.high, LEAST_ERROR))
+}
+
+fn least(times: &[f64]) -> f64 {
+    times.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
 /// What a ratio from `low` to `high` says.

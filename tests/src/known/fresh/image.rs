@@ -126,7 +126,11 @@ pub fn image() -> (&'static str, Vec<Table>) {
             &[camera(&view, SIZE, SIZE)],
         ),
         array("materials", "albedo[3] specular exponent_log2", &materials),
-        array("ray_nodes", "min[3] skip max[3] 16 first + count", &rays.nodes),
+        array(
+            "ray_nodes",
+            "min[3][8] max[3][8] children[8]: 16 first + count, 16 node",
+            &rays.nodes,
+        ),
         array(
             "surfaces",
             "p0[3] p1[3] p2[3] material light instance",
