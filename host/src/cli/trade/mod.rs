@@ -54,7 +54,8 @@ pub(super) struct Args {
     /// Size of the images, in place of 192x108, or 96x54 of --quick.
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(u32, u32)>,
-    /// Also write a page with plots, images and error maps, and the JSON, to this folder: trade.html, trade.json.
+    /// Also write a page with plots, images and error maps, the JSON, and tables and plots for documents, to this folder: trade.html,
+    /// trade.json, trade.md, trade-SCENE.svg.
     #[arg(long, value_name = "DIR", conflicts_with_all = ["time", "error"])]
     out: Option<PathBuf>,
     /// Picks what has the least error in a frame of so many milliseconds, update and image, in place of the table.
@@ -138,7 +139,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         "arithmetic": by_arithmetic,
     });
     if let (Some(report), Some(folder)) = (&report, &args.out) {
-        report.write(folder, &measured)?;
+        report.write(folder, &measured, args.frame, &all_points, &all_steps)?;
     }
     if context.json {
         table::print_json(&measured)?;

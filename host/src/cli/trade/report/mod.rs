@@ -1,8 +1,9 @@
-//! What was measured as one page, and as JSON: `trade.html` needs nothing beside it, no network and no other file.
+//! What was measured as one page, `trade.html`, which needs no network and no other file; as JSON; as Markdown and plots for documents.
 
 mod machine;
 mod page;
 mod pictures;
+mod tables;
 mod tree;
 
 use std::fs;
@@ -107,12 +108,27 @@ impl Report {
         Ok(())
     }
 
-    /// Writes `trade.json`, what `--json` prints and the machine, and `trade.html` into `folder`, each whole or not at all.
-    pub fn write(&self, folder: &Path, measured: &Value) -> Result<(), HostError> {
+    /// Writes `trade.json`, what `--json` prints and the machine, `trade.html`, `trade.md` and its plots into `folder`, each whole or not
+    /// at all.
+    pub fn write(
+        &self,
+        folder: &Path,
+        measured: &Value,
+        frame: u32,
+        points: &[Point],
+        steps: &[String],
+    ) -> Result<(), HostError> {
         let store = |name: &str, bytes: &[u8]| {
             let path = folder.join(name);
             write_whole(&path, bytes).map_err(|source| HostError::Store { path, source })
         };
+        for (name, plot) in tables::plots(points) {
+            store(&name, plot.svg().as_bytes())?;
+        }
+        store(
+            "trade.md",
+            tables::markdown(&self.made, frame, points, steps).as_bytes(),
+        )?;
         let json = |value: &Value| serde_json::to_string(value).map_err(std::io::Error::from);
         let mut measured = measured.clone();
         measured["made"] = serde_json::to_value(&self.made).map_err(std::io::Error::from)?;
