@@ -4,7 +4,7 @@ use super::trails::Sampled;
 use super::{Bvh, Trails};
 use crate::importance::ImportanceModel;
 use crate::node::LightNode;
-use crate::point::ShadingPoint;
+use crate::point::{Receiver, ShadingPoint};
 use crate::traverse::{Random64, SampledLight};
 #[cfg(doc)]
 use crate::tree::LightTree;
@@ -50,6 +50,33 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, T: Trails> Bvh<N
     ) {
         const { Sampled::<N, I, W, T>::ALLOWED };
         self.arrays().sample_spaced(point, random, first, count, sampled);
+    }
+}
+
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+    /// [`sample`](Self::sample) for a receiver of which an importance may know more than a [`ShadingPoint`] says; see
+    /// [`LightTree::sample_for`].
+    #[must_use]
+    pub fn sample_for<P: Receiver>(&self, receiver: &P, random: impl Into<Random64>) -> SampledLight
+    where
+        I: ImportanceModel<N, W, P>,
+    {
+        const { Sampled::<N, I, W, T, P>::ALLOWED };
+        self.arrays().sample_for(receiver, random)
+    }
+
+    /// [`sample_many`](Self::sample_many) for such a receiver; see [`LightTree::sample_many_for`].
+    #[must_use]
+    pub fn sample_many_for<P: Receiver, const COUNT: usize>(
+        &self,
+        receiver: &P,
+        random: impl Into<Random64>,
+    ) -> [SampledLight; COUNT]
+    where
+        I: ImportanceModel<N, W, P>,
+    {
+        const { Sampled::<N, I, W, T, P>::ALLOWED };
+        self.arrays().sample_many_for(receiver, random)
     }
 }
 

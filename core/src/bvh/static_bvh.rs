@@ -7,7 +7,7 @@ use super::{Bvh, Trails, WithTrails};
 use crate::importance::ImportanceModel;
 use crate::instance::Instance;
 use crate::node::LightNode;
-use crate::point::ShadingPoint;
+use crate::point::{Receiver, ShadingPoint};
 use crate::traverse::{Random64, SampledLight};
 use crate::tree::{LightTree, TreeWords};
 
@@ -82,6 +82,45 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, T: Trails> Stati
     ) -> [SampledLight; COUNT] {
         const { Sampled::<N, I, W, T>::ALLOWED };
         self.arrays().sample_many(point, random)
+    }
+
+    /// As [`Bvh::sample_spaced`].
+    pub fn sample_spaced(
+        &self,
+        point: &ShadingPoint,
+        random: impl Into<Random64>,
+        first: u32,
+        count: u32,
+        sampled: &mut [SampledLight],
+    ) {
+        const { Sampled::<N, I, W, T>::ALLOWED };
+        self.arrays().sample_spaced(point, random, first, count, sampled);
+    }
+}
+
+impl<N: LightNode<W>, I, const W: usize, T: Trails> StaticBvh<N, I, W, T> {
+    /// As [`Bvh::sample_for`].
+    #[must_use]
+    pub fn sample_for<P: Receiver>(&self, receiver: &P, random: impl Into<Random64>) -> SampledLight
+    where
+        I: ImportanceModel<N, W, P>,
+    {
+        const { Sampled::<N, I, W, T, P>::ALLOWED };
+        self.arrays().sample_for(receiver, random)
+    }
+
+    /// As [`Bvh::sample_many_for`].
+    #[must_use]
+    pub fn sample_many_for<P: Receiver, const COUNT: usize>(
+        &self,
+        receiver: &P,
+        random: impl Into<Random64>,
+    ) -> [SampledLight; COUNT]
+    where
+        I: ImportanceModel<N, W, P>,
+    {
+        const { Sampled::<N, I, W, T, P>::ALLOWED };
+        self.arrays().sample_many_for(receiver, random)
     }
 }
 

@@ -4,14 +4,14 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::changes::Changes;
-use super::edit::{Edit, EditError, EditReason, InstanceId};
+use super::edit::{Edit, EditError, EditReason, InstanceId, MeshId};
 use super::rebuild::{Foreign, Rebuild, RebuildParams, Rebuilt};
 use super::refit::RefitPlan;
 use super::{Added, Bvh, Trails, WithTrails};
 use crate::importance::ImportanceModel;
 use crate::levels::Levels;
 use crate::node::LightNode;
-use crate::point::ShadingPoint;
+use crate::point::{Receiver, ShadingPoint};
 #[cfg(feature = "std")]
 use crate::rebuilder::{FrameStart, RebuildError, Rebuilder};
 use crate::traverse::{Random64, SampledLight};
@@ -121,6 +121,30 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
         self.0.lights_of(instance)
     }
 
+    /// As [`Bvh::light_end`].
+    #[must_use]
+    pub fn light_end(&self) -> u32 {
+        self.0.light_end()
+    }
+
+    /// As [`Bvh::light_count`].
+    #[must_use]
+    pub fn light_count(&self) -> usize {
+        self.0.light_count()
+    }
+
+    /// As [`Bvh::instance_id`].
+    #[must_use]
+    pub fn instance_id(&self, instance: u32) -> Option<InstanceId> {
+        self.0.instance_id(instance)
+    }
+
+    /// As [`Bvh::mesh_of`].
+    #[must_use]
+    pub fn mesh_of(&self, instance: InstanceId) -> Option<MeshId> {
+        self.0.mesh_of(instance)
+    }
+
     /// As [`Bvh::take_removed_lights`].
     pub fn take_removed_lights(&mut self) -> Vec<Range<u32>> {
         self.0.take_removed_lights()
@@ -159,6 +183,42 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, T: Trails> Stati
         random: impl Into<Random64>,
     ) -> [SampledLight; COUNT] {
         self.0.sample_many(point, random)
+    }
+
+    /// As [`Bvh::sample_spaced`].
+    pub fn sample_spaced(
+        &self,
+        point: &ShadingPoint,
+        random: impl Into<Random64>,
+        first: u32,
+        count: u32,
+        sampled: &mut [SampledLight],
+    ) {
+        self.0.sample_spaced(point, random, first, count, sampled);
+    }
+}
+
+impl<N: LightNode<W>, I, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
+    /// As [`Bvh::sample_for`].
+    #[must_use]
+    pub fn sample_for<P: Receiver>(&self, receiver: &P, random: impl Into<Random64>) -> SampledLight
+    where
+        I: ImportanceModel<N, W, P>,
+    {
+        self.0.sample_for(receiver, random)
+    }
+
+    /// As [`Bvh::sample_many_for`].
+    #[must_use]
+    pub fn sample_many_for<P: Receiver, const COUNT: usize>(
+        &self,
+        receiver: &P,
+        random: impl Into<Random64>,
+    ) -> [SampledLight; COUNT]
+    where
+        I: ImportanceModel<N, W, P>,
+    {
+        self.0.sample_many_for(receiver, random)
     }
 }
 

@@ -10,6 +10,7 @@ use core::marker::PhantomData;
 use super::Bvh;
 use crate::importance::ImportanceModel;
 use crate::node::LightNode;
+use crate::point::ShadingPoint;
 
 /// [`WithTrails`] or [`NoTrails`].
 pub trait Trails: sealed::Sealed {
@@ -40,9 +41,9 @@ mod sealed {
 }
 
 /// Refuses, when it is compiled, an importance that needs trails where there are none.
-pub(super) struct Sampled<N, I, const W: usize, T>(PhantomData<(N, I, T)>);
+pub(super) struct Sampled<N, I, const W: usize, T, P = ShadingPoint>(PhantomData<(N, I, T, P)>);
 
-impl<N, I: ImportanceModel<N, W>, const W: usize, T: Trails> Sampled<N, I, W, T> {
+impl<N, I: ImportanceModel<N, W, P>, const W: usize, T: Trails, P> Sampled<N, I, W, T, P> {
     pub const ALLOWED: () = assert!(
         T::KEPT || I::UNIFORM_HALVINGS == 0,
         "a share of uniform choice needs trails: take the importance without `Defensive`"

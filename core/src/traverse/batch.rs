@@ -4,7 +4,7 @@ use super::random::Random64;
 use super::sample::{SampledLight, Started, begin};
 use crate::importance::ImportanceModel;
 use crate::node::LightNode;
-use crate::point::ShadingPoint;
+use crate::point::Receiver;
 use crate::prefetch::fetch;
 use crate::tree::LightTree;
 
@@ -17,9 +17,9 @@ const TURNS: usize = 8;
 /// Walks take turns, a node each, so that one computes while the next node of the others is on its way from memory: in
 /// trees larger than the caches that is where the time goes.
 #[inline(always)]
-pub(super) fn sample_batch<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+pub(super) fn sample_batch<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
     tree: &LightTree<'_, N, I, W>,
-    points: &[ShadingPoint],
+    points: &[P],
     randoms: &[Random64],
     sampled: &mut [SampledLight],
 ) {
@@ -40,10 +40,10 @@ pub(super) fn sample_batch<N: LightNode<W>, I: ImportanceModel<N, W>, const W: u
 
 /// Brings the first walks, one for each point, to their ends.
 #[inline(always)]
-fn turns<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+fn turns<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
     tree: &LightTree<'_, N, I, W>,
-    points: &[ShadingPoint],
-    walks: &mut [Started; TURNS],
+    points: &[P],
+    walks: &mut [Started<P>; TURNS],
 ) {
     let mut left = true;
     while left {

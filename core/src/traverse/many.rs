@@ -6,15 +6,15 @@ use super::sample::{SampledLight, Started, begin, sample};
 use super::walk::{leading, narrowed};
 use crate::importance::ImportanceModel;
 use crate::node::LightNode;
-use crate::point::ShadingPoint;
+use crate::point::Receiver;
 use crate::prefetch::fetch;
 use crate::tree::LightTree;
 
 /// Walks that have come the same way.
 #[derive(Clone, Copy)]
-struct Group {
+struct Group<P> {
     /// Any of them.
-    started: Started,
+    started: Started<P>,
     /// The first of them; the numbers of all are in order, so others follow it.
     first: usize,
     count: usize,
@@ -25,21 +25,27 @@ const TOGETHER: usize = 32;
 
 /// See [`LightTree::sample_many`].
 #[inline(always)]
-pub(super) fn sample_many<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, const COUNT: usize>(
+pub(super) fn sample_many<
+    N: LightNode<W>,
+    I: ImportanceModel<N, W, P>,
+    P: Receiver,
+    const W: usize,
+    const COUNT: usize,
+>(
     tree: &LightTree<'_, N, I, W>,
-    point: &ShadingPoint,
+    point: &P,
     random: Random64,
 ) -> [SampledLight; COUNT] {
     let mut sampled = [SampledLight::NONE; COUNT];
-    by_rows::<N, I, W, COUNT>(tree, point, random, 0, COUNT as u32, &mut sampled);
+    by_rows::<N, I, P, W, COUNT>(tree, point, random, 0, COUNT as u32, &mut sampled);
     sampled
 }
 
 /// See [`LightTree::sample_spaced`].
 #[inline(always)]
-pub(super) fn sample_spaced<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+pub(super) fn sample_spaced<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
     tree: &LightTree<'_, N, I, W>,
-    point: &ShadingPoint,
+    point: &P,
     random: Random64,
     first: u32,
     count: u32,
@@ -50,8 +56,8 @@ pub(super) fn sample_spaced<N: LightNode<W>, I: ImportanceModel<N, W>, const W: 
         // What is on the stack is written first, which few walks would not be worth.
         match together {
             [one] => *one = sample(tree, point, random.spaced(first, count)),
-            few if few.len() <= 8 => by_rows::<N, I, W, 8>(tree, point, random, first, count, few),
-            _ => by_rows::<N, I, W, TOGETHER>(tree, point, random, first, count, together),
+            few if few.len() <= 8 => by_rows::<N, I, P, W, 8>(tree, point, random, first, count, few),
+            _ => by_rows::<N, I, P, W, TOGETHER>(tree, point, random, first, count, together),
         }
         first = first.wrapping_add(TOGETHER as u32);
     }
@@ -59,9 +65,9 @@ pub(super) fn sample_spaced<N: LightNode<W>, I: ImportanceModel<N, W>, const W: 
 
 /// At most `MOST` of them, with as few rows of four as the children need.
 #[inline(always)]
-fn by_rows<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, const MOST: usize>(
+fn by_rows<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize, const MOST: usize>(
     tree: &LightTree<'_, N, I, W>,
-    point: &ShadingPoint,
+    point: &P,
     random: Random64,
     first: u32,
     count: u32,
@@ -72,11 +78,11 @@ fn by_rows<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, const MOST
         numbers[k] = random.spaced(first.wrapping_add(k as u32), count);
     }
     if W <= 4 {
-        in_rows::<N, I, W, MOST, 1>(tree, point, &mut numbers, out);
+        in_rows::<N, I, P, W, MOST, 1>(tree, point, &mut numbers, out);
     } else if W <= 8 {
-        in_rows::<N, I, W, MOST, 2>(tree, point, &mut numbers, out);
+        in_rows::<N, I, P, W, MOST, 2>(tree, point, &mut numbers, out);
     } else {
-        in_rows::<N, I, W, MOST, 4>(tree, point, &mut numbers, out);
+        in_rows::<N, I, P, W, MOST, 4>(tree, point, &mut numbers, out);
     }
 }
 
@@ -84,13 +90,14 @@ fn by_rows<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, const MOST
 #[inline(always)]
 fn in_rows<
     N: LightNode<W>,
-    I: ImportanceModel<N, W>,
+    I: ImportanceModel<N, W, P>,
+    P: Receiver,
     const W: usize,
     const MOST: usize,
     const ROWS: usize,
 >(
     tree: &LightTree<'_, N, I, W>,
-    point: &ShadingPoint,
+    point: &P,
     numbers: &mut [Random64; MOST],
     out: &mut [SampledLight],
 ) {

@@ -119,6 +119,49 @@ impl<N: LightNode<W>, I, const W: usize> LightTree<'_, N, I, W> {
         sample::sample(self, receiver, random.into())
     }
 
+    /// [`sample_batch`](Self::sample_batch) for such receivers, to the words of [`sample_for`](Self::sample_for).
+    #[inline]
+    pub fn sample_batch_for<P: Receiver>(
+        &self,
+        receivers: &[P],
+        randoms: &[Random64],
+        sampled: &mut [SampledLight],
+    ) where
+        I: ImportanceModel<N, W, P>,
+    {
+        batch::sample_batch(self, receivers, randoms, sampled);
+    }
+
+    /// [`sample_many`](Self::sample_many) for such a receiver, to the words of [`sample_for`](Self::sample_for).
+    #[inline]
+    #[must_use]
+    pub fn sample_many_for<P: Receiver, const COUNT: usize>(
+        &self,
+        receiver: &P,
+        random: impl Into<Random64>,
+    ) -> [SampledLight; COUNT]
+    where
+        I: ImportanceModel<N, W, P>,
+    {
+        const { assert!(COUNT > 0 && COUNT <= 256, "1 to 256") };
+        many::sample_many(self, receiver, random.into())
+    }
+
+    /// [`sample_spaced`](Self::sample_spaced) for such a receiver, to the words of [`sample_for`](Self::sample_for).
+    #[inline]
+    pub fn sample_spaced_for<P: Receiver>(
+        &self,
+        receiver: &P,
+        random: impl Into<Random64>,
+        first: u32,
+        count: u32,
+        sampled: &mut [SampledLight],
+    ) where
+        I: ImportanceModel<N, W, P>,
+    {
+        many::sample_spaced(self, receiver, random.into(), first, count, sampled);
+    }
+
     /// The probability with which [`sample_for`](Self::sample_for) returns light `light` of instance `instance`: as
     /// [`pmf`](Self::pmf).
     #[inline]

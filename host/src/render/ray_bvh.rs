@@ -200,7 +200,7 @@ impl<'a> Layout<'a> {
             Part::Run(run) => self.leaves[run.start as usize..run.end as usize]
                 .iter()
                 .map(|&leaf| self.bvh.nodes[leaf as usize].aabb())
-                .fold(Aabb::empty(), |a, b| a.union(&b)),
+                .fold(Aabb::empty(), |a, b| a.union(b)),
         }
     }
 

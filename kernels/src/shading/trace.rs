@@ -201,6 +201,8 @@ fn walk<const ANY: bool>(surfaces: &Surfaces<'_>, ray: &Ray, except: u32) -> Hit
 
 /// The children of a node whose boxes the ray comes through before `nearest`, a bit for each. Never misses a box that the ray touches
 /// inside; may report one that it passes within a rounding error.
+// rust-gpu has no iterators over arrays.
+#[allow(clippy::needless_range_loop)]
 #[inline(always)]
 fn hit_boxes(nodes: &[RayNode], index: u32, ray: &Ray, nearest: f32) -> u32 {
     let i = index as usize;

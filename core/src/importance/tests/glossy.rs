@@ -10,7 +10,8 @@ use crate::node::{CompactNode, FullMomentNode, LightNode, MomentNode, kind};
 use crate::point::{GlossyPoint, PointError, Receiver};
 use crate::summary::Summary;
 use crate::{
-    BuildParams, Bvh, Edit, EmissiveTriangle, INVALID, LightMoments, Lights, ShadingPoint, Transform, exact,
+    BuildParams, Bvh, Edit, EmissiveTriangle, INVALID, LightMoments, Lights, Random64, SampledLight,
+    ShadingPoint, Transform, exact,
 };
 
 /// A surface at the origin of a view `to` away from it.
@@ -166,6 +167,40 @@ fn a_diffuse_receiver_is_a_shading_point() {
             let pmf = bvh.tree().pmf_for(&glossy.point, sampled.light, sampled.instance);
             assert_eq!(sampled.pmf.to_bits(), pmf.to_bits());
         }
+    }
+}
+
+/// Several lights are those that one walk after the other finds, of every owner that has walks.
+#[test]
+fn several_lights_for_lobes_are_those_one_at_a_time() {
+    let random = &mut Random(3);
+    let bvh: Bvh<MomentNode<8>, Glossy<Moments>, 8> = Bvh::two_level(&room(random), &BuildParams::default());
+    let (lean, fixed, meshes) = (
+        bvh.clone().without_trails(),
+        bvh.clone().into_static(),
+        bvh.clone().into_static_meshes(),
+    );
+    let tree = bvh.tree();
+    let receivers: Vec<GlossyPoint> = (0..50).map(|_| any_surface(random, 5.0)).collect();
+    let numbers: Vec<Random64> = (0..50).map(|k| exact::hash(k).into()).collect();
+    let mut batch = [SampledLight::NONE; 50];
+    tree.sample_batch_for(&receivers, &numbers, &mut batch);
+    for ((receiver, &number), in_batch) in receivers.iter().zip(&numbers).zip(batch) {
+        let one = tree.sample_for(receiver, number);
+        assert_eq!(in_batch, one);
+        assert_eq!(lean.sample_for(receiver, number), one);
+        assert_eq!(fixed.sample_for(receiver, number), one);
+        assert_eq!(meshes.sample_for(receiver, number), one);
+        let singly: [SampledLight; 40] =
+            core::array::from_fn(|k| tree.sample_for(receiver, number.spaced(k as u32, 40)));
+        assert_eq!(tree.sample_many_for::<_, 40>(receiver, number), singly);
+        assert_eq!(bvh.sample_many_for::<_, 40>(receiver, number), singly);
+        assert_eq!(lean.sample_many_for::<_, 40>(receiver, number), singly);
+        assert_eq!(fixed.sample_many_for::<_, 40>(receiver, number), singly);
+        assert_eq!(meshes.sample_many_for::<_, 40>(receiver, number), singly);
+        let mut spaced = [SampledLight::NONE; 39];
+        tree.sample_spaced_for(receiver, number, 1, 40, &mut spaced);
+        assert_eq!(spaced, singly[1..]);
     }
 }
 

@@ -10,15 +10,18 @@ use super::quantile::Interval;
 /// Errors by the same seeds are the same in every run; a ratio of them below this is no difference, however sure.
 const LEAST_ERROR: f64 = 1.03;
 
-/// A ratio of times below this is no difference. Medians of ratios, turn by turn, moved by a seventh at most from run to run on two
-/// busy cores, so two measures must agree, and the interval must exclude what says the opposite.
+/// A ratio of times of images below this is no difference. Medians of ratios, image by image, moved by a seventh at most from run to run
+/// on two busy cores, so two measures must agree.
 const LEAST_TIME: f64 = 1.1;
 
-/// The default, and the points that are others than it, as far as no other beats them: another one beats a point if it takes less time
-/// for a frame of the same rays or has less error in it, and not more of the other. Less error is what lies beyond the interval of the
-/// ratios, seed by seed. A point that differs from the default in neither is none: noise would put it on either side.
+/// The same of updates, which are short.
+const LEAST_UPDATE: f64 = 1.25;
+
+/// The default, and the points that are others than it, as far as no other beats them: another one beats a point if its update takes less
+/// time, or its image of the same rays, or that has less error, and it has not more of the others. An update and an image are not added:
+/// they are paid on different processors, and an image has whatever size a user gives it. Less error is what lies beyond the interval of
+/// the ratios, image by image. A point that differs from the default in none of them is none: noise would put it on either side.
 pub(super) fn front(points: &[Point]) -> Vec<bool> {
-    let beats = |a: &Point, b: &Point| matches!(compared(a, b), (Less, Less | Equal) | (Equal, Less));
     let is_the_default = |point: &Point| {
         let other = points.iter().find(|other| other.default && !point.default);
         other.is_some_and(|default| alike(point, default))
@@ -29,26 +32,29 @@ pub(super) fn front(points: &[Point]) -> Vec<bool> {
         .collect()
 }
 
-/// Whether neither time nor error tells them apart.
-pub(super) fn alike(a: &Point, b: &Point) -> bool {
-    compared(a, b) == (Equal, Equal)
+fn beats(a: &Point, b: &Point) -> bool {
+    let compared = compared(a, b);
+    compared.contains(&Less) && !compared.contains(&Greater)
 }
 
-/// Time and error of `a` against those of `b`. What interrupts a frame adds to its time: the least of the frames says the same as their
-/// median where there is a difference.
-fn compared(a: &Point, b: &Point) -> (Ordering, Ordering) {
-    let time = Interval::of_ratios(&a.images.frames, &b.images.frames);
-    let least = least(&a.images.frames) / least(&b.images.frames);
-    let by_time = match (
-        told(time.median, time.median, LEAST_TIME),
-        told(least, least, LEAST_TIME),
-    ) {
-        (Less, Less) if time.high < 1.0 => Less,
-        (Greater, Greater) if time.low > 1.0 => Greater,
-        _ => Equal,
-    };
+/// Whether neither times nor error tell them apart.
+pub(super) fn alike(a: &Point, b: &Point) -> bool {
+    compared(a, b) == [Equal; 3]
+}
+
+/// Update, time of an image and error of `a` against those of `b`. What interrupts an image adds to its time: the least of the times says
+/// the same as the median of the ratios where there is a difference.
+fn compared(a: &Point, b: &Point) -> [Ordering; 3] {
+    let update = a.structure.update_ms / b.structure.update_ms;
+    let median = Interval::of_ratios(&a.images.times, &b.images.times).median;
+    let least = least(&a.images.times) / least(&b.images.times);
+    let [median, least] = [median, least].map(|ratio| told(ratio, ratio, LEAST_TIME));
     let error = Interval::of_ratios(&a.images.errors, &b.images.errors);
-    (by_time, told(error.low, error.high, LEAST_ERROR))
+    [
+        told(update, update, LEAST_UPDATE),
+        if median == least { median } else { Equal },
+        told(error.low, error.high, LEAST_ERROR),
+    ]
 }
 
 fn least(times: &[f64]) -> f64 {

@@ -28,7 +28,9 @@ pub(super) struct Budget {
     pub height: u32,
     /// Shadow rays of a pixel where all have as many; the default's time by so many is the time that all have.
     pub samples: u32,
-    /// Images of each configuration, each with its own random numbers.
+    /// Frames whose images are measured, evenly up to the last: a tree may be lucky in one of them.
+    pub frames: u32,
+    /// Images of each configuration in each of them, each with its own random numbers.
     pub seeds: u32,
     /// Shadow rays of a pixel of the reference.
     pub reference: u32,
@@ -42,7 +44,8 @@ impl Budget {
         width: 192,
         height: 108,
         samples: 12,
-        seeds: 7,
+        frames: 3,
+        seeds: 3,
         reference: 1024,
     };
     pub const QUICK: Self = Self {
@@ -52,9 +55,19 @@ impl Budget {
         width: 96,
         height: 54,
         samples: 12,
-        seeds: 7,
+        frames: 3,
+        seeds: 2,
         reference: 512,
     };
+
+    /// The numbers of the frames whose images are measured, up to `last`.
+    pub fn measured_frames(&self, last: u32) -> Vec<u32> {
+        let mut numbers: Vec<u32> = (1..=u64::from(self.frames))
+            .map(|k| (u64::from(last) * k / u64::from(self.frames)) as u32)
+            .collect();
+        numbers.dedup();
+        numbers
+    }
 
     pub fn film(&self, pixels: Vec<[f32; 3]>) -> Result<Film, HostError> {
         Ok(Film::new(self.width, self.height, pixels)?)
@@ -103,102 +116,128 @@ pub(super) struct Images {
     /// An image of the default's time, as nearly as whole rays allow, and its shadow rays of a pixel.
     #[serde(skip)]
     pub shown: (Film, u32),
-    /// Time of a frame, seed by seed, ms.
+    /// Time of an image by the same shadow rays, image by image, ms.
     #[serde(skip)]
-    pub frames: Vec<f64>,
-    /// Errors by equal rays, seed by seed.
+    pub times: Vec<f64>,
+    /// Errors by equal rays, image by image.
     #[serde(skip)]
     pub errors: Vec<f64>,
 }
 
-pub(super) fn images(
-    subjects: &mut [Box<dyn Subject>],
-    updates_ms: &[f64],
-    arrays: &SceneArrays,
-    background: [f32; 3],
-    budget: &Budget,
-) -> Result<(Vec<Images>, Judge), HostError> {
-    let params = |samples, seed| budget.params(samples, seed, background);
-    let reference = Reference::of(subjects, arrays, budget, params)?;
-    let (mut times, mut errors) = (vec![Vec::new(); subjects.len()], vec![Vec::new(); subjects.len()]);
-    let (mut biases, mut qualities) = (vec![Vec::new(); subjects.len()], vec![Vec::new(); subjects.len()]);
-    for seed in 0..budget.seeds {
-        let mut least = vec![f64::INFINITY; subjects.len()];
-        // What interrupts one image does not interrupt the same one in the other turn.
-        for k in 0..subjects.len() {
-            let at = (k + 3 * seed as usize) % subjects.len();
-            least[at] = ms(subjects[at].render(arrays, params(budget.samples, seed))?.time);
-        }
-        for k in 0..subjects.len() {
-            let at = (k + seed as usize) % subjects.len();
-            let image = subjects[at].render(arrays, params(budget.samples, seed))?;
-            times[at].push(least[at].min(ms(image.time)));
-            biases[at].push(mean(&image.value) / reference.mean - 1.0);
-            let film = budget.film(image.value)?;
-            errors[at].push(reference.error(&film));
-            qualities[at].push(reference.judge.quality(&film)?);
-        }
-    }
-    let frames = |times: &[f64], update: f64| times.iter().map(|time| time + update).collect::<Vec<f64>>();
-    let default = times[0].clone();
-    let default_frames = frames(&default, updates_ms[0]);
-    let default_errors = errors[0].clone();
-    let mut default_equal_time = Vec::new();
-    let mut out = Vec::new();
-    let measured = times
-        .into_iter()
-        .zip(errors)
-        .zip(biases)
-        .zip(qualities)
-        .zip(updates_ms);
-    for (subject, ((((times, errors), biases), qualities), &update)) in subjects.iter_mut().zip(measured) {
-        let left: Vec<f64> = default_frames.iter().map(|frame| frame - update).collect();
-        // An update that leaves no time at all has no image.
-        let least = subject.least_rays();
-        let of_all = f64::from((budget.samples / least).max(1));
-        let fits = (of_all * Interval::of_ratios(&left, &times).median).max(LEAST_SAMPLES);
-        let fewer = (fits.floor() as u32).max(1);
-        // Errors fall by powers of the samples between them; by their inverse below one.
-        let share = (fits.max(1.0) / f64::from(fewer)).ln() / (f64::from(fewer + 1) / f64::from(fewer)).ln();
-        let nearest = if fits - f64::from(fewer) < 0.5 {
-            fewer
-        } else {
-            fewer + 1
-        };
-        let (mut equal_time, mut shown) = (Vec::new(), None);
-        for seed in budget.seeds..budget.seeds + budget.seeds.div_ceil(2) {
-            let mut beside = [0.0; 2];
-            for (error, samples) in beside.iter_mut().zip([fewer, fewer + 1]) {
-                let film = budget.film(subject.render(arrays, params(samples * least, seed))?.value)?;
-                *error = reference.error(&film).max(1e-9);
-                if samples == nearest && shown.is_none() {
-                    shown = Some((film, samples * least));
-                }
+/// Images of all configurations, frame after frame.
+#[derive(Default)]
+pub(super) struct Measured {
+    of_each: Vec<OfOne>,
+    judge: Option<Judge>,
+}
+
+/// What was measured of one configuration, image by image over all frames.
+#[derive(Default)]
+struct OfOne {
+    times: Vec<f64>,
+    /// Time of a frame: an update and an image.
+    frames: Vec<f64>,
+    errors: Vec<f64>,
+    biases: Vec<f64>,
+    qualities: Vec<Quality>,
+    equal_time: Vec<f64>,
+    /// How many shadow rays fit, frame by frame.
+    fits: Vec<f64>,
+    shown: Option<(Film, u32)>,
+}
+
+impl Measured {
+    /// Measures the images of a frame, whose `subjects` are in the state that it has, the default first.
+    pub fn add(
+        &mut self,
+        subjects: &mut [Box<dyn Subject>],
+        updates_ms: &[f64],
+        arrays: &SceneArrays,
+        background: [f32; 3],
+        budget: &Budget,
+    ) -> Result<(), HostError> {
+        let params = |samples, seed| budget.params(samples, seed, background);
+        let reference = Reference::of(subjects, arrays, budget, params)?;
+        self.of_each.resize_with(subjects.len(), OfOne::default);
+        let begin = self.of_each[0].times.len();
+        for seed in 0..budget.seeds {
+            let mut least = vec![f64::INFINITY; subjects.len()];
+            // What interrupts one image does not interrupt the same one in the other turn.
+            for k in 0..subjects.len() {
+                let at = (k + 3 * seed as usize) % subjects.len();
+                least[at] = ms(subjects[at].render(arrays, params(budget.samples, seed))?.time);
             }
-            let [a, b] = beside;
-            equal_time.push(a * (b / a).powf(share) / fits.min(1.0));
+            for k in 0..subjects.len() {
+                let at = (k + seed as usize) % subjects.len();
+                let image = subjects[at].render(arrays, params(budget.samples, seed))?;
+                let (of, time) = (&mut self.of_each[at], least[at].min(ms(image.time)));
+                of.times.push(time);
+                of.frames.push(time + updates_ms[at]);
+                of.biases.push(mean(&image.value) / reference.mean - 1.0);
+                let film = budget.film(image.value)?;
+                of.errors.push(reference.error(&film));
+                of.qualities.push(reference.judge.quality(&film)?);
+            }
         }
-        if out.is_empty() {
-            default_equal_time.clone_from(&equal_time);
+        let default = self.of_each[0].frames[begin..].to_vec();
+        for ((subject, of), &update) in subjects.iter_mut().zip(&mut self.of_each).zip(updates_ms) {
+            let left: Vec<f64> = default.iter().map(|frame| frame - update).collect();
+            // An update that leaves no time at all has no image.
+            let least = subject.least_rays();
+            let of_all = f64::from((budget.samples / least).max(1));
+            let fits = (of_all * Interval::of_ratios(&left, &of.times[begin..]).median).max(LEAST_SAMPLES);
+            let fewer = (fits.floor() as u32).max(1);
+            // Errors fall by powers of the samples between them; by their inverse below one.
+            let share =
+                (fits.max(1.0) / f64::from(fewer)).ln() / (f64::from(fewer + 1) / f64::from(fewer)).ln();
+            let nearest = if fits - f64::from(fewer) < 0.5 {
+                fewer
+            } else {
+                fewer + 1
+            };
+            of.shown = None;
+            for seed in budget.seeds..2 * budget.seeds {
+                let mut beside = [0.0; 2];
+                for (error, samples) in beside.iter_mut().zip([fewer, fewer + 1]) {
+                    let film = budget.film(subject.render(arrays, params(samples * least, seed))?.value)?;
+                    *error = reference.error(&film).max(1e-9);
+                    if samples == nearest && of.shown.is_none() {
+                        of.shown = Some((film, samples * least));
+                    }
+                }
+                let [a, b] = beside;
+                of.equal_time.push(a * (b / a).powf(share) / fits.min(1.0));
+            }
+            of.fits.push(fits * f64::from(least));
         }
-        let frames = frames(&times, update);
-        out.push(Images {
-            time_ratio: Interval::of_ratios(&times, &default),
-            frame_ratio: Interval::of_ratios(&frames, &default_frames),
-            image_ms: Interval::of(times).median,
-            error: average(&errors),
-            error_ratio: Interval::of_ratios(&errors, &default_errors),
-            error_equal_time: average(&equal_time),
-            equal_time_ratio: Interval::of_ratios(&equal_time, &default_equal_time),
-            samples_equal_time: fits * f64::from(least),
-            bias: Estimate::of(&biases),
-            quality: mean_quality(&qualities),
-            shown: shown.expect("one of the two counts of rays is the nearest"),
-            frames,
-            errors,
-        });
+        self.judge = Some(reference.judge);
+        Ok(())
     }
-    Ok((out, reference.judge))
+
+    /// What it comes to, one for each configuration, and who judged the last frame.
+    pub fn finish(self) -> (Vec<Images>, Judge) {
+        let default = &self.of_each[0];
+        let images = |of: &OfOne| Images {
+            time_ratio: Interval::of_ratios(&of.times, &default.times),
+            frame_ratio: Interval::of_ratios(&of.frames, &default.frames),
+            image_ms: Interval::of(of.times.clone()).median,
+            error: average(&of.errors),
+            error_ratio: Interval::of_ratios(&of.errors, &default.errors),
+            error_equal_time: average(&of.equal_time),
+            equal_time_ratio: Interval::of_ratios(&of.equal_time, &default.equal_time),
+            samples_equal_time: average(&of.fits),
+            bias: Estimate::of(&of.biases),
+            quality: mean_quality(&of.qualities),
+            shown: of
+                .shown
+                .clone()
+                .expect("one of the two counts of rays is the nearest"),
+            times: of.times.clone(),
+            errors: of.errors.clone(),
+        };
+        let all = self.of_each.iter().map(images).collect();
+        (all, self.judge.expect("a frame is measured"))
+    }
 }
 
 fn mean_quality(of: &[Quality]) -> Quality {

@@ -23,14 +23,14 @@ use serde_json::json;
 
 use self::choices::{Axis, Config};
 use self::front::front;
-use self::image::{Budget, Images, images};
+use self::image::{Budget, Images, Measured};
 use self::pick::{Goal, picks};
 use self::prepare::{Prepared, prepare};
 use self::quantile::Interval;
 use self::report::Report;
 use self::steps::steps;
 use self::structure::{Structure, structures};
-use self::update::Frame;
+use self::update::{Frame, Updates};
 use super::range::{self, given};
 use super::{Context, Outcome, devices, table};
 use crate::error::HostError;
@@ -48,7 +48,8 @@ pub(super) struct Args {
     /// Only these axes, beside the default; all if none is named.
     #[arg(long, value_enum)]
     axes: Vec<Axis>,
-    /// Frame of the animation; trees are built at its first one, and follow it to this one.
+    /// Last frame of the animation that is measured; trees are built at its first one, and follow it. Images are measured at a third
+    /// and two thirds of the way too.
     #[arg(long, default_value_t = 50)]
     frame: u32,
     /// Size of the images, in place of 192x108, or 96x54 of --quick.
@@ -82,8 +83,8 @@ struct Point {
     structure: Structure,
     #[serde(flatten)]
     images: Images,
-    /// Whether it is on the front: nothing else takes less time for a frame of the same rays, or has less error in it, at no greater cost
-    /// of the other, and it is not the same as the default as far as can be told.
+    /// Whether it is on the front: nothing else takes less time for an update or an image of the same rays, or has less error in it, at no
+    /// greater cost of the others, and it is not the same as the default as far as can be told.
     pareto: bool,
 }
 
@@ -134,7 +135,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         eprintln!("{name}: {:.1} s", start.elapsed().as_secs_f64());
     }
     let measured = json!({
-        "frame": args.frame, "samples": budget.samples, "width": budget.width, "height": budget.height,
+        "frame": args.frame, "frames": budget.measured_frames(args.frame), "samples": budget.samples, "width": budget.width, "height": budget.height,
         "turns": budget.turns, "threads": rayon::current_num_threads(), "points": all_points, "steps": all_steps,
         "arithmetic": by_arithmetic,
     });
@@ -155,14 +156,24 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
 }
 
 fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>, Judge), HostError> {
+    let mut measured = Measured::default();
     let Prepared {
         scene,
         points,
         mut subjects,
         updates,
         arrays,
-        background,
-    } = prepare(name, args, budget)?;
+        ..
+    } = prepare(
+        name,
+        args,
+        budget,
+        &budget.measured_frames(args.frame),
+        &mut |subjects, updates, arrays, background| {
+            let updates_ms: Vec<f64> = updates.iter().map(Updates::mean_ms).collect();
+            measured.add(subjects, &updates_ms, arrays, background, budget)
+        },
+    )?;
     let last = lights_at(&scene, args.frame)?;
     let structures = structures(
         &mut subjects,
@@ -172,8 +183,7 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
         &points,
         budget,
     )?;
-    let updates_ms: Vec<f64> = structures.iter().map(|structure| structure.update_ms).collect();
-    let (images, judge) = images(&mut subjects, &updates_ms, &arrays, background, budget)?;
+    let (images, judge) = measured.finish();
     let both = structures.into_iter().zip(images);
     let points = subjects
         .iter()

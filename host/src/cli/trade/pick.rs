@@ -72,7 +72,7 @@ pub(super) fn picks(
 ) -> Result<Outcome, HostError> {
     let mut picks: Vec<Option<Pick>> = Vec::new();
     for name in scenes {
-        let mut prepared = prepare(name, args, budget)?;
+        let mut prepared = prepare(name, args, budget, &[args.frame], &mut |_, _, _, _| Ok(()))?;
         let updates_ms: Vec<f64> = prepared.updates.iter().map(Updates::mean_ms).collect();
         let Prepared {
             subjects,

@@ -25,17 +25,31 @@ pub(super) struct Prepared {
     pub background: [f32; 3],
 }
 
-/// Builds what is asked for at the first frame and brings it to the one that is measured.
-pub(super) fn prepare(name: &str, args: &Args, budget: &Budget) -> Result<Prepared, HostError> {
+type Shown = Option<Arc<SceneArrays>>;
+
+/// A frame whose images are measured: the configurations as they are in it, their updates so far, what to render and its background.
+pub(super) type InFrame<'a> =
+    dyn FnMut(&mut [Box<dyn Subject>], &[Updates], &SceneArrays, [f32; 3]) -> Result<(), HostError> + 'a;
+
+/// Builds what is asked for at the first frame and brings it to the last one that is measured; `in_frame` is called in each of
+/// `measured`, which ascend to that one.
+pub(super) fn prepare(
+    name: &str,
+    args: &Args,
+    budget: &Budget,
+    measured: &[u32],
+    in_frame: &mut InFrame<'_>,
+) -> Result<Prepared, HostError> {
     let scene = Scene::open(name)?;
     for warning in scene.warnings() {
         eprintln!("{name}: {warning}");
     }
     let (_, points) = points::of(name, 0, args.frame, budget.points)?;
-    // ReSTIR looks back from the frame that is measured.
+    // ReSTIR looks back from the frames that are measured.
     let looks_back = args.axes.is_empty() || args.axes.contains(&Axis::Integrator);
     let arrays = |number: u32| {
-        let wanted = number == args.frame || (looks_back && number + HISTORY >= args.frame);
+        let back = if looks_back { HISTORY } else { 0 };
+        let wanted = measured.iter().any(|&at| number <= at && number + back >= at);
         let made = wanted.then(|| arrays_at(&scene, number, budget.width, budget.height));
         made.transpose().map(|arrays| arrays.map(Arc::new))
     };
@@ -50,6 +64,14 @@ pub(super) fn prepare(name: &str, args: &Args, budget: &Budget) -> Result<Prepar
             })
             .collect();
     let mut updates = vec![Updates::default(); subjects.len()];
+    let mut measure =
+        |number: u32, subjects: &mut [Box<dyn Subject>], updates: &[Updates], shown: &Shown| match shown {
+            Some(arrays) if measured.contains(&number) => {
+                in_frame(subjects, updates, arrays, scene.frame(number).background)
+            }
+            _ => Ok(()),
+        };
+    measure(0, &mut subjects, &updates, &shown)?;
     for number in 1..=args.frame {
         let lights = lights_at(&scene, number)?;
         shown = arrays(number)?;
@@ -58,6 +80,7 @@ pub(super) fn prepare(name: &str, args: &Args, budget: &Budget) -> Result<Prepar
             let frame = Frame::new(&scene, number, &lights).rendered_from(shown.as_ref());
             updates[at].push(subjects[at].advance(&frame)?);
         }
+        measure(number, &mut subjects, &updates, &shown)?;
     }
     let arrays = match shown {
         Some(arrays) => arrays,

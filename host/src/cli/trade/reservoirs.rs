@@ -83,6 +83,7 @@ impl Reservoirs {
 
     /// Keeps what `frame` is rendered from, and of those before only what a history takes.
     fn keep(&mut self, frame: &Frame<'_>) {
+        self.histories.clear();
         if let Some(arrays) = frame.arrays {
             self.past.push_back(Past {
                 backend: CpuBackend::new(self.tree.bvh().clone()),

@@ -37,10 +37,12 @@ fn step(a: &Point, b: &Point) -> String {
         }
     };
     format!(
-        "from {} to {}: a frame takes {} time and has {} error by the same rays, {} error at equal time",
+        "from {} to {}: a frame takes {} time, of which the update {:.2} ms for {:.2}, and has {} error by the same rays, {} error at equal time",
         a.choice,
         b.choice,
         of(time),
+        b.structure.update_ms,
+        a.structure.update_ms,
         of(|point| point.images.error),
         of(|point| point.images.error_equal_time),
     )
