@@ -20,7 +20,7 @@ pub struct Spot {
     pub x: f64,
     /// Upwards.
     pub y: f64,
-    /// Whether it is filled, and a line goes through it and all such points in their order to the right.
+    /// Whether it is filled, and a line goes through all such points that no other one is below and to the left of.
     pub marked: bool,
 }
 
@@ -120,7 +120,9 @@ impl Scatter {
             "<text transform=\"translate(16 {}) rotate(-90)\" text-anchor=\"middle\">{y_label}</text>",
             f64::midpoint(TOP, bottom)
         ));
-        let mut front: Vec<&Spot> = shown().map(|(_, spot)| spot).filter(|spot| spot.marked).collect();
+        let marked = || shown().map(|(_, spot)| spot).filter(|spot| spot.marked);
+        let beaten = |spot: &&Spot| marked().any(|other| other.x < spot.x && other.y < spot.y);
+        let mut front: Vec<&Spot> = marked().filter(|spot| !beaten(spot)).collect();
         front.sort_by(|a, b| a.x.total_cmp(&b.x));
         let path: Vec<String> = front
             .iter()
@@ -184,8 +186,10 @@ mod tests {
             y_label: String::from("error"),
             spots: vec![
                 spot(1.0, 1.0, true),
-                spot(0.25, 4.0, true),
+                spot(0.25, 3.0, true),
                 spot(f64::INFINITY, 1.0, false),
+                // Another is below and to the left.
+                spot(0.5, 4.0, true),
             ],
         };
         let svg = scatter.svg();
@@ -198,13 +202,13 @@ mod tests {
         let from_left = format!(
             "points=\"{:.1},{:.1} {:.1},{:.1}\"",
             x.at(0.25),
-            y.at(4.0),
+            y.at(3.0),
             x.at(1.0),
             y.at(1.0)
         );
         assert!(svg.contains(&from_left), "{svg}");
-        assert_eq!(svg.matches("<circle").count(), 2);
-        assert_eq!(svg.matches("a &lt; ").count(), 3);
+        assert_eq!(svg.matches("<circle").count(), 3);
+        assert_eq!(svg.matches("a &lt; ").count(), 4);
         assert_eq!(x.marks(), [0.4, 0.6, 0.8, 1.0]);
     }
 }

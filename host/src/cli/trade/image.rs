@@ -49,15 +49,15 @@ impl Budget {
         reference: 1024,
     };
     pub const QUICK: Self = Self {
-        turns: 7,
+        turns: 5,
         passes: 10,
-        points: 100,
+        points: 60,
         width: 96,
         height: 54,
         samples: 12,
         frames: 3,
         seeds: 2,
-        reference: 512,
+        reference: 320,
     };
 
     /// The numbers of the frames whose images are measured, up to `last`.

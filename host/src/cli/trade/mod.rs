@@ -237,6 +237,7 @@ fn print(points: &[Point]) -> Result<(), HostError> {
             ("build ms", |p| format!("{:.2}", p.structure.build_ms)),
             ("refit ms", |p| format!("{:.2}", p.structure.refit_ms)),
             ("update ms", |p| format!("{:.2}", p.structure.update_ms)),
+            ("beside ms", |p| format!("{:.2}", p.structure.beside_ms)),
             ("image ms", |p| format!("{:.1}", p.images.image_ms)),
             ("sample ns", |p| format!("{:.0}", p.structure.ns_per_sample)),
             ("sample to default", |p| ratio(&p.structure.sample_ratio)),

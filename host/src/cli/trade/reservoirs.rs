@@ -185,6 +185,7 @@ impl Subject for Reservoirs {
             Spent {
                 refit: None,
                 rebuild: Some(made.time),
+                beside: None,
             }
         };
         self.keep(frame);

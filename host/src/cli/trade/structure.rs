@@ -23,8 +23,10 @@ pub(super) struct Structure {
     pub build_ms: f64,
     /// Edits and new bounds of a frame; 0 where every frame has a new tree.
     pub refit_ms: f64,
-    /// All that the update policy does for a frame, on average over the animation.
+    /// All that a frame waits for by the update policy, on average over the animation.
     pub update_ms: f64,
+    /// A new top level, built beside a frame that does not wait for it; 0 where the policy has none.
+    pub beside_ms: f64,
     /// All candidates of a sample.
     pub ns_per_sample: f64,
     /// Time of a sample over the default's, turn by turn.
@@ -88,6 +90,7 @@ pub(super) fn structures(
                 build_ms: Interval::of(times.build).median,
                 refit_ms: updates.refit_ms(),
                 update_ms: updates.mean_ms(),
+                beside_ms: updates.beside_ms(),
                 sample_ratio: Interval::of_ratios(&times.sample, &default),
                 ns_per_sample: Interval::of(times.sample).median,
                 variances: variances(&**subject, lights, points, &sent),

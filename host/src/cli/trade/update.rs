@@ -25,7 +25,7 @@ const EVERY: u32 = 8;
 pub(super) enum Update {
     /// New bounds in the tree of the first frame.
     Refit,
-    /// The same, and a new top level of the frame before.
+    /// The same, and a new top level of the frame before, built beside that one as a [`Rebuilder`](lightbvh::Rebuilder) does.
     TopRebuild,
     /// A new tree.
     Rebuild,
@@ -82,10 +82,12 @@ impl<'a> Frame<'a> {
 /// Time of an update, by what was done.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Spent {
-    /// Edits and new bounds; nothing where the tree is new.
+    /// Edits and new bounds, and taking in what was built beside the frame; nothing where the tree is new.
     pub refit: Option<Duration>,
-    /// New trees, wherever they are built.
+    /// A new tree, for which the frame waits.
     pub rebuild: Option<Duration>,
+    /// A new top level, for which no frame waits.
+    pub beside: Option<Duration>,
 }
 
 /// A tree that follows the animation.
@@ -142,17 +144,18 @@ impl Followed {
             spent.rebuild = Some(start.elapsed());
             return Ok(spent);
         }
-        if self.update == Update::TopRebuild {
-            let rebuilt = bvh.rebuild(&RebuildParams::default()).run();
-            bvh.install(rebuilt).expect("taken from this light BVH");
-            spent.rebuild = Some(start.elapsed());
-        }
+        let rebuilt =
+            (self.update == Update::TopRebuild).then(|| bvh.rebuild(&RebuildParams::default()).run());
+        spent.beside = rebuilt.is_some().then(|| start.elapsed());
         // Where nodes of the scene stand is the animation's business, not the tree's.
         let edits = self
             .instances
             .as_mut()
             .map(|i| i.edits(frame.scene, frame.number));
         let start = Instant::now();
+        if let Some(rebuilt) = rebuilt {
+            bvh.install(rebuilt).expect("taken from this light BVH");
+        }
         match edits {
             Some(edits) => {
                 bvh.apply(edits)
@@ -171,6 +174,7 @@ impl Followed {
 pub(super) struct Updates {
     refit: Vec<f64>,
     rebuild: Vec<f64>,
+    beside: Vec<f64>,
     frames: usize,
 }
 
@@ -180,6 +184,7 @@ impl Updates {
         self.frames += 1;
         self.refit.extend(spent.refit.map(ms));
         self.rebuild.extend(spent.rebuild.map(ms));
+        self.beside.extend(spent.beside.map(ms));
     }
 
     /// The median of the refits.
@@ -187,10 +192,15 @@ impl Updates {
         median_or_zero(&self.refit)
     }
 
-    /// The mean over the frames, of medians by what was done, so that an interrupted one does not count.
+    /// What frames wait for: the mean over them, of medians by what was done, so that an interrupted one does not count.
     pub fn mean_ms(&self) -> f64 {
         let of = |times: &[f64]| median_or_zero(times) * times.len() as f64;
         (of(&self.refit) + of(&self.rebuild)) / self.frames.max(1) as f64
+    }
+
+    /// What is built beside a frame: the median.
+    pub fn beside_ms(&self) -> f64 {
+        median_or_zero(&self.beside)
     }
 }
 

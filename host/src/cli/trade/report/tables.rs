@@ -22,18 +22,19 @@ pub(super) fn markdown(made: &Made, frame: u32, points: &[Point], steps: &[Strin
         let scene = &of_scene[0].scene;
         line(format_args!("\n### {scene}\n\n![{scene}]({})\n", file(scene)));
         line(format_args!(
-            "| choice | bytes a light | sample | update ms | frame | variance, shadowed | error | at equal time | front |"
+            "| choice | bytes a light | sample | update, beside ms | frame | variance, shadowed | error | at equal time | front |"
         ));
         line(format_args!("|---|---|---|---|---|---|---|---|---|"));
         for point in of_scene {
             let (structure, images) = (&point.structure, &point.images);
             let variances = &structure.variances;
             line(format_args!(
-                "| {} | {:.1} | {} | {:.2} | {} | {:.2}, {:.2} | {} | {} | {} |",
+                "| {} | {:.1} | {} | {:.2}, {:.2} | {} | {:.2}, {:.2} | {} | {} | {} |",
                 point.choice,
                 structure.bytes_per_light,
                 ratio(&structure.sample_ratio),
                 structure.update_ms,
+                structure.beside_ms,
                 ratio(&images.frame_ratio),
                 variances.variance,
                 variances.shadowed_variance,

@@ -81,9 +81,9 @@ const begin = () => {
     program: `lightbvh ${made.version}${made.optimised ? "" : ", not optimised: times say nothing"}`,
     machine: `${made.machine}, ${made.threads} threads`,
     date: made.date,
-    images: `${data.width} × ${data.height} pixels, frame ${data.frame}, ${data.samples} shadow rays a pixel where all have the same; errors are of images as displayed, squared steps of a byte`,
+    images: `${data.width} × ${data.height} pixels, frames ${data.frames.join(", ")}, ${data.samples} shadow rays a pixel where all have the same; errors are of images as displayed, squared steps of a byte`,
     times: `in turn, ${data.turns} turns for samples; ratios are taken turn by turn and seed by seed, intervals are of 95 %`,
-    front: "a choice is on the front unless another one takes less time for a frame and has no more error, or has less error and takes no more time; less is at least a tenth of time, and of error what lies beyond the interval. What is like the default in both is counted as the default",
+    front: "a choice is on the front unless another one surely has less of an update's time, an image's or of its error, and seems to have more of none: less is a fifth of an update, a tenth of an image, and of error what lies beyond the interval. What is like the default in all is counted as the default",
   };
   byId("how").append(...Object.entries(how).flatMap(([key, text]) => [element("dt", {}, key), element("dd", {}, text)]));
   theme(state.theme);

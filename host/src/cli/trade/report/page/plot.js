@@ -139,7 +139,7 @@ const drawPlot = () => {
   if (state.point !== null) byId("chosen").textContent = wholeText(points[state.point]);
   const own = state.x === "frame" && state.y === "error";
   const unknown = points.filter((p) => ![x.of(p).median, y.of(p).median].every(Number.isFinite)).map((p) => p.choice);
-  byId("plot-hint").textContent = `${unknown.length ? `Not shown, infinite or unknown: ${unknown.join("; ")}. ` : ""}Each point is a choice; lines about it are intervals of 95 %. ${own ? "Rings mark the front: what nothing else beats, the default for all that are like it; the dashed line goes along it" : "The dashed line joins what nothing is better than in both, by medians; rings mark the front of frame time and error"}. Tab enters the points, arrow keys go along them, Enter chooses one.`;
+  byId("plot-hint").textContent = `${unknown.length ? `Not shown, infinite or unknown: ${unknown.join("; ")}. ` : ""}Each point is a choice; lines about it are intervals of 95 %. ${own ? "Rings mark the front: what nothing else beats in update, image and error, the default for all that are like it; the dashed line joins those of them that have the least error for their frame" : "The dashed line joins what nothing is better than in both, by medians; rings mark the front of update, image and error"}. Tab enters the points, arrow keys go along them, Enter chooses one.`;
 };
 
 const move = (event, order, at, groups) => {

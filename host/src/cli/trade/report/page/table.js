@@ -63,6 +63,7 @@ const allColumns = [
   numberColumn("build ms", (p) => p.build_ms),
   numberColumn("refit ms", (p) => p.refit_ms),
   numberColumn("update ms", (p) => p.update_ms),
+  numberColumn("beside ms", (p) => p.beside_ms),
   numberColumn("image ms", (p) => p.image_ms),
   { name: "bias %", value: (p) => 100 * (p.bias?.mean ?? 0), text: (p) => (p.bias ? number(100 * p.bias.mean) : "–"), small: (p) => (p.bias ? `± ${number(100 * p.bias.ci95)}` : "") },
 ];
@@ -81,7 +82,7 @@ const timeColumns = [
   choiceColumn,
   numberColumn("rebuild", (p) => p.build_ms),
   numberColumn("refit", (p) => p.refit_ms),
-  numberColumn("update", (p) => p.update_ms, "what the update policy does for a frame, on average"),
+  numberColumn("update", (p) => p.update_ms, "what a frame waits for by the update policy, on average"),
   numberColumn("image", (p) => p.image_ms),
   numberColumn("frame", (p) => p.update_ms + p.image_ms),
   ratioColumn("frame ×", (p) => p.frame_ratio),
