@@ -132,7 +132,13 @@ impl Scatter {
             "<polyline points=\"{}\" fill=\"none\" stroke=\"#0072B2\" stroke-dasharray=\"5 4\"/>",
             path.join(" ")
         ));
-        for (number, spot) in shown() {
+        // What is marked is not covered.
+        let all = || {
+            shown()
+                .filter(|(_, spot)| !spot.marked)
+                .chain(shown().filter(|(_, spot)| spot.marked))
+        };
+        for (number, spot) in all() {
             let (x, y) = (x.at(spot.x), y.at(spot.y));
             let fill = if spot.marked { "#0072B2" } else { "white" };
             line(format_args!(

@@ -196,7 +196,7 @@ impl Measured {
                 fewer + 1
             };
             of.shown = None;
-            for seed in budget.seeds..2 * budget.seeds {
+            for seed in budget.seeds..budget.seeds + budget.seeds.div_ceil(2) {
                 let mut beside = [0.0; 2];
                 for (error, samples) in beside.iter_mut().zip([fewer, fewer + 1]) {
                     let film = budget.film(subject.render(arrays, params(samples * least, seed))?.value)?;
