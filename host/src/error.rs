@@ -63,7 +63,7 @@ pub enum HostError {
     Rebuild(#[from] RebuildError),
     /// A result that cannot be kept.
     #[error(
-        "cannot write {path}: {source}; free space or choose another folder with --out, and run again to go on"
+        "cannot write {path}: {source}; free space or choose another folder with --out, then run the command again"
     )]
     Store {
         /// The file.
