@@ -96,20 +96,24 @@ pub fn instance_of<N: LightNode<W>, I, const W: usize>(
 /// `count` queries numbered from `first`: most on surfaces of the scene, some in volumes, some anywhere in and around
 /// it, a few where arithmetic is hard: on a light, at the origin, far away.
 pub fn queries(scene: &SceneArrays, seed: u32, first: u32, count: u32) -> Vec<Query> {
-    let bounds = scene_box(scene);
+    let surfaces: Vec<Corners> = scene.rays.triangles().map(|(_, triangle)| triangle.p).collect();
+    let bounds = bounding_box(&surfaces);
     (first..first.wrapping_add(count))
-        .map(|i| query(scene, &bounds, hash(seed ^ hash(i))))
+        .map(|i| query(scene, &surfaces, &bounds, hash(seed ^ hash(i))))
         .collect()
 }
 
-fn query(scene: &SceneArrays, bounds: &([f32; 3], [f32; 3]), random: u32) -> Query {
+/// Of a triangle.
+type Corners = [[f32; 3]; 3];
+
+fn query(scene: &SceneArrays, surfaces: &[Corners], bounds: &([f32; 3], [f32; 3]), random: u32) -> Query {
     let draw = |k: u32| unit_f32(hash(random.wrapping_add(k)));
     let pick = |k: u32, n: usize| ((draw(k) * n as f32) as usize).min(n - 1);
     let kind = draw(0);
     let (mut p, mut n) = if !(0.75..0.98).contains(&kind) {
         let lights = scene.lights.triangles();
         let corners = if kind < 0.75 {
-            scene.rays.triangles[pick(1, scene.rays.triangles.len())].p
+            surfaces[pick(1, surfaces.len())]
         } else {
             lights[pick(1, lights.len())].p
         };
@@ -167,9 +171,9 @@ fn direction(u: f32, v: f32, w: f32) -> [f32; 3] {
     }
 }
 
-fn scene_box(scene: &SceneArrays) -> ([f32; 3], [f32; 3]) {
+fn bounding_box(surfaces: &[Corners]) -> ([f32; 3], [f32; 3]) {
     let (mut low, mut high) = ([f32::MAX; 3], [f32::MIN; 3]);
-    for p in scene.rays.triangles.iter().flat_map(|t| t.p) {
+    for p in surfaces.iter().flatten() {
         for k in 0..3 {
             low[k] = low[k].min(p[k]);
             high[k] = high[k].max(p[k]);

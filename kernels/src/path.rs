@@ -15,7 +15,7 @@ use crate::shading::material::Material;
 use crate::shading::path::path_radiance;
 use crate::shading::pick::{PickLight, Power, Uniform};
 use crate::shading::pixel::Scene;
-use crate::shading::trace::{RayNode, SurfaceTriangle};
+use crate::shading::trace::{RayNode, TriangleBlock};
 use lightbvh::TreeWords;
 
 /// The radiance that reaches the camera through pixel `index` along paths of up to `bounces` reflections, linear RGB,
@@ -79,7 +79,7 @@ macro_rules! path_pass {
             #[spirv(global_invocation_id)] id: UVec3,
             #[spirv(push_constant)] push: &PathPush,
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
@@ -114,7 +114,7 @@ pub fn path_power(
     #[spirv(global_invocation_id)] id: UVec3,
     #[spirv(push_constant)] push: &PathPush,
     #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
@@ -143,7 +143,7 @@ pub fn path_uniform(
     #[spirv(global_invocation_id)] id: UVec3,
     #[spirv(push_constant)] push: &PathPush,
     #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],

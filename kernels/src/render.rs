@@ -14,7 +14,7 @@ use crate::shading::material::Material;
 use crate::shading::numbers::Part;
 use crate::shading::pick::{PickLight, Power, Uniform};
 use crate::shading::pixel::{Samples, Scene, reflected, see};
-use crate::shading::trace::{RayNode, SurfaceTriangle};
+use crate::shading::trace::{RayNode, TriangleBlock};
 use lightbvh::TreeWords;
 
 /// What all pixels of an image have in common besides the scene; push constants, 48 bytes.
@@ -103,7 +103,7 @@ macro_rules! render_pass {
             #[spirv(global_invocation_id)] id: UVec3,
             #[spirv(push_constant)] push: &RenderPush,
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
@@ -137,7 +137,7 @@ pub fn render_power(
     #[spirv(global_invocation_id)] id: UVec3,
     #[spirv(push_constant)] push: &RenderPush,
     #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
@@ -165,7 +165,7 @@ pub fn render_uniform(
     #[spirv(global_invocation_id)] id: UVec3,
     #[spirv(push_constant)] push: &RenderPush,
     #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],

@@ -30,7 +30,7 @@ use crate::shading::restir::spatial::spatial;
 use crate::shading::restir::surface::Surface;
 use crate::shading::restir::temporal::{Before, temporal};
 use crate::shading::restir::{PixelReservoir, RestirParams};
-use crate::shading::trace::{RayNode, SurfaceTriangle, Surfaces};
+use crate::shading::trace::{RayNode, Surfaces, TriangleBlock};
 use lightbvh::TreeWords;
 
 /// Push constants of all passes; 84 bytes.
@@ -55,7 +55,7 @@ pub fn restir_initial_power(
     #[spirv(global_invocation_id)] id: UVec3,
     #[spirv(push_constant)] push: &RestirPush,
     #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
@@ -84,7 +84,7 @@ macro_rules! initial_pass {
             #[spirv(global_invocation_id)] id: UVec3,
             #[spirv(push_constant)] push: &RestirPush,
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
@@ -116,7 +116,7 @@ pub fn restir_temporal_unbiased(
     #[spirv(global_invocation_id)] id: UVec3,
     #[spirv(push_constant)] push: &RestirPush,
     #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] before_ray_nodes: &[RayNode],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] before_surfaces: &[SurfaceTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] before_surfaces: &[TriangleBlock],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] before_triangles: &[EmissiveTriangle],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] before_instances: &[Instance],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] to_previous: &[[u32; 2]],
@@ -137,7 +137,7 @@ pub fn restir_temporal_unbiased(
         let combine = Unbiased {
             surfaces: Surfaces {
                 nodes: before_ray_nodes,
-                triangles: before_surfaces,
+                blocks: before_surfaces,
             },
             emitters: Emitters {
                 triangles: before_triangles,
@@ -213,7 +213,7 @@ pub fn restir_spatial_unbiased(
     #[spirv(global_invocation_id)] id: UVec3,
     #[spirv(push_constant)] push: &RestirPush,
     #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
@@ -228,7 +228,7 @@ pub fn restir_spatial_unbiased(
         let combine = Unbiased {
             surfaces: Surfaces {
                 nodes: ray_nodes,
-                triangles: surfaces,
+                blocks: surfaces,
             },
             emitters,
         };
@@ -278,7 +278,7 @@ pub fn restir_shade(
     #[spirv(global_invocation_id)] id: UVec3,
     #[spirv(push_constant)] push: &RestirPush,
     #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[SurfaceTriangle],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
     #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],

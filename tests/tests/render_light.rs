@@ -343,7 +343,7 @@ fn surfaces_do_not_shadow_themselves() {
                 instances: &[],
             },
         };
-        let corner = bvh.triangles[0].p.map(Vec3::from);
+        let corner = bvh.blocks[0].get(0).unwrap().p.map(Vec3::from);
         let aim = uniform_point(
             corner[0],
             corner[1] - corner[0],

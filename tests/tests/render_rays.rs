@@ -5,26 +5,22 @@ use lightbvh_host::render::{RayBvh, RayBvhError};
 use lightbvh_kernels::shading::grid::{MAX_COORDINATE, snap};
 use lightbvh_kernels::shading::ray::{FAR, MISS, Ray};
 use lightbvh_kernels::shading::trace::{
-    Hit, MAX_DEPTH, NONE, RayNode, SurfaceTriangle, Surfaces, WIDTH, any_hit, closest_hit, vertex,
+    Hit, LANES, MAX_DEPTH, NONE, RayNode, SurfaceTriangle, Surfaces, WIDTH, any_hit, closest_hit,
 };
 use lightbvh_tests::generate::Random;
 use lightbvh_tests::soup::{in_cube, soup};
 use proptest::prelude::*;
 
-fn brute_force(triangles: &[SurfaceTriangle], ray: &Ray) -> Hit {
+fn brute_force(bvh: &RayBvh, ray: &Ray) -> Hit {
     let mut hit = Hit {
         triangle: NONE,
         t: ray.t_max,
     };
-    for i in 0..triangles.len() as u32 {
-        let t = ray.hit_triangle(
-            vertex(triangles, i, 0),
-            vertex(triangles, i, 1),
-            vertex(triangles, i, 2),
-            hit.t,
-        );
+    for (index, triangle) in bvh.triangles() {
+        let [p0, p1, p2] = triangle.p.map(Vec3::from);
+        let t = ray.meet(p0, p1, p2).before(hit.t);
         if t != MISS {
-            hit = Hit { triangle: i, t };
+            hit = Hit { triangle: index, t };
         }
     }
     hit
@@ -59,10 +55,10 @@ proptest! {
         let size = if grid { 4.0 } else { 2f32.powi(scale) };
         let triangles = soup(&mut random, count, size, size * edge, grid);
         let bvh = RayBvh::build(&triangles).unwrap();
-        prop_assert_eq!(bvh.triangles.len(), count);
+        prop_assert_eq!(bvh.triangles().count(), count);
         for _ in 0..100 {
             let ray = random_ray(&mut random, size);
-            let expected = brute_force(&bvh.triangles, &ray);
+            let expected = brute_force(&bvh, &ray);
             let found = closest_hit(&bvh.surfaces(), &ray);
             // Coincident triangles are equally near: the first tested wins, and both test in the same order.
             prop_assert_eq!(found, expected, "{:?}", ray);
@@ -88,11 +84,11 @@ proptest! {
             }),
         }).collect();
         let mut random = Random::new(seed);
-        let triangles = soup(&mut random, 5, 1.0, 1.0, false);
-        let surfaces = Surfaces { nodes: &nodes, triangles: &triangles };
+        let blocks = RayBvh::build(&soup(&mut random, 5, 1.0, 1.0, false)).unwrap().blocks;
+        let surfaces = Surfaces { nodes: &nodes, blocks: &blocks };
         for _ in 0..20 {
             let hit = closest_hit(&surfaces, &random_ray(&mut random, 1.0));
-            prop_assert!(hit.triangle == NONE || hit.triangle < 5);
+            prop_assert!(hit.triangle == NONE || hit.triangle < (LANES * blocks.len()) as u32);
         }
     }
 
@@ -121,14 +117,18 @@ fn the_excepted_light_casts_no_shadow_and_others_do() {
     assert!(!any_hit(&bvh.surfaces(), &short, NONE));
 }
 
-/// What lies below a node, depth first: nodes and triangles in their order, and the longest path of nodes.
+/// What lies below a node, depth first: nodes and blocks in their order, and the longest path of nodes.
 struct Below<'a> {
     bvh: &'a RayBvh,
     next_node: u32,
-    next_triangle: u32,
+    next_block: u32,
 }
 
 impl Below<'_> {
+    fn lanes(&self, block: u32) -> [Option<SurfaceTriangle>; LANES] {
+        std::array::from_fn(|lane| self.bvh.blocks[block as usize].get(lane))
+    }
+
     fn check(&mut self, index: u32) -> usize {
         assert_eq!(index, self.next_node);
         self.next_node += 1;
@@ -139,14 +139,17 @@ impl Below<'_> {
         let mut depth = 0;
         for k in 0..used {
             let (first, count) = (node.children[k] >> 4, node.children[k] & 15);
-            let triangles = self.next_triangle;
+            let blocks = self.next_block;
             if count == 0 {
                 depth = depth.max(self.check(first));
             } else {
-                assert_eq!(first, self.next_triangle);
-                self.next_triangle += count;
+                assert_eq!(first, self.next_block);
+                let lanes = self.lanes(first).map(|lane| lane.is_some());
+                assert_eq!(lanes, std::array::from_fn(|lane| lane < count as usize));
+                self.next_block += 1;
             }
-            for p in (triangles..self.next_triangle).flat_map(|i| self.bvh.triangles[i as usize].p) {
+            let within = (blocks..self.next_block).flat_map(|i| self.lanes(i)).flatten();
+            for p in within.flat_map(|triangle| triangle.p) {
                 assert!((0..3).all(|axis| node.min[axis][k] < p[axis] && p[axis] < node.max[axis][k]));
             }
         }
@@ -158,11 +161,11 @@ impl Below<'_> {
         let mut below = Below {
             bvh,
             next_node: 0,
-            next_triangle: 0,
+            next_block: 0,
         };
         let depth = below.check(0);
         assert_eq!(below.next_node as usize, bvh.nodes.len());
-        assert_eq!(below.next_triangle as usize, bvh.triangles.len());
+        assert_eq!(below.next_block as usize, bvh.blocks.len());
         depth
     }
 }
@@ -198,10 +201,7 @@ fn no_path_is_longer_than_the_walk_remembers() {
     let mut random = Random::new(4);
     for _ in 0..100 {
         let ray = random_ray(&mut random, 2.0);
-        assert_eq!(
-            closest_hit(&bvh.surfaces(), &ray),
-            brute_force(&bvh.triangles, &ray)
-        );
+        assert_eq!(closest_hit(&bvh.surfaces(), &ray), brute_force(&bvh, &ray));
     }
 }
 

@@ -165,10 +165,12 @@ fn reordered(arrays: &SceneArrays, kept: &[u32]) -> SceneArrays {
         triangle.mesh = mesh;
     }
     let mut rays: RayBvh = arrays.rays.clone();
-    for triangle in &mut rays.triangles {
-        let now = kept.iter().position(|&i| i == triangle.light);
-        triangle.light = now.map_or(NONE, |i| i as u32);
-        triangle.instance = triangle.light;
+    for block in &mut rays.blocks {
+        for (light, instance) in block.light.iter_mut().zip(&mut block.instance) {
+            let now = kept.iter().position(|i| i == light);
+            *light = now.map_or(NONE, |i| i as u32);
+            *instance = *light;
+        }
     }
     let lights = Lights::new(triangles).expect("lights");
     SceneArrays::new(rays, arrays.materials.clone(), lights, arrays.camera)

@@ -9,7 +9,7 @@ use lightbvh::{EmissiveTriangle, Instance};
 use lightbvh_kernels::bvh::{Choice, TreeOf};
 use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::material::Material;
-use lightbvh_kernels::shading::trace::{RayNode, SurfaceTriangle};
+use lightbvh_kernels::shading::trace::{RayNode, TriangleBlock};
 
 use super::{Sampler, SceneArrays};
 use crate::vulkan::{Binding, Buffer, Device, Timings, VulkanError};
@@ -46,7 +46,7 @@ pub(super) fn own<T: Pod>(buffer: &mut Arc<Buffer<T>>) -> Result<&mut Buffer<T>,
 /// A frame's arrays on the device.
 pub(super) struct DeviceScene {
     pub ray_nodes: Buffer<RayNode>,
-    pub surfaces: Buffer<SurfaceTriangle>,
+    pub surfaces: Buffer<TriangleBlock>,
     pub materials: Buffer<Material>,
     pub emitters: DeviceEmitters,
     pub camera: Buffer<Camera>,
@@ -63,7 +63,7 @@ impl DeviceScene {
         let listed = scene.emitters();
         Ok(Self {
             ray_nodes: device.upload(&scene.rays.nodes)?,
-            surfaces: device.upload(&scene.rays.triangles)?,
+            surfaces: device.upload(&scene.rays.blocks)?,
             materials: device.upload(&scene.materials)?,
             emitters: match emitters {
                 Some(emitters) => emitters,

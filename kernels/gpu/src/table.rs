@@ -24,7 +24,7 @@ pub static PATH_BVH: Kernel = Kernel {
     bytes: include_bytes!("../spirv/path_bvh.spv"),
     bindings: &[
         Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
-        Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
         Binding { binding: 4, name: "instances", access: Read, stride: 132 },
@@ -43,7 +43,7 @@ pub static PATH_BVH_EQ4: Kernel = Kernel {
     bytes: include_bytes!("../spirv/path_bvh_eq4.spv"),
     bindings: &[
         Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
-        Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
         Binding { binding: 4, name: "instances", access: Read, stride: 132 },
@@ -62,7 +62,7 @@ pub static PATH_POWER: Kernel = Kernel {
     bytes: include_bytes!("../spirv/path_power.spv"),
     bindings: &[
         Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
-        Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
         Binding { binding: 4, name: "instances", access: Read, stride: 132 },
@@ -80,7 +80,7 @@ pub static PATH_UNIFORM: Kernel = Kernel {
     bytes: include_bytes!("../spirv/path_uniform.spv"),
     bindings: &[
         Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
-        Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
         Binding { binding: 4, name: "instances", access: Read, stride: 132 },
@@ -222,7 +222,7 @@ pub static RENDER_BVH: Kernel = Kernel {
     bytes: include_bytes!("../spirv/render_bvh.spv"),
     bindings: &[
         Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
-        Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
         Binding { binding: 4, name: "instances", access: Read, stride: 132 },
@@ -241,7 +241,7 @@ pub static RENDER_BVH_EQ4: Kernel = Kernel {
     bytes: include_bytes!("../spirv/render_bvh_eq4.spv"),
     bindings: &[
         Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
-        Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
         Binding { binding: 4, name: "instances", access: Read, stride: 132 },
@@ -260,7 +260,7 @@ pub static RENDER_POWER: Kernel = Kernel {
     bytes: include_bytes!("../spirv/render_power.spv"),
     bindings: &[
         Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
-        Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
         Binding { binding: 4, name: "instances", access: Read, stride: 132 },
@@ -278,7 +278,7 @@ pub static RENDER_UNIFORM: Kernel = Kernel {
     bytes: include_bytes!("../spirv/render_uniform.spv"),
     bindings: &[
         Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
-        Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
         Binding { binding: 4, name: "instances", access: Read, stride: 132 },
@@ -295,7 +295,7 @@ pub static RESTIR_INITIAL_BVH: Kernel = Kernel {
     bytes: include_bytes!("../spirv/restir_initial_bvh.spv"),
     bindings: &[
         Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
-        Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
         Binding { binding: 4, name: "instances", access: Read, stride: 132 },
@@ -315,7 +315,7 @@ pub static RESTIR_INITIAL_BVH_EQ4: Kernel = Kernel {
     bytes: include_bytes!("../spirv/restir_initial_bvh_eq4.spv"),
     bindings: &[
         Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
-        Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
         Binding { binding: 4, name: "instances", access: Read, stride: 132 },
@@ -335,7 +335,7 @@ pub static RESTIR_INITIAL_POWER: Kernel = Kernel {
     bytes: include_bytes!("../spirv/restir_initial_power.spv"),
     bindings: &[
         Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
-        Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
         Binding { binding: 4, name: "instances", access: Read, stride: 132 },
@@ -354,7 +354,7 @@ pub static RESTIR_SHADE: Kernel = Kernel {
     bytes: include_bytes!("../spirv/restir_shade.spv"),
     bindings: &[
         Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
-        Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
         Binding { binding: 4, name: "instances", access: Read, stride: 132 },
@@ -388,7 +388,7 @@ pub static RESTIR_SPATIAL_UNBIASED: Kernel = Kernel {
     bytes: include_bytes!("../spirv/restir_spatial_unbiased.spv"),
     bindings: &[
         Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
-        Binding { binding: 1, name: "surfaces", access: Read, stride: 48 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
         Binding { binding: 4, name: "instances", access: Read, stride: 132 },
@@ -425,7 +425,7 @@ pub static RESTIR_TEMPORAL_UNBIASED: Kernel = Kernel {
     bytes: include_bytes!("../spirv/restir_temporal_unbiased.spv"),
     bindings: &[
         Binding { binding: 0, name: "before_ray_nodes", access: Read, stride: 224 },
-        Binding { binding: 1, name: "before_surfaces", access: Read, stride: 48 },
+        Binding { binding: 1, name: "before_surfaces", access: Read, stride: 192 },
         Binding { binding: 2, name: "before_triangles", access: Read, stride: 56 },
         Binding { binding: 3, name: "before_instances", access: Read, stride: 132 },
         Binding { binding: 4, name: "to_previous", access: Read, stride: 8 },

@@ -13,7 +13,7 @@ use super::pixel::{Scene, load_material};
 use super::ray::{FAR, Ray};
 use super::restir::surface::Surface;
 use super::restir::target::{Lit, lit, visible};
-use super::trace::{NONE, closest_hit};
+use super::trace::{LANES, NONE, closest_hit};
 
 /// Most directions of a sample.
 pub const MAX_SCATTERED: u32 = 1 << 4;
@@ -193,14 +193,15 @@ struct Met {
 #[inline]
 fn along(scene: &Scene<'_>, ray: &Ray) -> Met {
     let hit = closest_hit(&scene.surfaces, ray);
-    let triangles = scene.surfaces.triangles;
+    let blocks = scene.surfaces.blocks;
     let mut met = Met {
         light: NONE,
         instance: NONE,
     };
-    if hit.triangle < triangles.len() as u32 {
-        met.light = triangles[hit.triangle as usize].light;
-        met.instance = triangles[hit.triangle as usize].instance;
+    let (block, lane) = (hit.triangle as usize / LANES, hit.triangle as usize % LANES);
+    if block < blocks.len() {
+        met.light = blocks[block].light[lane];
+        met.instance = blocks[block].instance[lane];
     }
     met
 }

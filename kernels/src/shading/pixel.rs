@@ -17,7 +17,7 @@ use super::picks::Picks;
 use super::ray::Ray;
 use super::restir::surface::Surface;
 use super::restir::target::{lit, weighted};
-use super::trace::{NONE, RayNode, SurfaceTriangle, Surfaces, any_hit, closest_hit, vertex};
+use super::trace::{LANES, NONE, RayNode, Surfaces, TriangleBlock, any_hit, closest_hit, vertex};
 
 /// Most candidates of a sample.
 pub const MAX_CANDIDATES: u32 = 1 << 8;
@@ -39,16 +39,13 @@ impl<'a> Scene<'a> {
     #[must_use]
     pub fn new(
         nodes: &'a [RayNode],
-        surfaces: &'a [SurfaceTriangle],
+        blocks: &'a [TriangleBlock],
         materials: &'a [Material],
         triangles: &'a [EmissiveTriangle],
         instances: &'a [Instance],
     ) -> Self {
         Self {
-            surfaces: Surfaces {
-                nodes,
-                triangles: surfaces,
-            },
+            surfaces: Surfaces { nodes, blocks },
             materials,
             emitters: Emitters { triangles, instances },
         }
@@ -93,7 +90,7 @@ pub fn see(scene: &Scene<'_>, ray: &Ray, background: Vec3) -> Seen {
 #[inline]
 #[must_use]
 pub fn encounter(scene: &Scene<'_>, ray: &Ray, background: Vec3) -> Encounter {
-    let triangles = scene.surfaces.triangles;
+    let blocks = scene.surfaces.blocks;
     let hit = closest_hit(&scene.surfaces, ray);
     let mut seen = Seen {
         point: ShadingPoint {
@@ -106,10 +103,11 @@ pub fn encounter(scene: &Scene<'_>, ray: &Ray, background: Vec3) -> Encounter {
     };
     let mut light = NONE;
     let mut instance = NONE;
-    if hit.triangle < triangles.len() as u32 {
-        let p0 = vertex(triangles, hit.triangle, 0);
-        let p1 = vertex(triangles, hit.triangle, 1);
-        let p2 = vertex(triangles, hit.triangle, 2);
+    let (block, lane) = (hit.triangle as usize / LANES, hit.triangle as usize % LANES);
+    if block < blocks.len() {
+        let p0 = vertex(blocks, hit.triangle, 0);
+        let p1 = vertex(blocks, hit.triangle, 1);
+        let p2 = vertex(blocks, hit.triangle, 2);
         let e1 = p1 - p0;
         let e2 = p2 - p0;
         let m = flush_vector(cross(e1, e2), TINY_AREA);
@@ -125,9 +123,9 @@ pub fn encounter(scene: &Scene<'_>, ray: &Ray, background: Vec3) -> Encounter {
             };
             seen.wo = -ray.direction * div(1.0, sqrt(length_squared(ray.direction)));
         }
-        seen.material = triangles[hit.triangle as usize].material;
-        light = triangles[hit.triangle as usize].light;
-        instance = triangles[hit.triangle as usize].instance;
+        seen.material = blocks[block].material[lane];
+        light = blocks[block].light[lane];
+        instance = blocks[block].instance[lane];
         seen.direct = emitted(&scene.emitters, light, instance, front);
     }
     Encounter {

@@ -28,6 +28,30 @@ pub struct Ray {
     pub t_max: f32,
 }
 
+/// A ray and a triangle.
+#[derive(Clone, Copy, Debug)]
+pub struct Meeting {
+    /// Distance in multiples of the direction, times the determinant.
+    pub t: f32,
+    /// What it is scaled by; positive where `inside`.
+    pub determinant: f32,
+    /// Whether the line beyond the ray's start comes through the triangle.
+    pub inside: bool,
+}
+
+impl Meeting {
+    /// Distance to the triangle in multiples of the direction, if between 0 and `nearest`, otherwise [`MISS`].
+    #[inline(always)]
+    #[must_use]
+    pub fn before(&self, nearest: f32) -> f32 {
+        if self.inside && self.t < nearest * self.determinant {
+            div(self.t, self.determinant)
+        } else {
+            MISS
+        }
+    }
+}
+
 impl Ray {
     /// A ray from `origin`, moved to the grid.
     #[inline]
@@ -42,14 +66,14 @@ impl Ray {
         }
     }
 
-    /// Distance to the triangle in multiples of the direction, if between 0 and `nearest`, otherwise [`MISS`]. Both
-    /// faces count.
+    /// What decides whether and where the ray meets a triangle. Both faces count.
     ///
     /// T. Möller and B. Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997, with everything scaled by the
     /// determinant, so that only an accepted hit pays for the division.
-    #[inline]
+    // No branches: processors test several triangles at once.
+    #[inline(always)]
     #[must_use]
-    pub fn hit_triangle(&self, p0: Vec3, p1: Vec3, p2: Vec3, nearest: f32) -> f32 {
+    pub fn meet(&self, p0: Vec3, p1: Vec3, p2: Vec3) -> Meeting {
         let e1 = p1 - p0;
         let e2 = p2 - p0;
         let s = self.origin - p0;
@@ -62,16 +86,16 @@ impl Ray {
         let u = negate_if(back, dot(s, pv));
         let v = negate_if(back, dot(self.direction, qv));
         let t = negate_if(back, dot(e2, qv));
-        let inside = u >= 0.0 && v >= 0.0 && u + v <= determinant;
-        if determinant > MIN_DETERMINANT && inside && t > 0.0 && t < nearest * determinant {
-            div(t, determinant)
-        } else {
-            MISS
+        let inside = (u >= 0.0) & (v >= 0.0) & (u + v <= determinant);
+        Meeting {
+            t,
+            determinant,
+            inside: inside & (determinant > MIN_DETERMINANT) & (t > 0.0),
         }
     }
 
     /// Where the ray meets the plane of a triangle at `p0` that it is known to hit: the parts of the edges `e1` and `e2`; zeros where
-    /// [`hit_triangle`](Self::hit_triangle) would see it edge-on. Coordinates within the plane need no exact division.
+    /// [`meet`](Self::meet) would see it edge-on. Coordinates within the plane need no exact division.
     #[inline]
     #[must_use]
     pub fn barycentric(&self, p0: Vec3, e1: Vec3, e2: Vec3) -> [f32; 2] {

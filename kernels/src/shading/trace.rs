@@ -1,11 +1,11 @@
-//! The walk through the ray BVH: depth first in the order of its nodes, several boxes at a time.
+//! The walk through the ray BVH: depth first in the order of its nodes, several boxes or triangles at a time.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use lightbvh::exact::{max, min, pow2};
 use lightbvh::widest::widest;
 
-use super::ray::{FAR, MISS, Ray};
+use super::ray::{FAR, MISS, Meeting, Ray};
 
 /// No triangle, no light.
 pub const NONE: u32 = u32::MAX;
@@ -13,9 +13,9 @@ pub const NONE: u32 = u32::MAX;
 /// Children of a node: as many numbers as a vector register of 256 bits holds.
 pub const WIDTH: usize = 8;
 
-/// Most triangles in one leaf.
-pub const MAX_LEAF: u32 = (1 << LEAF_BITS) - 1;
-/// Most triangles in one ray BVH: what a [`RayNode`] can count.
+/// Triangles that processors test at once, most of one leaf.
+pub const LANES: usize = 4;
+/// Most triangles in one ray BVH: what a [`RayNode`] can count, if each has a leaf of its own.
 pub const MAX_TRIANGLES: u32 = 1 << (32 - LEAF_BITS);
 /// Most inner nodes on the path to a leaf; the walk remembers two words of each.
 pub const MAX_DEPTH: usize = 16;
@@ -36,7 +36,7 @@ pub struct RayNode {
     pub min: [[f32; WIDTH]; 3],
     /// High corners of the boxes, on the grid, metres.
     pub max: [[f32; WIDTH]; 3],
-    /// For a leaf its first triangle times 16 plus the number of its triangles, at most [`MAX_LEAF`]; for an inner node 16 times its
+    /// For a leaf its block times 16 plus the number of its triangles, at most [`LANES`]; for an inner node 16 times its
     /// index, which is larger than this node's; 0 for no child, after all others.
     pub children: [u32; WIDTH],
 }
@@ -51,11 +51,11 @@ impl RayNode {
         children: [0; WIDTH],
     };
 
-    /// The child that is a leaf with `count` triangles from `first` on.
+    /// The child that is a leaf with the first `count` triangles of `block`.
     #[inline]
     #[must_use]
-    pub const fn leaf(first: u32, count: u32) -> u32 {
-        (first << LEAF_BITS) | count
+    pub const fn leaf(block: u32, count: u32) -> u32 {
+        (block << LEAF_BITS) | count
     }
 
     /// The child that is node `index`.
@@ -66,11 +66,11 @@ impl RayNode {
     }
 }
 
-/// A triangle of the scene, in the order of the ray BVH's leaves; 48 bytes.
+/// A triangle of the scene; 48 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct SurfaceTriangle {
-    /// Vertices in world space, on the grid, metres; counter-clockwise seen from the front.
+    /// Vertices in world space, metres; counter-clockwise seen from the front.
     pub p: [[f32; 3]; 3],
     /// Index of the material.
     pub material: u32,
@@ -80,7 +80,55 @@ pub struct SurfaceTriangle {
     pub instance: u32,
 }
 
-const _: () = assert!(size_of::<SurfaceTriangle>() == 48);
+/// The triangles of a leaf of the ray BVH, lane by lane: processors test them all at once. Triangle `k` of a scene is lane `k % 4` of
+/// block `k / 4`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct TriangleBlock {
+    /// Coordinates on the grid, metres: by vertex, by axis.
+    pub p: [[[f32; LANES]; 3]; 3],
+    /// [`SurfaceTriangle::material`]; [`NONE`] where the lane has no triangle.
+    pub material: [u32; LANES],
+    /// [`SurfaceTriangle::light`].
+    pub light: [u32; LANES],
+    /// [`SurfaceTriangle::instance`].
+    pub instance: [u32; LANES],
+}
+
+const _: () = assert!(size_of::<TriangleBlock>() == 48 * LANES);
+
+impl TriangleBlock {
+    /// No triangle: points, which no ray meets.
+    pub const EMPTY: Self = Self {
+        p: [[[0.0; LANES]; 3]; 3],
+        material: [NONE; LANES],
+        light: [NONE; LANES],
+        instance: [NONE; LANES],
+    };
+
+    /// The triangle of a lane, if it has one.
+    #[must_use]
+    pub fn get(&self, lane: usize) -> Option<SurfaceTriangle> {
+        (self.material[lane] != NONE).then(|| SurfaceTriangle {
+            p: self.p.map(|corner| corner.map(|axis| axis[lane])),
+            material: self.material[lane],
+            light: self.light[lane],
+            instance: self.instance[lane],
+        })
+    }
+
+    /// Puts a triangle into a lane.
+    pub fn set(&mut self, lane: usize, triangle: &SurfaceTriangle) {
+        for (corners, corner) in self.p.iter_mut().zip(&triangle.p) {
+            for (axis, &value) in corners.iter_mut().zip(corner) {
+                axis[lane] = value;
+            }
+        }
+        self.material[lane] = triangle.material;
+        self.light[lane] = triangle.light;
+        self.instance[lane] = triangle.instance;
+    }
+}
 
 /// The scene as rays see it.
 #[derive(Clone, Copy)]
@@ -88,7 +136,7 @@ pub struct Surfaces<'a> {
     /// The ray BVH.
     pub nodes: &'a [RayNode],
     /// What its leaves hold.
-    pub triangles: &'a [SurfaceTriangle],
+    pub blocks: &'a [TriangleBlock],
 }
 
 /// The first triangle on a ray.
@@ -101,11 +149,15 @@ pub struct Hit {
 }
 
 /// The vertex `k` of triangle `index`.
-#[inline]
+#[inline(always)]
 #[must_use]
-pub fn vertex(triangles: &[SurfaceTriangle], index: u32, k: usize) -> Vec3 {
-    let i = index as usize;
-    Vec3::new(triangles[i].p[k][0], triangles[i].p[k][1], triangles[i].p[k][2])
+pub fn vertex(blocks: &[TriangleBlock], index: u32, k: usize) -> Vec3 {
+    let (i, lane) = (index as usize / LANES, index as usize % LANES);
+    Vec3::new(
+        blocks[i].p[k][0][lane],
+        blocks[i].p[k][1][lane],
+        blocks[i].p[k][2][lane],
+    )
 }
 
 /// The nearest hit of the ray; of equally near ones, the first in the order of the triangles.
@@ -129,13 +181,11 @@ pub fn any_hit(surfaces: &Surfaces<'_>, ray: &Ray, except: u32) -> bool {
     )
 }
 
-/// Visits each node once at most, and [`MAX_LEAF`] triangles for each of its children, whatever the words in the buffers.
+/// Visits each node once at most, and a block of triangles for each of its children, whatever the words in the buffers.
 #[inline(always)]
 fn walk<const ANY: bool>(surfaces: &Surfaces<'_>, ray: &Ray, except: u32) -> Hit {
     let nodes = surfaces.nodes;
-    let triangles = surfaces.triangles;
     let end = nodes.len() as u32;
-    let triangle_count = triangles.len() as u32;
     let mut hit = Hit {
         triangle: NONE,
         t: ray.t_max,
@@ -152,24 +202,9 @@ fn walk<const ANY: bool>(surfaces: &Surfaces<'_>, ray: &Ray, except: u32) -> Hit
     let mut go = end > 0;
     while go {
         let first = child >> LEAF_BITS;
-        let count = child & MAX_LEAF;
-        for k in 0..count {
-            let candidate = first + k;
-            if candidate < triangle_count {
-                let t = ray.hit_triangle(
-                    vertex(triangles, candidate, 0),
-                    vertex(triangles, candidate, 1),
-                    vertex(triangles, candidate, 2),
-                    hit.t,
-                );
-                let excepted = ANY && except != NONE && triangles[candidate as usize].light == except;
-                if t != MISS && !excepted {
-                    hit = Hit {
-                        triangle: candidate,
-                        t,
-                    };
-                }
-            }
+        let count = child & ((1 << LEAF_BITS) - 1);
+        if count != 0 {
+            hit = hit_leaf::<ANY>(surfaces.blocks, first, count, ray, except, hit);
         }
         if count == 0 && first >= next && first < end {
             next = first + 1;
@@ -197,6 +232,83 @@ fn walk<const ANY: bool>(surfaces: &Surfaces<'_>, ray: &Ray, except: u32) -> Hit
         }
     }
     hit
+}
+
+/// The nearest of `hit` and what the ray meets among the triangles of a block, which are tested all at once. Lanes without a triangle
+/// meet nothing, so their number need not be known.
+// Loops over lanes: the compiler makes vectors of these.
+#[cfg(not(target_arch = "spirv"))]
+#[allow(clippy::needless_range_loop)]
+#[inline(always)]
+fn hit_leaf<const ANY: bool>(
+    blocks: &[TriangleBlock],
+    index: u32,
+    _count: u32,
+    ray: &Ray,
+    except: u32,
+    hit: Hit,
+) -> Hit {
+    let mut hit = hit;
+    if let Some(block) = blocks.get(index as usize) {
+        let corner = |k: usize, lane: usize| Vec3::from(block.p[k].map(|axis| axis[lane]));
+        let (mut t, mut determinant, mut inside) = ([0.0; LANES], [0.0; LANES], [0; LANES]);
+        for lane in 0..LANES {
+            let met = ray.meet(corner(0, lane), corner(1, lane), corner(2, lane));
+            t[lane] = met.t;
+            determinant[lane] = met.determinant;
+            inside[lane] = u32::from(met.inside);
+        }
+        for lane in 0..LANES {
+            let met = Meeting {
+                t: t[lane],
+                determinant: determinant[lane],
+                inside: inside[lane] != 0,
+            };
+            let triangle = index * LANES as u32 + lane as u32;
+            hit = nearer::<ANY>(hit, met, block.light[lane], except, triangle);
+        }
+    }
+    hit
+}
+
+/// The same one by one: an invocation of a device is a lane itself.
+#[cfg(target_arch = "spirv")]
+#[inline(always)]
+fn hit_leaf<const ANY: bool>(
+    blocks: &[TriangleBlock],
+    index: u32,
+    count: u32,
+    ray: &Ray,
+    except: u32,
+    hit: Hit,
+) -> Hit {
+    let mut hit = hit;
+    if index < blocks.len() as u32 {
+        let i = index as usize;
+        let lanes = if count < LANES as u32 { count } else { LANES as u32 };
+        for lane in 0..lanes {
+            let triangle = index * LANES as u32 + lane;
+            let met = ray.meet(
+                vertex(blocks, triangle, 0),
+                vertex(blocks, triangle, 1),
+                vertex(blocks, triangle, 2),
+            );
+            hit = nearer::<ANY>(hit, met, blocks[i].light[lane as usize], except, triangle);
+        }
+    }
+    hit
+}
+
+/// The nearer of `hit` and a triangle that is `light`.
+#[inline(always)]
+fn nearer<const ANY: bool>(hit: Hit, met: Meeting, light: u32, except: u32, triangle: u32) -> Hit {
+    let t = met.before(hit.t);
+    let excepted = ANY && except != NONE && light == except;
+    if t != MISS && !excepted {
+        Hit { triangle, t }
+    } else {
+        hit
+    }
 }
 
 /// The children of a node whose boxes the ray comes through before `nearest`, a bit for each. Never misses a box that the ray touches

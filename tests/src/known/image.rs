@@ -56,7 +56,7 @@ pub fn answer_on(device: &Device, file: &File) -> Vec<Answer> {
     use lightbvh_kernels::bvh::Node;
     use lightbvh_kernels::shading::camera::Camera;
     use lightbvh_kernels::shading::material::Material;
-    use lightbvh_kernels::shading::trace::{RayNode, SurfaceTriangle};
+    use lightbvh_kernels::shading::trace::{RayNode, TriangleBlock};
 
     fn upload<T: bytemuck::Pod>(
         device: &Device,
@@ -67,7 +67,7 @@ pub fn answer_on(device: &Device, file: &File) -> Vec<Answer> {
     }
     let push = push(file);
     let ray_nodes = upload::<RayNode>(device, file, "ray_nodes");
-    let surfaces = upload::<SurfaceTriangle>(device, file, "surfaces");
+    let surfaces = upload::<TriangleBlock>(device, file, "surfaces");
     let materials = upload::<Material>(device, file, "materials");
     let triangles = upload::<EmissiveTriangle>(device, file, "triangles");
     let camera = upload::<Camera>(device, file, "camera");

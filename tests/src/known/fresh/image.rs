@@ -128,13 +128,13 @@ pub fn image() -> (&'static str, Vec<Table>) {
         array("materials", "albedo[3] specular exponent_log2", &materials),
         array(
             "ray_nodes",
-            "min[3][8] max[3][8] children[8]: 16 first + count, 16 node",
+            "min[3][8] max[3][8] children[8]: 16 block + count, 16 node",
             &rays.nodes,
         ),
         array(
             "surfaces",
-            "p0[3] p1[3] p2[3] material light instance",
-            &rays.triangles,
+            "p[3][3][4] material[4] light[4] instance[4]: four triangles each",
+            &rays.blocks,
         ),
         array(
             "triangles",
