@@ -236,7 +236,8 @@ fn walk<const ANY: bool>(surfaces: &Surfaces<'_>, ray: &Ray, except: u32) -> Hit
 
 /// The nearest of `hit` and what the ray meets among the triangles of a block, which are tested all at once. Lanes without a triangle
 /// meet nothing, so their number need not be known.
-// Loops over lanes: the compiler makes vectors of these.
+// Loops over lanes: the compiler makes vectors of these, but not where corners are read by `map`, nor where a lane needs the one
+// before.
 #[cfg(not(target_arch = "spirv"))]
 #[allow(clippy::needless_range_loop)]
 #[inline(always)]
@@ -250,19 +251,26 @@ fn hit_leaf<const ANY: bool>(
 ) -> Hit {
     let mut hit = hit;
     if let Some(block) = blocks.get(index as usize) {
-        let corner = |k: usize, lane: usize| Vec3::from(block.p[k].map(|axis| axis[lane]));
-        let (mut t, mut determinant, mut inside) = ([0.0; LANES], [0.0; LANES], [0; LANES]);
+        let corner =
+            |k: usize, lane: usize| Vec3::new(block.p[k][0][lane], block.p[k][1][lane], block.p[k][2][lane]);
+        let (mut t, mut determinant, mut near) = ([0.0; LANES], [0.0; LANES], [0; LANES]);
         for lane in 0..LANES {
             let met = ray.meet(corner(0, lane), corner(1, lane), corner(2, lane));
             t[lane] = met.t;
             determinant[lane] = met.determinant;
-            inside[lane] = u32::from(met.inside);
+            near[lane] = u32::from(met.inside & (met.t < hit.t * met.determinant)) << lane;
         }
+        let mut left = 0;
         for lane in 0..LANES {
+            left |= near[lane];
+        }
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize & (LANES - 1);
+            left &= left - 1;
             let met = Meeting {
                 t: t[lane],
                 determinant: determinant[lane],
-                inside: inside[lane] != 0,
+                inside: true,
             };
             let triangle = index * LANES as u32 + lane as u32;
             hit = nearer::<ANY>(hit, met, block.light[lane], except, triangle);
