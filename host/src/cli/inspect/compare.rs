@@ -38,22 +38,24 @@ impl<'a> Light<'a> {
         Some(all?.concat())
     }
 
-    /// Mean relative variance of one sample by these probabilities, over the points that any light reaches.
-    pub fn variance(&self, pmfs: &[f32]) -> f64 {
+    /// Relative variances of one sample by these probabilities, at the points that any light reaches.
+    pub fn variances(&self, pmfs: &[f32]) -> Vec<f64> {
         // Without lights, nothing is sent and no chunk taken.
         let lights = self.lights.len().max(1);
-        let (mut sum, mut lit) = (0.0, 0_u32);
-        for (sent, pmfs) in self.sent.iter().zip(pmfs.chunks(lights)) {
+        let points = self.sent.iter().zip(pmfs.chunks(lights));
+        let lit = points.filter_map(|(sent, pmfs)| {
             let mean: f64 = sent.iter().sum();
-            if mean > 0.0 {
-                let pairs = sent.iter().zip(pmfs).filter(|(sent, _)| **sent > 0.0);
-                let square: f64 = pairs.map(|(sent, &pmf)| sent * sent / f64::from(pmf)).sum();
-                sum += (square / (mean * mean) - 1.0).max(0.0);
-                lit += 1;
-            }
-        }
-        sum / f64::from(lit.max(1))
+            let pairs = sent.iter().zip(pmfs).filter(|(sent, _)| **sent > 0.0);
+            let square: f64 = pairs.map(|(sent, &pmf)| sent * sent / f64::from(pmf)).sum();
+            (mean > 0.0).then(|| (square / (mean * mean) - 1.0).max(0.0))
+        });
+        lit.collect()
     }
+}
+
+/// The mean, 0 of none.
+pub(super) fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
 }
 
 /// Words of two models.

@@ -3,6 +3,7 @@
 mod compare;
 mod motion;
 mod options;
+mod ratio;
 mod report;
 mod steps;
 mod subject;

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 
 use super::motion::Motion;
 use super::options::Args;
+use super::ratio::MeanRatio;
 use super::steps::{Checked, Cost, MOST_VARIANCE, Promise, Step};
 use super::surfaces::Surfaces;
 use crate::cli::table;
@@ -209,6 +210,12 @@ const COLUMNS: &[table::Column<Row>] = &[
     ("compared", |r| r.of_step(|s| s.compared.to_string())),
     ("different", |r| r.of_step(|s| s.different.to_string())),
     ("variance", |r| format!("{:.4}", r.variance)),
+    ("times, 95 %", |r| {
+        r.of_step(|s| {
+            let MeanRatio { ratio, low, high } = s.variance_ratio;
+            format!("{ratio:.3} [{low:.3}, {high:.3}]")
+        })
+    }),
     ("bytes/light", |r| format!("{:.1}", r.cost.bytes_per_light)),
     ("all arrays", |r| format!("{:.1}", r.cost.memory_per_light)),
     ("sample ns", |r| format!("{:.1}", r.cost.ns_per_sample)),
@@ -218,7 +225,7 @@ fn promise(promise: Promise) -> String {
     match promise {
         Promise::Bits => "equal bits".to_owned(),
         Promise::BitsBelowInstance => "equal bits below the instance".to_owned(),
-        Promise::Variance => format!("variance up to {MOST_VARIANCE} times"),
+        Promise::Variance => format!("variance surely up to {MOST_VARIANCE} times"),
     }
 }
 

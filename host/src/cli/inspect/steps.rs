@@ -6,14 +6,15 @@ use lightbvh::refit::Instance;
 use lightbvh::requirements::{Layout, Model, Orientation, Requirements, Structure, TransformKind};
 use serde::Serialize;
 
-use super::compare::{Compared, Light};
+use super::compare::{Compared, Light, mean};
 use super::options::Args;
+use super::ratio::MeanRatio;
 use super::subject::{Source, Subject, build};
 use crate::cli::times::ms;
 use crate::cli::trade::quantile::Interval;
 use crate::error::HostError;
 
-/// Where probabilities may differ, the mean variance of a sample rises by no more than a twentieth.
+/// Where probabilities may differ, the mean variance of a sample surely rises by no more than a twentieth.
 pub(super) const MOST_VARIANCE: f64 = 1.05;
 /// Rounds of timing, and about how many samples are taken in one.
 const TURNS: u32 = 21;
@@ -27,7 +28,8 @@ pub(super) enum Promise {
     Bits,
     /// The same bits at the point as an instance at the identity hands it on, which may turn the last bit of a normal.
     BitsBelowInstance,
-    /// The mean variance of a sample stays below [`MOST_VARIANCE`] times what it was.
+    /// The mean variance of a sample stays below [`MOST_VARIANCE`] times what it was: its whole interval does, so that no part is taken
+    /// because of which points were looked at.
     Variance,
 }
 
@@ -45,6 +47,8 @@ pub(super) struct Step {
     pub variance: f64,
     /// That of the step before.
     pub variance_before: f64,
+    /// The one over the other.
+    pub variance_ratio: MeanRatio,
     /// Whether the promise holds.
     pub held: bool,
     /// Whether the part stays as it was because it does not.
@@ -122,8 +126,9 @@ pub(super) fn check(
     let mut now = Model::DEFAULT;
     let mut subjects = vec![build(&now, source)?];
     let mut before = light.pmfs(&*subjects[0], points);
-    let first = light.variance(before.as_deref().unwrap_or_default());
-    let (mut last, mut variance_before) = (0, first);
+    let first = light.variances(before.as_deref().unwrap_or_default());
+    let variance = mean(&first);
+    let (mut last, mut variances_before) = (0, first);
     let mut steps = Vec::new();
     for (part, take) in PARTS {
         let mut then = now;
@@ -143,11 +148,12 @@ pub(super) fn check(
             (_, Some(before), Some(pmfs)) => Compared::of(before, pmfs),
             _ => Compared::of_samples(&*subjects[last], &*new, points),
         };
-        let variance = pmfs
+        let variances = pmfs
             .as_deref()
-            .map_or(variance_before, |pmfs| light.variance(pmfs));
+            .map_or_else(|| variances_before.clone(), |pmfs| light.variances(pmfs));
+        let variance_ratio = MeanRatio::of(&variances_before, &variances);
         let held = match promise {
-            Promise::Variance => variance <= MOST_VARIANCE * variance_before,
+            Promise::Variance => variance_ratio.high <= MOST_VARIANCE,
             _ => compared.different == 0,
         };
         let put_back = !held && promise == Promise::Variance && !args.asks_for(part);
@@ -158,14 +164,15 @@ pub(super) fn check(
             compared: compared.count,
             different: compared.different,
             most: compared.most,
-            variance,
-            variance_before,
+            variance: mean(&variances),
+            variance_before: mean(&variances_before),
+            variance_ratio,
             held,
             put_back,
             cost: Cost::default(),
         });
         if !put_back {
-            (now, last, before, variance_before) = (then, subjects.len() - 1, pmfs, variance);
+            (now, last, before, variances_before) = (then, subjects.len() - 1, pmfs, variances);
         }
     }
     let costs = costs(&subjects, points, lights.len());
@@ -174,7 +181,7 @@ pub(super) fn check(
     }
     Ok(Checked {
         model: now,
-        variance: first,
+        variance,
         default: costs[0],
         cost: costs[last],
         steps,
