@@ -26,18 +26,9 @@ fn time(point: &Point) -> f64 {
 }
 
 fn step(a: &Point, b: &Point) -> String {
-    let of = |get: fn(&Point) -> f64| {
-        let (before, after) = (get(a), get(b));
-        match after / before {
-            _ if before == after => "the same".to_owned(),
-            ratio if !ratio.is_finite() => "some, where there was no,".to_owned(),
-            ratio if ratio < 1.0 => format!("{:.0} % less", 100.0 * (1.0 - ratio)),
-            ratio if ratio < 4.0 => format!("{:.0} % more", 100.0 * (ratio - 1.0)),
-            ratio => format!("{ratio:.1} times the"),
-        }
-    };
+    let of = |get: fn(&Point) -> f64| change(get(a), get(b));
     format!(
-        "from {} to {}: a frame takes {} time, of which the update {:.2} ms for {:.2}, and has {} error by the same rays, {} error at equal time",
+        "from {} to {}: frame time {} (update {:.2} ms, before {:.2}); error {} by the same rays, {} at equal time",
         a.choice,
         b.choice,
         of(time),
@@ -46,4 +37,45 @@ fn step(a: &Point, b: &Point) -> String {
         of(|point| point.images.error),
         of(|point| point.images.error_equal_time),
     )
+}
+
+/// How a figure that is not negative changes.
+fn change(before: f64, after: f64) -> String {
+    let percent = |part: f64| format!("{:.0} %", 100.0 * part);
+    match after / before {
+        _ if before == after => "the same".to_owned(),
+        ratio if !ratio.is_finite() => "some, before none".to_owned(),
+        ratio if ratio < 1.0 => format!("{} less", percent(1.0 - ratio)),
+        ratio if ratio < 2.0 => format!("{} more", percent(ratio - 1.0)),
+        ratio => format!("{ratio:.1} times"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::change;
+
+    #[test]
+    fn changes_are_said_in_words() {
+        let said = [
+            (2.0, 2.0),
+            (0.0, 0.0),
+            (0.0, 1.0),
+            (4.0, 3.0),
+            (4.0, 5.0),
+            (2.0, 9.0),
+        ]
+        .map(|(a, b)| change(a, b));
+        assert_eq!(
+            said,
+            [
+                "the same",
+                "the same",
+                "some, before none",
+                "25 % less",
+                "25 % more",
+                "4.5 times"
+            ]
+        );
+    }
 }
