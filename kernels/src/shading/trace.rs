@@ -321,7 +321,8 @@ fn nearer<const ANY: bool>(hit: Hit, met: Meeting, light: u32, except: u32, tria
 
 /// The children of a node whose boxes the ray comes through before `nearest`, a bit for each. Never misses a box that the ray touches
 /// inside; may report one that it passes within a rounding error.
-// rust-gpu has no iterators over arrays.
+// Loops over lanes and signs in place of comparisons: the compiler makes vectors of these.
+#[cfg(not(target_arch = "spirv"))]
 #[allow(clippy::needless_range_loop)]
 #[inline(always)]
 fn hit_boxes(nodes: &[RayNode], index: u32, ray: &Ray, nearest: f32) -> u32 {
@@ -334,7 +335,6 @@ fn hit_boxes(nodes: &[RayNode], index: u32, ray: &Ray, nearest: f32) -> u32 {
         let enter = max(max(x_enter[k], y_enter[k]), z_enter[k]);
         let leave = min(min(x_leave[k], y_leave[k]), z_leave[k]);
         let before = min(leave, nearest) * WIDEN - enter;
-        // Signs and no comparisons: the compiler makes vectors of these.
         misses[k] = ((leave.to_bits() | before.to_bits()) >> 31) << k;
     }
     let mut all = 0;
@@ -344,7 +344,27 @@ fn hit_boxes(nodes: &[RayNode], index: u32, ray: &Ray, nearest: f32) -> u32 {
     all ^ ALL
 }
 
+/// The same one by one: what an invocation of a device keeps in arrays lies in memory.
+#[cfg(target_arch = "spirv")]
+#[inline(always)]
+fn hit_boxes(nodes: &[RayNode], index: u32, ray: &Ray, nearest: f32) -> u32 {
+    let i = index as usize;
+    let mut all = 0;
+    for k in 0..WIDTH {
+        let a = Vec3::new(nodes[i].min[0][k], nodes[i].min[1][k], nodes[i].min[2][k]) - ray.origin;
+        let b = Vec3::new(nodes[i].max[0][k], nodes[i].max[1][k], nodes[i].max[2][k]) - ray.origin;
+        let (a, b) = (a * ray.inverse, b * ray.inverse);
+        let enter = max(max(min(a.x, b.x), min(a.y, b.y)), min(a.z, b.z));
+        let leave = min(min(max(b.x, a.x), max(b.y, a.y)), max(b.z, a.z));
+        let before = min(leave, nearest) * WIDEN - enter;
+        let misses = (leave.to_bits() | before.to_bits()) >> 31;
+        all |= (1 - misses) << k;
+    }
+    all
+}
+
 /// Where a ray from `origin` comes between two planes of each box, and where it leaves.
+#[cfg(not(target_arch = "spirv"))]
 #[inline(always)]
 fn crossed(low: &[f32; WIDTH], high: &[f32; WIDTH], origin: f32, inverse: f32) -> [[f32; WIDTH]; 2] {
     let (mut enter, mut leave) = ([0.0; WIDTH], [0.0; WIDTH]);
