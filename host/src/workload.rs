@@ -32,6 +32,8 @@ impl RenderSettings {
             width: self.width,
             height: self.height,
             samples: self.samples,
+            first: 0,
+            all: 0,
             candidates: 1,
             scattered: 0,
             part: 0,

@@ -3,8 +3,8 @@
 use lightbvh::importance::{DefaultImportance, NativeMath};
 use lightbvh::node::DefaultNode;
 use lightbvh::{
-    CompactNode, Defensive, Eq4, ImportanceModel, LightNode, LightTree, Moments, Random64, SampledLight,
-    ShadingPoint,
+    CompactNode, Defensive, Eq4, ImportanceModel, LightNode, LightTree, MomentNode, Moments, Random64,
+    SampledLight, ShadingPoint,
 };
 
 use crate::shading::pick::PickLight;
@@ -56,6 +56,28 @@ impl Choice<WIDTH> for Native {
     const SUFFIX: &'static str = "_native";
 }
 
+/// The default with 4 children to a node: what its width costs a device is measured against it. It has no refit of its own.
+#[derive(Clone, Copy, Debug)]
+pub struct Narrow;
+
+impl Choice<4> for Narrow {
+    type Node = MomentNode<4>;
+    type Importance = DefaultImportance;
+    const NAME: &'static str = "moments, 4 children";
+    const SUFFIX: &'static str = "_narrow";
+}
+
+/// The default with 16 children to a node, as [`Narrow`].
+#[derive(Clone, Copy, Debug)]
+pub struct Wide;
+
+impl Choice<16> for Wide {
+    type Node = MomentNode<16>;
+    type Importance = DefaultImportance;
+    const NAME: &'static str = "moments, 16 children";
+    const SUFFIX: &'static str = "_wide";
+}
+
 /// Children per node of [`Standard`].
 pub const WIDTH: usize = 8;
 /// Node of [`Standard`].
@@ -76,6 +98,14 @@ impl Kernels for Standard {
 
 impl Kernels for Native {
     type Node = Node;
+}
+
+impl Kernels for Narrow {
+    type Node = MomentNode<4>;
+}
+
+impl Kernels for Wide {
+    type Node = MomentNode<16>;
 }
 
 impl Kernels for Paper {

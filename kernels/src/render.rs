@@ -17,7 +17,7 @@ use crate::shading::pixel::{Samples, Scene, reflected, see};
 use crate::shading::trace::{RayNode, TriangleBlock};
 use lightbvh::TreeWords;
 
-/// What all pixels of an image have in common besides the scene; push constants, 48 bytes.
+/// What all pixels of an image have in common besides the scene; push constants, 56 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct RenderParams {
@@ -27,6 +27,11 @@ pub struct RenderParams {
     pub height: u32,
     /// Lights sampled for each pixel, at most 2^24.
     pub samples: u32,
+    /// Number of the first of them among `all`: a pixel may have more samples than one image takes, which images then take one after the
+    /// other. Paths have none.
+    pub first: u32,
+    /// Samples of a pixel that are spread evenly among each other; 0 counts as `samples`.
+    pub all: u32,
     /// Candidates of each light sample, at most [`MAX_CANDIDATES`](crate::shading::pixel::MAX_CANDIDATES); 0 and 1 for a
     /// light as picked. Paths take no candidates.
     pub candidates: u32,
@@ -46,7 +51,7 @@ pub struct RenderParams {
     pub background: [f32; 3],
 }
 
-const _: () = assert!(size_of::<RenderParams>() == 48);
+const _: () = assert!(size_of::<RenderParams>() == 56);
 
 /// The radiance that reaches the camera through pixel `index`, linear RGB, W/(m² sr). Pixels are numbered by rows from
 /// the upper left.
@@ -69,6 +74,12 @@ pub fn render_pixel<P: PickLight>(
     let seed = hash(pixel.wrapping_add(hash(params.seed)));
     let samples = Samples {
         count: params.samples,
+        first: params.first,
+        all: if params.all == 0 {
+            params.samples
+        } else {
+            params.all
+        },
         candidates: params.candidates,
         scattered: params.scattered,
         part: Part {

@@ -5,7 +5,6 @@ use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, ShadingPoint, ex
 use lightbvh_host::render::RayBvh;
 use lightbvh_kernels::shading::emitters::{Emitters, listed};
 use lightbvh_kernels::shading::material::Material;
-use lightbvh_kernels::shading::numbers::Part;
 use lightbvh_kernels::shading::pixel::{Samples, Scene, Seen, reflected};
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 use lightbvh_tests::statistics::{Mean, normal_quantile};
@@ -74,10 +73,9 @@ fn agree(what: &str, lamps: &[Corners], dark: &[Corners]) {
             let mut mean = Mean::default();
             for sample in 0..SAMPLES {
                 let samples = Samples {
-                    count: 1,
                     candidates,
                     scattered,
-                    part: Part::WHOLE,
+                    ..Samples::of(1)
                 };
                 let value = reflected(&scene, &seen, &tree.tree(), samples, exact::hash(sample));
                 mean.add(f64::from(value.x));

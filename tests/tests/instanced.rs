@@ -28,6 +28,8 @@ const PARAMS: RenderParams = RenderParams {
     width: SIZE.0,
     height: SIZE.1,
     samples: 4,
+    first: 0,
+    all: 0,
     candidates: 3,
     scattered: 0,
     part: 0,

@@ -25,6 +25,7 @@ mod methods;
 mod metrics;
 mod path;
 mod path_device;
+mod pixel_numbers;
 mod points;
 mod rebuilder;
 mod refit;

@@ -93,7 +93,7 @@ proptest! {
         let view = View {
             eye: [0.0, 0.0, 2.0 * size], right: [1.0, 0.0, 0.0], up: [0.0, 1.0, 0.0], forward: [0.0, 0.0, -1.0], yfov: 1.0,
         };
-        let params = RenderParams { width: 16, height: 16, samples: 4, candidates: 1 + 3 * (seed % 2), scattered: seed / 2 % 3, part: seed % 5, parts: seed % 7, seed, jitter: seed, background: [0.0, exact::pow2(bright), 0.3] };
+        let params = RenderParams { width: 16, height: 16, samples: 4, first: seed % 3, all: seed / 3 % 9, candidates: 1 + 3 * (seed % 2), scattered: seed / 2 % 3, part: seed % 5, parts: seed % 7, seed, jitter: seed, background: [0.0, exact::pow2(bright), 0.3] };
         let camera = camera(&view, 16, 16);
         let picker = Power { thresholds: &thresholds };
         let plain = render_under(IEEE, &scene, &camera, &params, &picker);

@@ -204,6 +204,8 @@ fn params(samples: u32) -> RenderParams {
         width: 4,
         height: 4,
         samples,
+        first: 0,
+        all: 0,
         candidates: 1,
         scattered: 0,
         part: 0,

@@ -184,12 +184,15 @@ fn surfaces_converge(seed: u32, walls: bool) {
                 [(1, 1, 0), (4, 1, 0), (1, 5, 0), (3, 5, 0), (2, 1, 1), (1, 3, 2)]
             {
                 let mut mean = Mean::default();
-                // Every third sample of three times as many: each by itself has the same mean.
+                // Every third sample of three times as many, the first or the last few of more: each by itself has the same mean.
                 let of = if scattered > 0 { 3 } else { 1 };
+                let all = count + candidates % 4;
                 for sample in 0..SAMPLES / (count * (candidates + scattered)) {
                     let seed = exact::hash(sample ^ i << 20);
                     let samples = Samples {
                         count,
+                        first: (all - count) * (sample / of % 2),
+                        all,
                         candidates,
                         scattered,
                         part: Part {
@@ -275,10 +278,9 @@ fn scattered_candidates_agree_with_lights_as_picked() {
             let plain = mean_of(Samples::of(4));
             for (candidates, scattered) in [(1, 1), (4, 1), (0, 3)] {
                 let with = mean_of(Samples {
-                    count: 1,
                     candidates,
                     scattered,
-                    part: Part::WHOLE,
+                    ..Samples::of(1)
                 });
                 let what = format!("2^{exponent_log2}, {candidates} and {scattered} at {point:?} from {wo}");
                 lit += u32::from(agrees(&what, &with, plain.mean(), plain.error()));

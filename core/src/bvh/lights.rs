@@ -6,7 +6,8 @@ use core::ops::Range;
 use super::edit::{InstanceId, MeshId};
 use super::{Bvh, Trails};
 use crate::light::EmissiveTriangle;
-use crate::lights::MAX_LIGHTS;
+
+use crate::lights::{Lights, LightsError, MAX_LIGHTS};
 use crate::node::LightNode;
 use crate::requirements::Placed;
 use crate::tree::INVALID;
@@ -77,8 +78,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         })
     }
 
-    /// All lights in the world by number; numbers not in use get triangles without radiance. Their `mesh` is the index of
-    /// the instance.
+    /// All lights in the world by number. Their `mesh` is the index of the instance; numbers not in use get triangles without radiance of
+    /// mesh `u32::MAX`. [`to_lights`](Self::to_lights) has those in use alone.
     #[must_use]
     pub fn world_lights(&self) -> Vec<EmissiveTriangle> {
         let dark = EmissiveTriangle {
@@ -98,6 +99,24 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             }
         }
         out
+    }
+
+    /// All lights as triangles that stand in the world, a mesh light for each instance in the order of their indices: what
+    /// [`two_level`](Bvh::two_level), [`single_level`](Bvh::single_level) and [`BuildParams::within`](crate::BuildParams::within) take. Time
+    /// and memory in proportion to the lights.
+    ///
+    /// # Errors
+    /// [`LightsError`] naming a light that its instance puts outside of the domain.
+    pub fn to_lights(&self) -> Result<Lights, LightsError> {
+        let mut out = Vec::with_capacity(self.light_count());
+        let placed = self.placed.iter().enumerate().filter(|(_, placed)| placed.live);
+        for (mesh, (index, placed)) in (0..).zip(placed) {
+            let own = &self.instances[index];
+            let range = self.blas_of(placed).triangles.clone();
+            let local = &self.triangles[range.start as usize..range.end as usize];
+            out.extend(local.iter().map(|triangle| own.triangle(triangle, mesh)));
+        }
+        Lights::new(out)
     }
 
     /// The meshes, and their places in the world.

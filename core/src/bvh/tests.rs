@@ -163,3 +163,41 @@ fn the_whole_domain_is_followed() {
         bvh.validate().expect("valid");
     }
 }
+
+/// The lights in use as triangles of the world, whatever was removed: another light BVH over them is one over the same lights.
+#[test]
+fn lights_in_use_stand_in_the_world() {
+    let (lights, _) = scene();
+    let triangles = lights.triangles();
+    let mut bvh = crate::LightBvh::default();
+    let mut ids = Vec::new();
+    for mesh in [&triangles[..7], &triangles[7..20], &triangles[20..22]] {
+        let mesh = bvh.add_mesh(mesh.to_vec()).expect("within the domain");
+        for x in [0.0, 100.0] {
+            let at = crate::Transform::at([x, 0.0, 0.0]);
+            ids.push(bvh.add_instance(mesh, at).expect("an instance"));
+        }
+    }
+    bvh.remove_instance(ids[1]).expect("it lives");
+    bvh.remove_instance(ids[2]).expect("it lives");
+    let found = bvh.to_lights().expect("within the domain");
+    let by_mesh: Vec<u32> = found.triangles().iter().map(|t| t.mesh).collect();
+    let expected: Vec<u32> = [(0, 7), (1, 13), (2, 2), (3, 2)]
+        .into_iter()
+        .flat_map(|(mesh, count)| core::iter::repeat_n(mesh, count))
+        .collect();
+    assert_eq!(by_mesh, expected);
+    // The same triangles as by number, but for the numbers not in use and of the meshes.
+    let mut world: Vec<_> = bvh.world_lights();
+    world.retain(|t| t.mesh != INVALID);
+    let positions = |all: &[EmissiveTriangle]| all.iter().map(|t| t.p).collect::<Vec<_>>();
+    assert_eq!(positions(found.triangles()), positions(&world));
+    assert_eq!(found.triangles().len(), bvh.light_count());
+    assert!(
+        crate::LightBvh::default()
+            .to_lights()
+            .expect("none")
+            .triangles()
+            .is_empty()
+    );
+}

@@ -54,9 +54,9 @@ impl Integrator {
     }
 }
 
-/// The image of `params` from images of at most `most` samples each, which are parts of one another's or, of paths, differ in their
-/// seed. Up to `most` samples it is
-/// `image` itself; beyond, the mean over all samples, added in order in `f64` and rounded once.
+/// The image of `params` from images of at most `most` samples each, which take the samples of a pixel one after another or, of paths,
+/// differ in their seed. Up to `most` samples it is `image` itself; beyond, the mean over all samples, added in order in `f64` and rounded
+/// once.
 pub(super) fn in_batches<E>(
     params: &RenderParams,
     integrator: Integrator,
@@ -67,6 +67,7 @@ pub(super) fn in_batches<E>(
         return image(params);
     }
     let parts = params.samples.div_ceil(most);
+    let mut first = params.first;
     let mut sum = vec![[0.0f64; 3]; params.width as usize * params.height as usize];
     let mut time = Duration::ZERO;
     for part in 0..parts {
@@ -74,8 +75,12 @@ pub(super) fn in_batches<E>(
         let part = image(&match integrator {
             Integrator::Direct => RenderParams {
                 samples,
-                part: params.part.wrapping_mul(parts).wrapping_add(part),
-                parts: params.parts.max(1).wrapping_mul(parts),
+                first,
+                all: if params.all == 0 {
+                    params.samples
+                } else {
+                    params.all
+                },
                 ..*params
             },
             Integrator::Path { .. } => RenderParams {
@@ -84,6 +89,7 @@ pub(super) fn in_batches<E>(
                 ..*params
             },
         })?;
+        first = first.wrapping_add(samples);
         time += part.time;
         for (sum, pixel) in sum.iter_mut().flatten().zip(part.value.iter().flatten()) {
             *sum += f64::from(*pixel) * f64::from(samples);
@@ -102,7 +108,6 @@ pub(super) fn in_batches<E>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lightbvh_kernels::shading::numbers::Part;
     use std::collections::BTreeSet;
 
     fn params(samples: u32) -> RenderParams {
@@ -110,6 +115,8 @@ mod tests {
             width: 1,
             height: 1,
             samples,
+            first: 0,
+            all: 0,
             candidates: 1,
             scattered: 0,
             part: 0,
@@ -154,17 +161,17 @@ mod tests {
             let (asked, pixel) = asked(samples, integrator);
             assert!(asked.iter().all(|part| (1..=8).contains(&part.samples)));
             assert_eq!(asked.iter().map(|part| part.samples).sum::<u32>(), samples);
+            let number = |p: &RenderParams, k| (p.seed, p.first + k);
             let numbers: BTreeSet<_> = asked
                 .iter()
-                .flat_map(|p| {
-                    let part = Part {
-                        index: p.part,
-                        of: p.parts,
-                    };
-                    (0..p.samples).map(move |k| (p.seed, part.number(k)))
-                })
+                .flat_map(|p| (0..p.samples).map(move |k| number(p, k)))
                 .collect();
             assert_eq!(numbers.len(), samples as usize, "no sample is taken twice");
+            if integrator == Integrator::Direct {
+                // Whatever their number, they are spread as those of one image would be.
+                assert!(asked.iter().all(|part| part.all == samples && part.part == 0));
+                assert_eq!(numbers.last(), Some(&(5, samples - 1)));
+            }
             assert!(asked.iter().all(|part| part.jitter == 3));
             assert_eq!(pixel[0], 1.0);
             let squares: u32 = asked.iter().map(|part| part.samples * part.samples).sum();

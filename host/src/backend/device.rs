@@ -49,19 +49,28 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     /// # Errors
     /// [`BackendError`] when it does not fit, or the device fails.
     pub fn new(device: &'d Device, bvh: &Bvh<C, W>) -> Result<Self, BackendError> {
+        let new = Self::as_built(device, bvh)?;
+        new.refit_by(&new.refit)?;
+        Ok(new)
+    }
+
+    /// Uploads a BVH whose own nodes wait for nothing, as of one that was built a moment ago: choices without kernels of a refit have
+    /// such.
+    ///
+    /// # Errors
+    /// [`BackendError`] when it does not fit, or the device fails.
+    pub(crate) fn as_built(device: &'d Device, bvh: &Bvh<C, W>) -> Result<Self, BackendError> {
         // The copies of the first frame are the upload.
         let mut mirror = Mirror::default();
         let refit = mirror.follow(bvh).refit;
-        let new = Self {
+        Ok(Self {
             device,
             tree: DeviceTree::upload::<C, W>(device, &bvh.tree(), bvh.triangles())?,
             roots: device.upload(bvh.roots())?,
             refit,
             counts: bvh.mesh_counts(),
             mirror,
-        };
-        new.refit_by(&new.refit)?;
-        Ok(new)
+        })
     }
 
     /// Overwrites the device's nodes, so that a refit has something to change.

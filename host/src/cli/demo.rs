@@ -14,6 +14,7 @@ use super::{Context, Outcome, devices, table, times};
 use crate::backend::{
     Backend, Bvh, CpuBackend, DeviceBackend, Integrator, SAMPLED_RECORD, Sampler, SceneArrays,
 };
+use crate::cli::table::{news, say};
 use crate::error::HostError;
 use crate::render::Film;
 use crate::scene::Scene;
@@ -97,7 +98,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let mut written = Vec::new();
     let mut exposure = None;
     for frame in FRAMES {
-        eprintln!("frame {frame}");
+        news!("frame {frame}");
         let arrays = arrays_at(&scene, frame, width, height)?;
         let settings = RenderSettings {
             frame,
@@ -126,7 +127,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         )?);
     }
 
-    eprintln!("reference");
+    news!("reference");
     let last = FRAMES[FRAMES.len() - 1];
     let arrays = arrays_at(&scene, last, width, height)?;
     let settings = RenderSettings {
@@ -241,11 +242,11 @@ fn print(context: &Context, rows: &[Row], records: &[Run], written: &[PathBuf]) 
     )?;
     for (row, record) in rows.iter().zip(records) {
         if let Some(first) = &record.tally.first_difference {
-            println!("{}: first difference: {first}", row.backend);
+            say!("{}: first difference: {first}", row.backend)?;
         }
     }
     for path in written {
-        println!("{}", path.display());
+        say!("{}", path.display())?;
     }
     Ok(())
 }

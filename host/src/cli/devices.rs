@@ -1,6 +1,7 @@
 //! The devices that a command runs on.
 
 use super::Context;
+use crate::cli::table::news;
 use crate::error::HostError;
 use crate::vulkan::{Device, Exactness, Options};
 
@@ -22,7 +23,7 @@ pub(super) fn open(context: &Context) -> Result<Vec<Opened>, HostError> {
         if std::env::var_os("LIGHTBVH_REQUIRE_VULKAN").is_some_and(|value| value != "0") {
             return Err(HostError::DeviceRequired(why));
         }
-        eprintln!("no Vulkan device, running on the CPU alone: {why}");
+        news!("no Vulkan device, running on the CPU alone: {why}");
     }
     let options = Options {
         validation: context.validation,
@@ -34,7 +35,7 @@ pub(super) fn open(context: &Context) -> Result<Vec<Opened>, HostError> {
             let device = Device::open(info, options)?;
             let exactness = device.self_test()?;
             if !exactness.exact {
-                eprintln!("{}: {exactness}", device.name());
+                news!("{}: {exactness}", device.name());
             }
             Ok(Opened { device, exactness })
         })

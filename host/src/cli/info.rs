@@ -3,6 +3,7 @@
 use serde_json::json;
 
 use super::{Context, Outcome, devices, table};
+use crate::cli::table::say;
 use crate::error::HostError;
 
 pub(super) fn run(context: &Context) -> Result<Outcome, HostError> {
@@ -38,9 +39,9 @@ pub(super) fn run(context: &Context) -> Result<Outcome, HostError> {
             )?;
         }
         for o in &opened {
-            println!("{}: {}", o.device.name(), o.exactness);
+            say!("{}: {}", o.device.name(), o.exactness)?;
         }
-        println!("cpu: {} threads", rayon::current_num_threads());
+        say!("cpu: {} threads", rayon::current_num_threads())?;
     }
     devices::close(opened)?;
     Ok(Outcome::Good)

@@ -25,6 +25,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+use crate::cli::table::news;
 use crate::error::HostError;
 
 /// A two-level light BVH on the CPU and on Vulkan devices, compared bit for bit.
@@ -134,7 +135,7 @@ pub fn main() -> ExitCode {
         // The reader of our output has closed it, as `head` does.
         Err(HostError::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("lightbvh: {error}");
+            news!("lightbvh: {error}");
             ExitCode::from(2)
         }
     }

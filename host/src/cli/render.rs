@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 use super::range::{self, Given, MAX_SIDE, given};
 use super::{Context, Outcome, devices, frames, table};
 use crate::backend::{Combination, Integrator, SceneArrays};
+use crate::cli::table::{news, say};
 use crate::error::HostError;
 use crate::method::{Builder, Importance, Method, Recipe, SampleBudget, SequenceId, Step, Target};
 use crate::render::Film;
@@ -84,11 +85,19 @@ pub(super) struct Args {
     #[arg(long, default_value_t = 0)]
     seed: u32,
     /// Exposure as a factor on radiance; by default chosen from the image. EXR files are linear and take none.
-    #[arg(long)]
+    #[arg(long, value_parser = exposure)]
     exposure: Option<f32>,
     /// The file to write: .png (tone-mapped) or .exr (linear).
     #[arg(short, long, value_name = "FILE.png|FILE.exr")]
     output: PathBuf,
+}
+
+/// A factor above zero.
+fn exposure(text: &str) -> Result<f32, String> {
+    let number = text.parse().ok();
+    number
+        .filter(|&number: &f32| number.is_finite() && number > 0.0)
+        .ok_or_else(|| format!("{text} is no finite number above 0"))
 }
 
 /// What light is followed.
@@ -190,7 +199,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     ])?;
     let scene = Scene::open(&args.scene)?;
     for warning in scene.warnings() {
-        eprintln!("{}: {warning}", scene.name());
+        news!("{}: {warning}", scene.name());
     }
     let sequence = Sequence {
         args,
@@ -308,7 +317,7 @@ impl Sequence<'_> {
             let ms = image.time.as_secs_f64() * 1e3;
             if !context.json {
                 let on = target.name();
-                println!("{}: {ms:.1} ms on {on}, exposure {exposure:.3}", output.display());
+                say!("{}: {ms:.1} ms on {on}, exposure {exposure:.3}", output.display())?;
             }
             let mut report = json!({
                 "frame": frame, "render_ms": ms, "exposure": exposure, "output": output,

@@ -55,6 +55,27 @@ pub(super) fn print_json(value: &impl serde::Serialize) -> io::Result<()> {
     writeln!(out)
 }
 
+/// A line on standard output; whoever closed it is told as an error, which `println!` would panic at.
+macro_rules! say {
+    ($($words:tt)*) => {
+        $crate::cli::table::print_text(&format!("{}\n", format_args!($($words)*)))
+    };
+}
+
+/// A line of news on standard error; where nobody can read it, it is lost, which `eprintln!` would panic at.
+macro_rules! news {
+    ($($words:tt)*) => {
+        $crate::cli::table::tell(format_args!($($words)*))
+    };
+}
+
+pub(super) use {news, say};
+
+/// See [`news`].
+pub(super) fn tell(words: std::fmt::Arguments<'_>) {
+    let _ = writeln!(io::stderr().lock(), "{words}");
+}
+
 /// Prints text as it is.
 pub(super) fn print_text(text: &str) -> io::Result<()> {
     io::stdout().lock().write_all(text.as_bytes())

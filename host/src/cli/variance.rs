@@ -4,6 +4,7 @@
 //! tree: no sampling is involved, so the figure has no noise but that of the choice of points. Of several candidates by numbers at
 //! equal distances the mean squared error is measured, by as many trials at each point.
 
+mod gloss;
 pub(super) mod irradiance;
 pub(super) mod points;
 
@@ -21,7 +22,9 @@ use serde_json::json;
 use self::irradiance::irradiance;
 use super::{Context, Outcome, table};
 use crate::backend::Sampler;
+use crate::cli::table::news;
 use crate::error::HostError;
+use crate::metrics::mean;
 use crate::workload::{build, instance_of};
 
 /// Trials of several candidates at each point.
@@ -44,6 +47,10 @@ pub(super) struct Args {
     /// Every layout, width and importance, not only the default and the paper's.
     #[arg(long)]
     all: bool,
+    /// Of glossy surfaces instead, seen from the camera: by the default, and by `Glossy`, which is told of the lobe, without and with a
+    /// direction that the surface reflects into; and the time of a sample.
+    #[arg(long, conflicts_with = "all")]
+    gloss: bool,
 }
 
 /// The variance of samples by one structure, layout and importance, over the points of a scene.
@@ -89,18 +96,43 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     } else {
         args.scene.clone()
     };
+    if args.gloss {
+        return glossy(context, args, &named);
+    }
     let mut rows = Vec::new();
     for name in named {
         let start = Instant::now();
         let (lights, points) = points::of(&name, args.lights, args.frame, args.points)?;
         let subject = Subject { name, lights, points };
         rows.extend(measure(&subject, args.all));
-        eprintln!("{}: {:.1} s", subject.name, start.elapsed().as_secs_f64());
+        news!("{}: {:.1} s", subject.name, start.elapsed().as_secs_f64());
     }
     if context.json {
         table::print_json(&json!({ "points": args.points, "frame": args.frame, "rows": rows }))?;
     } else {
         print(&rows)?;
+    }
+    Ok(Outcome::Good)
+}
+
+fn glossy(context: &Context, args: &Args, named: &[String]) -> Result<Outcome, HostError> {
+    let mut rows = Vec::new();
+    for name in named {
+        let start = Instant::now();
+        let (lights, points) = points::of(name, args.lights, args.frame, args.points)?;
+        let eye = points::eye(name, args.frame)?;
+        let name = name.clone();
+        rows.extend(gloss::measure(&Subject { name, lights, points }, eye));
+        news!(
+            "{}: {:.1} s",
+            rows.last().map_or("", gloss::Row::scene),
+            start.elapsed().as_secs_f64()
+        );
+    }
+    if context.json {
+        table::print_json(&json!({ "points": args.points, "frame": args.frame, "gloss": rows }))?;
+    } else {
+        gloss::print(&rows)?;
     }
     Ok(Outcome::Good)
 }
@@ -177,7 +209,7 @@ impl Measured<'_> {
                 layout: N::NAME,
                 importance,
                 width: W,
-                mean: variances.iter().sum::<f64>() / count,
+                mean: mean(&variances),
                 median: part(0.5),
                 p95: part(0.95),
                 of_8: self.error(|point, number| spaced::<N, I, W, 8>(&bvh, point, number)),
@@ -266,6 +298,14 @@ fn weighted(lights: &[SampledLight], count: f64) -> Weighted {
         .collect()
 }
 
+/// What several lights leave of one light's variance; nothing where there is none.
+fn gain(row: &Row, error: f64) -> String {
+    match row.mean / error {
+        of if of.is_finite() && of > 0.0 => format!("1/{of:.1}"),
+        _ => "-".to_owned(),
+    }
+}
+
 fn print(rows: &[Row]) -> Result<(), HostError> {
     Ok(table::print(
         rows,
@@ -278,10 +318,10 @@ fn print(rows: &[Row]) -> Result<(), HostError> {
             ("mean", |r| format!("{:.3}", r.mean)),
             ("median", |r| format!("{:.3}", r.median)),
             ("p95", |r| format!("{:.3}", r.p95)),
-            ("of 8", |r| format!("1/{:.1}", r.mean / r.of_8)),
-            ("of 32", |r| format!("1/{:.1}", r.mean / r.of_32)),
-            ("split 8", |r| format!("1/{:.1}", r.mean / r.split_8)),
-            ("split 32", |r| format!("1/{:.1}", r.mean / r.split_32)),
+            ("of 8", |r| gain(r, r.of_8)),
+            ("of 32", |r| gain(r, r.of_32)),
+            ("split 8", |r| gain(r, r.split_8)),
+            ("split 32", |r| gain(r, r.split_32)),
             ("nothing", |r| format!("{:.1} %", 100.0 * r.nothing)),
         ],
     )?)

@@ -17,6 +17,7 @@ use serde::Serialize;
 
 use super::{Context, Outcome, devices, progress, table};
 use crate::backend::Sampler;
+use crate::cli::table::say;
 use crate::error::HostError;
 use crate::method::{Importance, Target};
 use crate::scene::{BUILT_IN, Scene};
@@ -214,24 +215,25 @@ fn print(context: &Context, report: &Report, cpu_difference: Option<&str>) -> Re
     }
     for device in &report.devices {
         for (kind, words) in &device.tally.words {
-            println!(
+            say!(
                 "{}: {} words of {}, {} different",
                 device.name,
                 words.compared,
                 kind.name(),
                 words.different
-            );
+            )?;
         }
         if let Some(first) = &device.tally.first_difference {
-            println!("{}: first difference: {first}", device.name);
+            say!("{}: first difference: {first}", device.name)?;
         }
     }
-    println!(
+    say!(
         "cpu: {} words computed twice, {} different",
-        report.cpu_compared, report.cpu_different
-    );
+        report.cpu_compared,
+        report.cpu_different
+    )?;
     if let Some(first) = cpu_difference {
-        println!("cpu: first difference: {first}");
+        say!("cpu: first difference: {first}")?;
     }
     Ok(())
 }

@@ -14,6 +14,15 @@ pub struct Estimate {
     pub count: usize,
 }
 
+/// The mean of `values`, 0 of none.
+pub fn mean(values: &[f64]) -> f64 {
+    match values.len() {
+        // The empty sum of floats is -0.
+        0 => 0.0,
+        count => values.iter().sum::<f64>() / count as f64,
+    }
+}
+
 impl Estimate {
     /// The mean of `values` by Student's t distribution; nothing for no values.
     pub fn of(values: &[f64]) -> Option<Self> {

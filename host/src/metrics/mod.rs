@@ -10,7 +10,7 @@ mod mse;
 mod region;
 mod ssim;
 
-pub use estimate::Estimate;
+pub use estimate::{Estimate, mean};
 pub use flip::{flip_map, mean_flip};
 pub use mse::{mean_squared_error, psnr, relative_mean_squared_error, relative_squared_error, squared_error};
 pub use region::Region;

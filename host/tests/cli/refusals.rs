@@ -65,6 +65,10 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
         assert!(said.contains("no finite number above 0"), "{said}");
     }
     refused("trade --time 5 --error 0.1");
+    for exposure in ["0", "NaN", "inf"] {
+        let said = refused(&format!("render street --exposure {exposure} -o {image}"));
+        assert!(said.contains("no finite number above 0"), "{said}");
+    }
     refused("verify --queries many");
     assert!(!Path::new(&image).exists());
 

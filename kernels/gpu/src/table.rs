@@ -33,7 +33,7 @@ pub static PATH_BVH: Kernel = Kernel {
         Binding { binding: 7, name: "trails", access: Read, stride: 4 },
         Binding { binding: 8, name: "results", access: Write, stride: 12 },
     ],
-    push_constants: 80,
+    push_constants: 88,
     workgroup: [64, 1, 1],
 };
 
@@ -52,7 +52,7 @@ pub static PATH_BVH_EQ4: Kernel = Kernel {
         Binding { binding: 7, name: "trails", access: Read, stride: 4 },
         Binding { binding: 8, name: "results", access: Write, stride: 12 },
     ],
-    push_constants: 80,
+    push_constants: 88,
     workgroup: [64, 1, 1],
 };
 
@@ -70,7 +70,7 @@ pub static PATH_POWER: Kernel = Kernel {
         Binding { binding: 6, name: "thresholds", access: Read, stride: 4 },
         Binding { binding: 7, name: "results", access: Write, stride: 12 },
     ],
-    push_constants: 80,
+    push_constants: 88,
     workgroup: [64, 1, 1],
 };
 
@@ -87,7 +87,7 @@ pub static PATH_UNIFORM: Kernel = Kernel {
         Binding { binding: 5, name: "camera", access: Read, stride: 48 },
         Binding { binding: 6, name: "results", access: Write, stride: 12 },
     ],
-    push_constants: 80,
+    push_constants: 88,
     workgroup: [64, 1, 1],
 };
 
@@ -121,12 +121,42 @@ pub static PMF_EQ4: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `pmf_narrow`.
+pub static PMF_NARROW: Kernel = Kernel {
+    name: "pmf_narrow",
+    bytes: include_bytes!("../spirv/pmf_narrow.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "nodes", access: Read, stride: 96 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 132 },
+        Binding { binding: 2, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 3, name: "queries", access: Read, stride: 32 },
+        Binding { binding: 4, name: "results", access: Write, stride: 4 },
+    ],
+    push_constants: 24,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `pmf_native`.
 pub static PMF_NATIVE: Kernel = Kernel {
     name: "pmf_native",
     bytes: include_bytes!("../spirv/pmf_native.spv"),
     bindings: &[
         Binding { binding: 0, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 132 },
+        Binding { binding: 2, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 3, name: "queries", access: Read, stride: 32 },
+        Binding { binding: 4, name: "results", access: Write, stride: 4 },
+    ],
+    push_constants: 24,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `pmf_wide`.
+pub static PMF_WIDE: Kernel = Kernel {
+    name: "pmf_wide",
+    bytes: include_bytes!("../spirv/pmf_wide.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "nodes", access: Read, stride: 384 },
         Binding { binding: 1, name: "instances", access: Read, stride: 132 },
         Binding { binding: 2, name: "trails", access: Read, stride: 4 },
         Binding { binding: 3, name: "queries", access: Read, stride: 32 },
@@ -231,7 +261,7 @@ pub static RENDER_BVH: Kernel = Kernel {
         Binding { binding: 7, name: "trails", access: Read, stride: 4 },
         Binding { binding: 8, name: "results", access: Write, stride: 12 },
     ],
-    push_constants: 76,
+    push_constants: 84,
     workgroup: [64, 1, 1],
 };
 
@@ -250,7 +280,7 @@ pub static RENDER_BVH_EQ4: Kernel = Kernel {
         Binding { binding: 7, name: "trails", access: Read, stride: 4 },
         Binding { binding: 8, name: "results", access: Write, stride: 12 },
     ],
-    push_constants: 76,
+    push_constants: 84,
     workgroup: [64, 1, 1],
 };
 
@@ -268,7 +298,7 @@ pub static RENDER_POWER: Kernel = Kernel {
         Binding { binding: 6, name: "thresholds", access: Read, stride: 4 },
         Binding { binding: 7, name: "results", access: Write, stride: 12 },
     ],
-    push_constants: 76,
+    push_constants: 84,
     workgroup: [64, 1, 1],
 };
 
@@ -285,7 +315,7 @@ pub static RENDER_UNIFORM: Kernel = Kernel {
         Binding { binding: 5, name: "camera", access: Read, stride: 48 },
         Binding { binding: 6, name: "results", access: Write, stride: 12 },
     ],
-    push_constants: 76,
+    push_constants: 84,
     workgroup: [64, 1, 1],
 };
 
@@ -473,12 +503,42 @@ pub static SAMPLE_EQ4: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `sample_narrow`.
+pub static SAMPLE_NARROW: Kernel = Kernel {
+    name: "sample_narrow",
+    bytes: include_bytes!("../spirv/sample_narrow.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "nodes", access: Read, stride: 96 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 132 },
+        Binding { binding: 2, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 3, name: "queries", access: Read, stride: 32 },
+        Binding { binding: 4, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 24,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `sample_native`.
 pub static SAMPLE_NATIVE: Kernel = Kernel {
     name: "sample_native",
     bytes: include_bytes!("../spirv/sample_native.spv"),
     bindings: &[
         Binding { binding: 0, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 132 },
+        Binding { binding: 2, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 3, name: "queries", access: Read, stride: 32 },
+        Binding { binding: 4, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 24,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `sample_wide`.
+pub static SAMPLE_WIDE: Kernel = Kernel {
+    name: "sample_wide",
+    bytes: include_bytes!("../spirv/sample_wide.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "nodes", access: Read, stride: 384 },
         Binding { binding: 1, name: "instances", access: Read, stride: 132 },
         Binding { binding: 2, name: "trails", access: Read, stride: 4 },
         Binding { binding: 3, name: "queries", access: Read, stride: 32 },
@@ -509,7 +569,9 @@ pub static KERNELS: &[&Kernel] = &[
     &PATH_UNIFORM,
     &PMF,
     &PMF_EQ4,
+    &PMF_NARROW,
     &PMF_NATIVE,
+    &PMF_WIDE,
     &REFIT_BOTTOM,
     &REFIT_BOTTOM_EQ4,
     &REFIT_ROOTS,
@@ -530,6 +592,8 @@ pub static KERNELS: &[&Kernel] = &[
     &RESTIR_TEMPORAL_UNBIASED,
     &SAMPLE,
     &SAMPLE_EQ4,
+    &SAMPLE_NARROW,
     &SAMPLE_NATIVE,
+    &SAMPLE_WIDE,
     &SELF_TEST,
 ];

@@ -74,7 +74,7 @@ impl Numbers {
         }
     }
 
-    /// The number that picks light `k` of `count`.
+    /// The number that picks light `k` of `count`, all that the part has.
     #[inline]
     #[must_use]
     pub fn light(&self, k: u32, count: u32) -> Random64 {

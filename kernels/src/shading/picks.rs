@@ -14,19 +14,26 @@ const BLOCK: usize = 32;
 #[derive(Clone, Copy, Debug)]
 pub struct Picks {
     numbers: Numbers,
+    first: u32,
+    #[cfg(not(target_arch = "spirv"))]
     count: u32,
+    all: u32,
     #[cfg(not(target_arch = "spirv"))]
     block: [SampledLight; BLOCK],
 }
 
 impl Picks {
-    /// `count` lights by `numbers`.
+    /// `count` lights by `numbers`, from `first` of `all` on.
     #[inline]
     #[must_use]
-    pub fn new(numbers: Numbers, count: u32) -> Self {
+    #[cfg_attr(target_arch = "spirv", expect(unused_variables))]
+    pub fn new(numbers: Numbers, first: u32, count: u32, all: u32) -> Self {
         Self {
             numbers,
+            first,
+            #[cfg(not(target_arch = "spirv"))]
             count,
+            all,
             #[cfg(not(target_arch = "spirv"))]
             block: [SampledLight::NONE; BLOCK],
         }
@@ -41,18 +48,19 @@ impl Picks {
             if at == 0 {
                 let left = if k < self.count { self.count - k } else { 1 };
                 let block = &mut self.block[..BLOCK.min(left as usize)];
-                picker.pick_spaced(point, self.numbers.light(0, self.count), k, self.count, block);
+                let first = self.first.wrapping_add(k);
+                picker.pick_spaced(point, self.numbers.light(0, self.all), first, self.all, block);
             }
             self.block[at]
         }
         #[cfg(target_arch = "spirv")]
-        picker.pick(point, self.numbers.light(k, self.count))
+        picker.pick(point, self.numbers.light(self.first.wrapping_add(k), self.all))
     }
 
     /// The numbers of the point on light `k`, in [0, 1).
     #[inline]
     #[must_use]
     pub fn uv(&self, k: u32) -> [f32; 2] {
-        self.numbers.uv(k)
+        self.numbers.uv(self.first.wrapping_add(k))
     }
 }

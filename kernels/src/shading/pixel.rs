@@ -162,6 +162,10 @@ fn emitted(emitters: &Emitters<'_>, light: u32, instance: u32, front: bool) -> V
 pub struct Samples {
     /// How many, each with one point on a light and one shadow ray.
     pub count: u32,
+    /// Number of the first of them among `all`.
+    pub first: u32,
+    /// How many are spread evenly among each other, of which these are `count`.
+    pub all: u32,
     /// Lights that each is one of, at most [`MAX_CANDIDATES`]; 0 and 1 for a light as picked.
     pub candidates: u32,
     /// Directions that the surface reflects into, each with a ray, whose lights join the candidates of each sample; at most
@@ -177,6 +181,8 @@ impl Samples {
     pub const fn of(count: u32) -> Self {
         Self {
             count,
+            first: 0,
+            all: count,
             candidates: 1,
             scattered: 0,
             part: Part::WHOLE,
@@ -204,9 +210,10 @@ pub fn reflected<P: PickLight>(
     flush_vector(sum * div(1.0, count as i32 as f32), TINY)
 }
 
+/// The numbers of `samples` of so many lights each.
 #[inline]
-fn numbers(seed: u32, samples: Samples) -> Numbers {
-    Numbers::of_part(seed, samples.part, samples.count)
+fn numbers(seed: u32, samples: Samples, lights: u32) -> Numbers {
+    Numbers::of_part(seed, samples.part, samples.all.wrapping_mul(lights))
 }
 
 /// The sum of samples that are lights as picked.
@@ -216,7 +223,12 @@ fn one_by_one<P: PickLight>(scene: &Scene<'_>, seen: &Seen, picker: &P, samples:
     let mut sum = Vec3::ZERO;
     if length_squared(n) > 0.0 && seen.material < scene.materials.len() as u32 {
         let material = load_material(scene.materials, seen.material);
-        let mut picks = Picks::new(numbers(seed, samples), samples.count);
+        let mut picks = Picks::new(
+            numbers(seed, samples, 1),
+            samples.first,
+            samples.count,
+            samples.all,
+        );
         for sample in 0..samples.count {
             let picked = picks.next(picker, &seen.point, sample);
             if picked.pmf > 0.0 {
@@ -254,7 +266,13 @@ fn one_of_many<P: PickLight>(
     let surface = Surface::new(seen, seen.point.position());
     let mut sum = Vec3::ZERO;
     if surface.is_lit() && surface.material < scene.materials.len() as u32 {
-        let mut picks = Picks::new(numbers(seed, samples), samples.count.wrapping_mul(count));
+        let of_all = |samples: u32| samples.wrapping_mul(count);
+        let mut picks = Picks::new(
+            numbers(seed, samples, count),
+            of_all(samples.first),
+            of_all(samples.count),
+            of_all(samples.all),
+        );
         for sample in 0..samples.count {
             let which = Candidates {
                 first: sample.wrapping_mul(count),
@@ -263,7 +281,7 @@ fn one_of_many<P: PickLight>(
             };
             let random = hash(
                 seed.wrapping_add(Numbers::USED)
-                    .wrapping_add(samples.part.number(sample)),
+                    .wrapping_add(samples.part.number(samples.first.wrapping_add(sample))),
             );
             let chosen = resampled(scene, picker, &surface, &mut picks, which, random);
             let Reservoir { sample, weight, .. } = chosen.reservoir;

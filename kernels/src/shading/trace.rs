@@ -26,6 +26,7 @@ const LEAF_BITS: u32 = 4;
 const WIDEN: f32 = 1.0 + 8.0 * pow2(-24);
 
 /// All children.
+#[cfg(not(target_arch = "spirv"))]
 const ALL: u32 = (1 << WIDTH) - 1;
 
 /// An inner node of the ray BVH: its children's boxes, child by child in each plane. Nodes lie in depth-first order.

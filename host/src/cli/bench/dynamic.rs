@@ -15,6 +15,7 @@ use self::report::{Report, Row, Spread};
 use self::world::{Change, World};
 use crate::backend::{DeviceBackend, Follow};
 use crate::cli::devices::Opened;
+use crate::cli::table::news;
 use crate::cli::times::timed;
 use crate::error::HostError;
 
@@ -39,7 +40,7 @@ pub(super) fn report(instances: u32, mesh_triangles: u32, opened: &[Opened]) -> 
         .build()
         .expect("a pool of one thread");
     let mut world = World::of_instances(instances, mesh_triangles);
-    eprintln!("single level");
+    news!("single level");
     let single_level = single_level(&world, &one);
     let (copy, top_level_bytes) = copy(&mut world);
     let scale = Scale {
@@ -55,29 +56,29 @@ pub(super) fn report(instances: u32, mesh_triangles: u32, opened: &[Opened]) -> 
         .chain([(Change::Shine, shares[0])])
     {
         let name: &str = change.into();
-        eprintln!("{name} {changed} of {instances}");
+        news!("{name} {changed} of {instances}");
         rows.push(one.install(|| cpu(&mut world, change, changed, 1, &scale)));
     }
     // The same number in a smaller scene.
     let fewer = (instances / 10).max(shares[0]);
-    eprintln!("move {} of {fewer}", shares[0]);
+    news!("move {} of {fewer}", shares[0]);
     let mut small = World::of_instances(fewer, mesh_triangles);
     rows.push(one.install(|| cpu(&mut small, Change::Move, shares[0], 1, &scale)));
     for o in opened {
-        eprintln!("move {instances} on {}", o.device.name());
+        news!("move {instances} on {}", o.device.name());
         rows.push(device(&mut world, Change::Move, instances, o, &scale)?);
     }
 
     let triangles = instances * mesh_triangles;
     let mut mesh = World::of_one_mesh(triangles);
     let all = rayon::current_num_threads();
-    eprintln!("deform {triangles}");
+    news!("deform {triangles}");
     rows.push(one.install(|| cpu(&mut mesh, Change::Deform, triangles, 1, &scale)));
     if all > 1 {
         rows.push(cpu(&mut mesh, Change::Deform, triangles, all, &scale));
     }
     for o in opened {
-        eprintln!("deform {triangles} on {}", o.device.name());
+        news!("deform {triangles} on {}", o.device.name());
         rows.push(device(&mut mesh, Change::Deform, triangles, o, &scale)?);
     }
     Ok(Report {

@@ -13,6 +13,7 @@ use lightbvh::{
 use serde::Serialize;
 
 use crate::cli::table;
+use crate::cli::table::say;
 use crate::vector::{dot, normal, sub};
 use crate::workload::instance_of;
 
@@ -207,7 +208,7 @@ pub(super) fn print(rows: &[Row]) -> io::Result<()> {
     if rows.is_empty() {
         return Ok(());
     }
-    println!();
+    say!("")?;
     table::print(
         rows,
         &[

@@ -14,6 +14,7 @@ use serde_json::json;
 use self::scenes::{Scene, hostile, scenes};
 use super::super::{Context, Outcome, table};
 use crate::backend::Bvh;
+use crate::cli::table::say;
 use crate::error::HostError;
 
 /// Samples, and pmfs, of each scene.
@@ -64,11 +65,11 @@ pub(super) fn run(context: &Context) -> Result<Outcome, HostError> {
         table::print_json(&json!({ "queries": QUERIES, "bounded": bounded, "cases": cases }))?;
     } else {
         print(&cases)?;
-        println!();
-        println!(
+        say!("")?;
+        say!(
             "most nodes of any sample or pmf: {} the depth of the tree",
             if bounded { "at most" } else { "ABOVE" }
-        );
+        )?;
     }
     Ok(Outcome::good_if(bounded))
 }

@@ -18,6 +18,7 @@ use indicatif::ProgressBar;
 use serde_json::{Value, json};
 
 use super::{Context, Outcome, devices, progress, table};
+use crate::cli::table::news;
 use crate::error::HostError;
 use crate::method::Target;
 use crate::render::write_whole;
@@ -44,7 +45,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     for scene in &scenes {
         scene.require_lights()?;
         for warning in scene.warnings() {
-            eprintln!("{}: {warning}", scene.name());
+            news!("{}: {warning}", scene.name());
         }
     }
     let opened = match plan.backends {

@@ -53,11 +53,6 @@ impl<'a> Light<'a> {
     }
 }
 
-/// The mean, 0 of none.
-pub(super) fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len().max(1) as f64
-}
-
 /// Words of two models.
 pub(super) struct Compared {
     pub count: u64,

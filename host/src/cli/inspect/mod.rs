@@ -22,6 +22,7 @@ use self::subject::{Source, is_known};
 use self::surfaces::Surfaces;
 use super::variance::points;
 use super::{Context, Outcome, table};
+use crate::cli::table::news;
 use crate::error::HostError;
 use crate::scene::{Instances, Scene};
 use crate::workload::lights_at;
@@ -34,7 +35,7 @@ const MOST_PROBABILITIES: usize = 1 << 25;
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     let scene = Scene::open(&args.scene)?;
     for warning in scene.warnings() {
-        eprintln!("{}: {warning}", scene.name());
+        news!("{}: {warning}", scene.name());
     }
     scene.require_lights()?;
     let motion = Motion::of(&scene)?;

@@ -6,13 +6,14 @@ use lightbvh::refit::Instance;
 use lightbvh::requirements::{Layout, Model, Orientation, Requirements, Structure, TransformKind};
 use serde::Serialize;
 
-use super::compare::{Compared, Light, mean};
+use super::compare::{Compared, Light};
 use super::options::Args;
 use super::ratio::MeanRatio;
 use super::subject::{Source, Subject, build};
 use crate::cli::times::ms;
 use crate::cli::trade::quantile::Interval;
 use crate::error::HostError;
+use crate::metrics::mean;
 
 /// Where probabilities may differ, the mean variance of a sample surely rises by no more than a twentieth.
 pub(super) const MOST_VARIANCE: f64 = 1.05;

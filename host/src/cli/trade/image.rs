@@ -78,6 +78,8 @@ impl Budget {
             width: self.width,
             height: self.height,
             samples,
+            first: 0,
+            all: 0,
             candidates: 1,
             scattered: 0,
             part: 0,
@@ -105,7 +107,7 @@ pub(super) struct Images {
     /// numbers beside that. ReSTIR takes whole histories, of six rays at most: between the errors of so many; where less than one fits,
     /// the error of one by what fits of it.
     pub error_equal_time: f64,
-    /// The same over the default's, seed by seed.
+    /// The same over the default's, seed by seed; as unsure as the ratio of the frames, which says how many fit, is besides.
     pub equal_time_ratio: Interval,
     /// How many those are.
     pub samples_equal_time: f64,
@@ -224,9 +226,10 @@ impl Measured {
             error: average(&of.errors),
             error_ratio: Interval::of_ratios(&of.errors, &default.errors),
             error_equal_time: average(&of.equal_time),
-            equal_time_ratio: Interval::of_ratios(&of.equal_time, &default.equal_time),
+            equal_time_ratio: Interval::of_ratios(&of.equal_time, &default.equal_time)
+                .as_unsure_as(Interval::of_ratios(&of.frames, &default.frames)),
             samples_equal_time: average(&of.fits),
-            bias: Estimate::of(&of.biases),
+            bias: Estimate::of(&of.biases).filter(|bias| bias.mean.is_finite()),
             quality: mean_quality(&of.qualities),
             shown: of
                 .shown

@@ -3,17 +3,20 @@
 
 mod arithmetic;
 mod choices;
+mod finals;
 mod front;
 mod image;
 mod light;
 mod pick;
 mod prepare;
 pub(super) mod quantile;
+mod reach;
 mod report;
 mod reservoirs;
 mod steps;
 mod structure;
 mod update;
+mod widths;
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -31,8 +34,10 @@ use self::report::Report;
 use self::steps::steps;
 use self::structure::{Structure, structures};
 use self::update::{Frame, Updates};
+use self::widths::OnDevice;
 use super::range::{self, given};
 use super::{Context, Outcome, devices, table};
+use crate::cli::table::{news, say};
 use crate::error::HostError;
 use crate::metrics::Judge;
 use crate::workload::lights_at;
@@ -66,7 +71,7 @@ pub(super) struct Args {
     /// white, such as 0.05.
     #[arg(long, value_name = "E", value_parser = positive, allow_negative_numbers = true)]
     error: Option<f64>,
-    /// One scene, fewer turns, smaller images: within a minute.
+    /// One scene, fewer turns, smaller images: within a minute on two cores, where everything takes about a quarter of an hour.
     #[arg(long)]
     quick: bool,
 }
@@ -83,8 +88,10 @@ struct Point {
     structure: Structure,
     #[serde(flatten)]
     images: Images,
-    /// Whether it is on the front: nothing else takes less time for an update or an image of the same rays, or has less error in it, at no
-    /// greater cost of the others, and it is not the same as the default as far as can be told.
+    /// Where devices were asked: the default, and its other widths.
+    on_devices: Vec<OnDevice>,
+    /// Whether it is on the front: nothing else takes less time for an update, an image of the same rays or a sample on a device, or has
+    /// less error in it, at no greater cost of the others, and it is not the same as the default as far as can be told.
     pareto: bool,
 }
 
@@ -103,8 +110,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         return picks(context, args, &named, &budget, goal);
     }
     // Devices take long: only where the axis is named, or nothing is hurried.
-    let on_devices = args.axes.contains(&Axis::Arithmetic) || (args.axes.is_empty() && !args.quick);
-    let opened = if on_devices {
+    let on_devices = |axis| args.axes.contains(&axis) || (args.axes.is_empty() && !args.quick);
+    let opened = if on_devices(Axis::Arithmetic) || on_devices(Axis::Width) {
         devices::open(context)?
     } else {
         Vec::new()
@@ -119,7 +126,10 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         .transpose()?;
     for name in named {
         let start = Instant::now();
-        let (points, judge) = scene_points(&name, args, &budget)?;
+        let (mut points, judge) = scene_points(&name, args, &budget)?;
+        if on_devices(Axis::Width) {
+            widths::measure(&mut points, &name, args.frame, &opened, budget.turns)?;
+        }
         let pareto = front(&points);
         let pareto = points.into_iter().zip(pareto);
         let points: Vec<Point> = pareto.map(|(point, pareto)| Point { pareto, ..point }).collect();
@@ -129,10 +139,10 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             report.scene(&name, args.frame, &points, &judge)?;
         }
         all_points.extend(points);
-        if on_devices {
+        if on_devices(Axis::Arithmetic) {
             by_arithmetic.extend(arithmetic::measure(&name, args.frame, &opened, budget.turns)?);
         }
-        eprintln!("{name}: {:.1} s", start.elapsed().as_secs_f64());
+        news!("{name}: {:.1} s", start.elapsed().as_secs_f64());
     }
     let measured = json!({
         "frame": args.frame, "frames": budget.measured_frames(args.frame), "samples": budget.samples, "width": budget.width, "height": budget.height,
@@ -147,8 +157,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     } else {
         print(&all_points)?;
         for step in all_steps {
-            println!("{step}");
+            say!("{step}")?;
         }
+        widths::print(&all_points)?;
         arithmetic::print(&by_arithmetic)?;
     }
     devices::close(opened)?;
@@ -174,6 +185,7 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
             measured.add(subjects, &updates_ms, arrays, background, budget)
         },
     )?;
+    news!("{name}: times and variances of samples");
     let last = lights_at(&scene, args.frame)?;
     let structures = structures(
         &mut subjects,
@@ -195,6 +207,7 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
             default: subject.config().axis == Axis::Default,
             structure,
             images,
+            on_devices: Vec::new(),
             pareto: false,
         })
         .collect();

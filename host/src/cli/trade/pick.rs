@@ -7,10 +7,14 @@ use serde_json::json;
 
 use super::Args;
 use super::choices::{Config, Subject};
+use super::finals::{Entrant, finals};
 use super::image::{Budget, Reference, average};
 use super::prepare::{Prepared, prepare};
+use super::quantile::Interval;
+use super::reach::{LEAST_ERROR, MOST_IMAGES, Measured, of_white};
 use super::update::Updates;
 use crate::backend::SceneArrays;
+use crate::cli::table::{news, say};
 use crate::cli::times::ms;
 use crate::cli::{Context, Outcome, table};
 use crate::error::HostError;
@@ -47,19 +51,11 @@ pub(super) struct Pick {
     pub best: Reached,
     /// What the default does within the same budget, where it keeps it.
     pub of_default: Option<Reached>,
+    /// Where both keep it: the pick's error in a frame of that time, or its frame's time to that error, over the default's.
+    pub margin: Option<Interval>,
     /// How many others keep the budget.
     pub others: usize,
     pub sentence: String,
-}
-
-/// What is measured of one configuration by equal rays.
-struct Measured {
-    update_ms: f64,
-    /// Of one least image.
-    least_ms: f64,
-    /// Mean squared, of a number of least images.
-    error: f64,
-    count: u32,
 }
 
 /// The best of each scene within a budget.
@@ -81,24 +77,24 @@ pub(super) fn picks(
             ..
         } = &mut prepared;
         let picked = pick(name, subjects, &updates_ms, arrays, *background, budget, goal)?;
-        if !context.json {
-            match &picked {
-                Some(picked) => println!("{picked}"),
-                None => println!("{name}: no configuration keeps this budget; give it more"),
-            }
+        match &picked {
+            Ok(picked) if !context.json => say!("{picked}")?,
+            Err(why) if !context.json => say!("{name}: {why}")?,
+            Err(why) => news!("{name}: {why}"),
+            Ok(_) => {}
         }
-        picks.push(picked);
+        picks.push(picked.ok());
     }
     if context.json {
         table::print_json(&json!({
-            "frame": args.frame, "width": budget.width, "height": budget.height,
+            "frame": args.frame, "processor": "cpu", "width": budget.width, "height": budget.height,
             "threads": rayon::current_num_threads(), "pick": picks,
         }))?;
     }
     Ok(Outcome::Good)
 }
 
-/// The best of `subjects`, the default first; nothing where no configuration keeps the budget.
+/// The best of `subjects`, the default first; where no configuration keeps the budget, what comes nearest.
 fn pick(
     scene: &str,
     subjects: &mut [Box<dyn Subject>],
@@ -107,9 +103,10 @@ fn pick(
     background: [f32; 3],
     budget: &Budget,
     goal: Goal,
-) -> Result<Option<Pick>, HostError> {
+) -> Result<Result<Pick, String>, HostError> {
     let params = |samples, seed| budget.params(samples, seed, background);
     let reference = Reference::of(subjects, arrays, budget, params)?;
+    news!("{scene}: images by {} choices on the CPU", subjects.len());
     let mut times = vec![f64::INFINITY; subjects.len()];
     let mut errors = vec![Vec::new(); subjects.len()];
     for seed in 0..SEEDS {
@@ -121,6 +118,7 @@ fn pick(
         }
     }
     let mut reached = Vec::new();
+    let mut nearest = f64::INFINITY;
     for (k, subject) in subjects.iter_mut().enumerate() {
         let count = (budget.samples / subject.least_rays()).max(1);
         let measured = Measured {
@@ -142,109 +140,77 @@ fn pick(
             Goal::Time(frame_ms) => measured.within(frame_ms, &mut error_of)?,
             Goal::Error(error) => measured.until(error, &mut error_of)?,
         };
-        reached.push(found.map(|(images, frame_ms, error)| Reached {
-            config: subject.config(),
-            frame_ms,
-            error,
-            samples: images * f64::from(subject.least_rays()),
-        }));
+        match found {
+            Ok(found) => reached.push(Entrant {
+                at: k,
+                update_ms: updates_ms[k],
+                reached: Reached {
+                    config: subject.config(),
+                    frame_ms: found.frame_ms,
+                    error: found.error,
+                    samples: found.images * f64::from(subject.least_rays()),
+                },
+            }),
+            Err(least) => nearest = nearest.min(least),
+        }
     }
-    let of_default = reached.first().cloned().flatten();
-    let others = reached.iter().flatten().count().saturating_sub(1);
-    let by = |reached: &Reached| match goal {
-        Goal::Time(_) => reached.error,
-        Goal::Error(_) => reached.frame_ms,
+    let Some((best, margin)) = finals(subjects, &reached, arrays, &reference, budget, params, goal)? else {
+        return Ok(Err(none(goal, nearest)));
     };
-    let best = reached
-        .into_iter()
-        .flatten()
-        .min_by(|a, b| by(a).total_cmp(&by(b)));
-    Ok(best.map(|best| Pick {
+    let of_default = reached.iter().find(|entrant| entrant.at == 0);
+    let of_default = of_default.map(|entrant| entrant.reached.clone());
+    let others = reached.len() - 1;
+    Ok(Ok(Pick {
         scene: scene.to_owned(),
-        sentence: sentence(&best, of_default.as_ref(), others, goal),
+        sentence: sentence(&best, of_default.as_ref(), margin, others, goal),
         best,
         of_default,
+        margin,
         others,
     }))
 }
 
-/// Squared steps of a byte below which the reference cannot tell errors apart.
-const LEAST_ERROR: f64 = 1e-3;
-
-/// Most least images that are tried, beyond which a budget of error is not kept.
-const MOST_IMAGES: f64 = 256.0;
-
-impl Measured {
-    /// Number of least images that fit into `frame_ms`, the frame, and the error by them as a share of white.
-    fn within(
-        &self,
-        frame_ms: f64,
-        error_of: &mut dyn FnMut(u32) -> Result<f64, HostError>,
-    ) -> Result<Option<(f64, f64, f64)>, HostError> {
-        let fits = ((frame_ms - self.update_ms) / self.least_ms).min(MOST_IMAGES);
-        if fits < 1.0 {
-            return Ok(None);
-        }
-        // Errors fall by powers of the samples between them.
-        let fewer = fits.floor() as u32;
-        let share = (fits / f64::from(fewer)).ln() / (f64::from(fewer + 1) / f64::from(fewer)).ln();
-        let [a, b] = [error_of(fewer)?, error_of(fewer + 1)?];
-        let frame = self.update_ms + fits * self.least_ms;
-        Ok(Some((fits, frame, of_white(a * (b / a).powf(share)))))
-    }
-
-    /// Number of least images to the `error`, the frame by them, and the error. Errors are taken as a power of the number of images:
-    /// the one between what is measured and an image by about as many as are needed.
-    fn until(
-        &self,
-        error: f64,
-        error_of: &mut dyn FnMut(u32) -> Result<f64, HostError>,
-    ) -> Result<Option<(f64, f64, f64)>, HostError> {
-        let wanted = (255.0 * error).powi(2);
-        let guess = (f64::from(self.count) * self.error / wanted).clamp(1.0, MOST_IMAGES);
-        // Another number than what is measured, so that there is a slope.
-        let near = match guess.round() as u32 {
-            near if near == self.count => near + 1,
-            near => near,
-        };
-        let there = error_of(near)?;
-        let slope = (there / self.error).ln() / (f64::from(near) / f64::from(self.count)).ln();
-        // Between no gain and that of perfectly spread numbers, whatever the noise says.
-        let images = f64::from(near) * (there / wanted).powf(1.0 / (-slope).clamp(0.5, 2.0));
-        if images > MOST_IMAGES {
-            return Ok(None);
-        }
-        let images = images.max(1.0);
-        Ok(Some((images, self.update_ms + images * self.least_ms, error)))
+/// Why nothing is picked: `nearest` is the fastest frame there is, ms, or the least error.
+fn none(goal: Goal, nearest: f64) -> String {
+    match goal {
+        Goal::Time(_) => format!(
+            "no configuration keeps this budget: the fastest takes {nearest:.2} ms for an image of one shadow ray a pixel"
+        ),
+        Goal::Error(_) => format!(
+            "no configuration keeps this budget: the least error by {MOST_IMAGES} shadow rays of a pixel, the most that are tried, is {nearest:.4}"
+        ),
     }
 }
 
-fn of_white(squared: f64) -> f64 {
-    squared.sqrt() / 255.0
-}
-
-fn sentence(best: &Reached, default: Option<&Reached>, others: usize, goal: Goal) -> String {
+fn sentence(
+    best: &Reached,
+    default: Option<&Reached>,
+    margin: Option<Interval>,
+    others: usize,
+    goal: Goal,
+) -> String {
     let what = match goal {
         Goal::Time(time) => format!("least error in a frame of {time} ms"),
         Goal::Error(error) => format!("least time of a frame of error {error}"),
     };
-    let to_default = match (default, goal) {
-        (None, _) => "the default does not keep it".to_owned(),
-        (Some(default), _) if default.config == best.config => "nothing else is better".to_owned(),
-        (Some(default), Goal::Time(_)) => {
-            format!(
-                "{:.0} % less than the default's",
-                100.0 * (1.0 - best.error / default.error)
-            )
+    let to_default = match (default, margin) {
+        (Some(default), _) if default.config == best.config => "nothing else is surely better".to_owned(),
+        (Some(_), Some(Interval { median, low, high })) => {
+            format!("{median:.2} [{low:.2}, {high:.2}] of the default's, by images in turns")
         }
-        (Some(default), Goal::Error(_)) => {
-            let saved = 100.0 * (1.0 - best.frame_ms / default.frame_ms);
-            format!("{saved:.0} % less than the default's")
-        }
+        _ => "the default does not keep it".to_owned(),
+    };
+    let error = match best.error {
+        error if error <= of_white(LEAST_ERROR) => format!("error below {:.4}", of_white(LEAST_ERROR)),
+        error => format!("error {error:.4}"),
+    };
+    let most = match best.samples {
+        samples if samples >= f64::from(MOST_IMAGES) => ", the most that are tried",
+        _ => "",
     };
     format!(
-        "{}: {what}, {to_default}: error {:.4}, {:.2} ms by {:.1} shadow rays of a pixel; {others} others keep it",
-        best.config, best.error, best.frame_ms, best.samples
+        "{}: {what}, {to_default}: {error}, {:.2} ms by {:.1} shadow rays of a pixel{most}; {others} others keep it",
+        best.config, best.frame_ms, best.samples
     )
 }
 

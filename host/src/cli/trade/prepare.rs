@@ -10,6 +10,7 @@ use super::image::Budget;
 use super::reservoirs::HISTORY;
 use super::update::{Frame, Updates};
 use crate::backend::SceneArrays;
+use crate::cli::table::news;
 use crate::cli::variance::points;
 use crate::error::HostError;
 use crate::scene::Scene;
@@ -42,7 +43,7 @@ pub(super) fn prepare(
 ) -> Result<Prepared, HostError> {
     let scene = Scene::open(name)?;
     for warning in scene.warnings() {
-        eprintln!("{name}: {warning}");
+        news!("{name}: {warning}");
     }
     let (_, points) = points::of(name, 0, args.frame, budget.points)?;
     // ReSTIR looks back from the frames that are measured.
@@ -63,10 +64,16 @@ pub(super) fn prepare(
                 axis == Axis::Default || args.axes.is_empty() || args.axes.contains(&axis)
             })
             .collect();
+    news!(
+        "{name}: {} choices follow its lights to frame {}",
+        subjects.len(),
+        args.frame
+    );
     let mut updates = vec![Updates::default(); subjects.len()];
     let mut measure =
         |number: u32, subjects: &mut [Box<dyn Subject>], updates: &[Updates], shown: &Shown| match shown {
             Some(arrays) if measured.contains(&number) => {
+                news!("{name}: frame {number}, images by {} choices", subjects.len());
                 in_frame(subjects, updates, arrays, scene.frame(number).background)
             }
             _ => Ok(()),

@@ -13,6 +13,7 @@ use super::quantile::Interval;
 use super::update::{Frame, Updates};
 use crate::cli::times::ms;
 use crate::error::HostError;
+use crate::metrics::mean;
 
 /// Trials of several candidates at each point.
 const TRIALS: u32 = 32;
@@ -127,7 +128,6 @@ fn variances(
             shadowed.push((seen / (arrives * arrives) - 1.0).max(0.0));
         }
     }
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
     let median = |values: Vec<f64>| match values.is_empty() {
         true => 0.0,
         false => Interval::of(values).median,

@@ -5,6 +5,7 @@ use lightbvh::{Lights, ShadingPoint};
 
 use crate::cli::bench::scene::{random_lights, random_queries};
 use crate::error::HostError;
+use crate::render::camera;
 use crate::scene::Scene;
 use crate::vector::{self, dot};
 use crate::workload::lights_at;
@@ -48,6 +49,15 @@ pub(in crate::cli) fn of(
         }
     });
     Ok((lights, points.collect()))
+}
+
+/// Where the camera of the scene is; nowhere in the scene `random`.
+pub(in crate::cli) fn eye(name: &str, frame: u32) -> Result<Option<[f32; 3]>, HostError> {
+    if name == "random" {
+        return Ok(None);
+    }
+    let view = Scene::open(name)?.frame(frame).camera;
+    Ok(Some(camera(&view, 1, 1).origin))
 }
 
 /// Area and unit normal; `None` without area.

@@ -54,7 +54,7 @@ pub fn first_reservoir<P: PickLight>(
             scene,
             picker,
             surface,
-            &mut Picks::new(Numbers::of(seed), params.candidates),
+            &mut Picks::new(Numbers::of(seed), 0, params.candidates, params.candidates),
             which,
             hash(seed.wrapping_add(Numbers::USED)),
         )

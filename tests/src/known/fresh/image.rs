@@ -92,6 +92,8 @@ pub fn image() -> (&'static str, Vec<Table>) {
         width: SIZE,
         height: SIZE,
         samples: 2,
+        first: 0,
+        all: 0,
         candidates: 1,
         scattered: 0,
         part: 0,

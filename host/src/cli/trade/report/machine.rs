@@ -44,9 +44,10 @@ impl Made {
 fn command(mut args: impl Iterator<Item = String>) -> String {
     let program = args.next().unwrap_or_default();
     let program = Path::new(&program).file_stem().unwrap_or_default();
-    let quoted = |arg: String| match arg.contains([' ', '\'', '"']) {
-        true => format!("'{}'", arg.replace('\'', "'\\''")),
-        false => arg,
+    let plain = |c: char| c.is_alphanumeric() || "-_./:=,+@%".contains(c);
+    let quoted = |arg: String| match !arg.is_empty() && arg.chars().all(plain) {
+        true => arg,
+        false => format!("'{}'", arg.replace('\'', "'\\''")),
     };
     let mut line = program.to_string_lossy().into_owned();
     for arg in args {
@@ -64,6 +65,9 @@ mod tests {
         let args = ["/some/where/lightbvh", "trade", "--scene", "my scene's.glb"];
         let line = command(args.into_iter().map(String::from));
         assert_eq!(line, r"lightbvh trade --scene 'my scene'\''s.glb'");
+        let args = ["lightbvh", "a&b.gltf", "a$b", "a\nb", "", "C:/x=1,2"];
+        let line = command(args.into_iter().map(String::from));
+        assert_eq!(line, "lightbvh 'a&b.gltf' 'a$b' 'a\nb' '' C:/x=1,2");
     }
 
     #[test]

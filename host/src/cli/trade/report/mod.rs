@@ -57,6 +57,11 @@ impl Report {
             path: folder.to_owned(),
             source,
         })?;
+        // A folder that is there may still not be written to.
+        let path = folder.join("trade.html.begun");
+        write_whole(&path, b"")
+            .and_then(|()| fs::remove_file(&path))
+            .map_err(|source| HostError::Store { path, source })?;
         Ok(Self {
             made: Made::now(),
             scenes: Vec::new(),
@@ -87,6 +92,8 @@ impl Report {
             width: columns,
             height: ROWS,
             samples: RAYS,
+            first: 0,
+            all: 0,
             candidates: 1,
             scattered: 0,
             part: 0,

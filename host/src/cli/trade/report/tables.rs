@@ -18,9 +18,10 @@ pub(super) fn markdown(made: &Made, frame: u32, points: &[Point], steps: &[Strin
     let mut line = |words: std::fmt::Arguments<'_>| {
         let _ = writeln!(text, "{words}");
     };
-    for of_scene in points.chunk_by(|a, b| a.scene == b.scene) {
+    for (of_scene, file) in points.chunk_by(|a, b| a.scene == b.scene).zip(files(points)) {
         let scene = &of_scene[0].scene;
-        line(format_args!("\n### {scene}\n\n![{scene}]({})\n", file(scene)));
+        let shown = escaped(scene);
+        line(format_args!("\n### {shown}\n\n![{shown}]({file})\n"));
         line(format_args!(
             "| choice | bytes a light | sample | update, beside ms | frame | variance, shadowed | error | at equal time | front |"
         ));
@@ -46,7 +47,7 @@ pub(super) fn markdown(made: &Made, frame: u32, points: &[Point], steps: &[Strin
         line(format_args!(""));
         let along = format!("{scene}: ");
         for sentence in steps.iter().filter_map(|step| step.strip_prefix(&along)) {
-            line(format_args!("- {sentence}"));
+            line(format_args!("- {}", escaped(sentence)));
         }
     }
     text
@@ -54,7 +55,7 @@ pub(super) fn markdown(made: &Made, frame: u32, points: &[Point], steps: &[Strin
 
 /// The plots, by the names of their files: time of a frame and its error, by the same rays.
 pub(super) fn plots(points: &[Point]) -> Vec<(String, Scatter)> {
-    let plot = |of_scene: &[Point]| {
+    let plot = |(of_scene, file): (&[Point], String)| {
         let scene = &of_scene[0].scene;
         let spot = |point: &Point| Spot {
             name: point.choice.clone(),
@@ -68,9 +69,10 @@ pub(super) fn plots(points: &[Point]) -> Vec<(String, Scatter)> {
             y_label: String::from("its error over the default's"),
             spots: of_scene.iter().map(spot).collect(),
         };
-        (file(scene), scatter)
+        (file, scatter)
     };
-    points.chunk_by(|a, b| a.scene == b.scene).map(plot).collect()
+    let scenes = points.chunk_by(|a, b| a.scene == b.scene);
+    scenes.zip(files(points)).map(plot).collect()
 }
 
 fn name(scene: &str) -> String {
@@ -78,8 +80,42 @@ fn name(scene: &str) -> String {
     stem.to_string_lossy().into_owned()
 }
 
-fn file(scene: &str) -> String {
-    format!("trade-{}.svg", name(scene))
+/// A file for each scene's plot: its name as far as every system and every document takes it, with a number where another has it.
+fn files(points: &[Point]) -> Vec<String> {
+    let scenes = points.chunk_by(|a, b| a.scene == b.scene);
+    numbered(scenes.map(|of_scene| of_scene[0].scene.as_str()))
+}
+
+fn numbered<'a>(scenes: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let mut files: Vec<String> = Vec::new();
+    for scene in scenes {
+        let plain = |c: char| {
+            if c.is_alphanumeric() || "-_".contains(c) {
+                c
+            } else {
+                '-'
+            }
+        };
+        let stem: String = name(scene).chars().take(40).map(plain).collect();
+        let file = std::iter::once(format!("trade-{stem}.svg"))
+            .chain((2..).map(|k| format!("trade-{stem}-{k}.svg")))
+            .find(|file| !files.contains(file));
+        files.extend(file);
+    }
+    files
+}
+
+/// As a document's text, on one line.
+fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    for c in text.chars() {
+        match c {
+            '\n' | '\r' => out.push(' '),
+            '[' | ']' | '<' | '>' | '|' | '*' | '`' | '\\' => out.extend(['\\', c]),
+            c => out.push(c),
+        }
+    }
+    out
 }
 
 fn ratio(interval: &Interval) -> String {
@@ -87,5 +123,20 @@ fn ratio(interval: &Interval) -> String {
     match median {
         0.0..10.0 => format!("{median:.2} [{low:.2}, {high:.2}]"),
         _ => format!("{median:.0} [{low:.0}, {high:.0}]"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_scene_has_a_plot_of_its_own() {
+        let long = format!("x/{}.glb", "y".repeat(245));
+        let files = numbered(["a/s.gltf", "b/s.gltf", "](z) <b>.glb", &long, "s-2.glb"].into_iter());
+        let y = "y".repeat(40);
+        let expected = ["s", "s-2", "--z---b-", y.as_str(), "s-2-2"].map(|stem| format!("trade-{stem}.svg"));
+        assert_eq!(files, expected);
+        assert_eq!(escaped("a](b)\n<c>|"), r"a\](b) \<c\>\|");
     }
 }

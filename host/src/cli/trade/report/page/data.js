@@ -83,6 +83,7 @@ const wholeText = (point) => {
     `sample: ${number(point.ns_per_sample)} ns, variance ${number(point.variance)}, median ${number(point.variance_median)}`,
     `${number(point.bytes_per_light)} bytes for a light; build ${number(point.build_ms)} ms, update ${number(point.update_ms)} ms`,
   ];
+  for (const on of point.on_devices) lines.push(`on ${on.device}: sample ${number(on.ns_per_sample)} ns, ${interval(on.sample_ratio)} of the default's time`);
   if (point.pareto) lines.push("on the front");
   return lines.join("\n");
 };
