@@ -107,6 +107,13 @@ impl Requirements {
                     .to_string(),
             );
         }
+        if self.declared.glossy && self.declared.pmf {
+            said.push(
+                "glossy surfaces: rays into their lobes share lights with samples by probabilities (multiple importance sampling); an \
+                 importance that knows the lobe (`Glossy`) may have less variance for the same samples, and takes longer for each"
+                    .to_string(),
+            );
+        }
         said
     }
 

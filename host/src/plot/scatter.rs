@@ -1,4 +1,4 @@
-//! Points of two ratios, as SVG: both axes by powers, each point numbered, its name in the legend.
+//! Points of two ratios, as SVG: both axes by powers, points numbered where there is room, names and figures in the legend.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -79,8 +79,8 @@ impl Scatter {
         let y = Axis::over(shown().map(|(_, spot)| spot.y), bottom, TOP);
         let height = bottom + 52.0;
         let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 800 {height}\" width=\"800\" height=\"{height}\" \
-             font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"800\" height=\"{height}\" fill=\"white\"/>\n"
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 880 {height}\" width=\"880\" height=\"{height}\" \
+             font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"880\" height=\"{height}\" fill=\"white\"/>\n"
         );
         // Writing to a string does not fail.
         let mut line = |text: std::fmt::Arguments<'_>| {
@@ -138,25 +138,51 @@ impl Scatter {
                 .filter(|(_, spot)| !spot.marked)
                 .chain(shown().filter(|(_, spot)| spot.marked))
         };
-        for (number, spot) in all() {
+        for (_, spot) in all() {
             let (x, y) = (x.at(spot.x), y.at(spot.y));
             let fill = if spot.marked { "#0072B2" } else { "white" };
             line(format_args!(
-                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"{fill}\" stroke=\"#0072B2\"/>\
-                 <text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11\">{}</text>",
-                x + 6.0,
-                y - 4.0,
-                number + 1
+                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"{fill}\" stroke=\"#0072B2\"/>"
             ));
+        }
+        // Numbers where they cover no other, what is marked first; the legend has the figures of all.
+        let mut taken: Vec<[f64; 2]> = shown().map(|(_, spot)| [x.at(spot.x), y.at(spot.y)]).collect();
+        let first = shown().filter(|(_, spot)| spot.marked);
+        for (number, spot) in first.chain(shown().filter(|(_, spot)| !spot.marked)) {
+            let (x, y) = (x.at(spot.x), y.at(spot.y));
+            let free = |at: &[f64; 2]| {
+                taken
+                    .iter()
+                    .all(|to| (at[0] - to[0]).abs() > 12.0 || (at[1] - to[1]).abs() > 9.0)
+            };
+            let places = [
+                [13.0, -8.0],
+                [13.0, 8.0],
+                [-13.0, -8.0],
+                [-13.0, 8.0],
+                [0.0, -13.0],
+                [0.0, 13.0],
+            ];
+            if let Some(at) = places.map(|[dx, dy]| [x + dx, y + dy]).into_iter().find(free) {
+                taken.push(at);
+                line(format_args!(
+                    "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11\" text-anchor=\"middle\">{}</text>",
+                    at[0],
+                    at[1] + 4.0,
+                    number + 1
+                ));
+            }
         }
         for (row, spot) in self.spots.iter().enumerate() {
             let weight = if spot.marked { " font-weight=\"bold\"" } else { "" };
             line(format_args!(
-                "<text x=\"{}\" y=\"{}\"{weight}>{} {}</text>",
+                "<text x=\"{}\" y=\"{}\"{weight}>{} {}: {}, {}</text>",
                 RIGHT + 16.0,
                 TOP + 10.0 + ROW * row as f64,
                 row + 1,
-                escape(&spot.name)
+                escape(&spot.name),
+                figure(spot.x),
+                figure(spot.y)
             ));
         }
         svg + "</svg>\n"
@@ -168,6 +194,13 @@ impl Scatter {
     /// What the system says.
     pub fn write(&self, path: &Path) -> std::io::Result<()> {
         write_whole(path, self.svg().as_bytes())
+    }
+}
+
+fn figure(value: f64) -> String {
+    match value {
+        0.0..10.0 => format!("{value:.2}"),
+        _ => format!("{value:.0}"),
     }
 }
 
@@ -215,6 +248,19 @@ mod tests {
         assert!(svg.contains(&from_left), "{svg}");
         assert_eq!(svg.matches("<circle").count(), 3);
         assert_eq!(svg.matches("a &lt; ").count(), 4);
+        assert!(svg.contains("a &lt; 0.25: 0.25, 3.00</text>"), "{svg}");
+        // A heap has one number.
+        let heap = Scatter {
+            spots: vec![
+                spot(1.0, 1.0, false),
+                spot(1.001, 1.0, true),
+                spot(1.0, 1.002, false),
+                spot(4.0, 4.0, false),
+            ],
+            ..scatter
+        };
+        let numbers = heap.svg().matches("font-size=\"11\"").count();
+        assert!((2..=4).contains(&numbers), "{numbers}");
         assert_eq!(x.marks(), [0.4, 0.6, 0.8, 1.0]);
     }
 }

@@ -32,6 +32,8 @@ pub enum TuneError {
     NoConfigurations,
     /// No light arrives at any point.
     Dark,
+    /// A clock by which some thousand samples take no time.
+    Clock,
     /// A budget that is not finite or not above zero.
     Budget {
         /// The time, ns, or the relative standard deviation.
@@ -60,6 +62,10 @@ impl fmt::Display for TuneError {
             }
             Self::NoConfigurations => write!(f, "there is nothing to choose among; add a light BVH"),
             Self::Dark => write!(f, "no light arrives at any point; give points that are lit"),
+            Self::Clock => write!(
+                f,
+                "by the clock some thousand samples take no time; give one that goes on by nanoseconds"
+            ),
             Self::Budget { value } => write!(f, "a budget is finite and above 0, not {value}"),
             Self::Time { least_ns } => write!(
                 f,

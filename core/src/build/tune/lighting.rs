@@ -6,7 +6,8 @@ use crate::point::ShadingPoint;
 
 /// What a light contributes to a point. Lights are as they stand in the world, their `mesh` the index of the instance.
 pub trait Lighting {
-    /// Without shadows, up to a factor common to all lights and points; finite, not negative.
+    /// Without shadows, up to a factor common to all lights and points; finite, not negative, and
+    /// at most 1e100, as which greater ones count.
     fn light(&self, point: &ShadingPoint, light: &EmissiveTriangle) -> f64;
 
     /// The share of it that arrives, 0 to 1: what a shadow ray finds on average. All of it, unless the caller can tell.

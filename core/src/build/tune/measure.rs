@@ -18,6 +18,9 @@ const MOST_PMFS: usize = 1 << 20;
 const TRIALS: u32 = 64;
 const TRIALS_ALONE: u32 = 512;
 
+/// Light above counts as that much, so that sums of squares over probabilities are finite.
+const GREATEST: f64 = 1e100;
+
 /// Light without shadows, and the share that is seen.
 type Sent = (f64, f64);
 
@@ -109,7 +112,7 @@ pub(super) fn variances(
 
 fn sent(lighting: &dyn Lighting, point: &ShadingPoint, light: &EmissiveTriangle) -> Sent {
     match lighting.light(point, light) {
-        of if of > 0.0 && of.is_finite() => (of, lighting.seen(point, light).clamp(0.0, 1.0)),
+        of if of > 0.0 && of.is_finite() => (of.min(GREATEST), lighting.seen(point, light).clamp(0.0, 1.0)),
         _ => (0.0, 0.0),
     }
 }

@@ -137,7 +137,8 @@ impl<'a> Tuning<'a> {
     /// rarely found.
     ///
     /// # Errors
-    /// [`TuneError::NoConfigurations`]; [`TuneError::Dark`] where no light arrives at any point.
+    /// [`TuneError::NoConfigurations`]; [`TuneError::Dark`] where no light arrives at any point; [`TuneError::Clock`] for a clock
+    /// that stands still.
     pub fn measure(&self, mut clock: impl FnMut() -> Duration) -> Result<Vec<Measured>, TuneError> {
         if self.choices.is_empty() {
             return Err(TuneError::NoConfigurations);
@@ -150,6 +151,9 @@ impl<'a> Tuning<'a> {
                 choice.run(self.points, passes as u32, round);
                 *least = clock().saturating_sub(start).min(*least);
             }
+        }
+        if least.contains(&Duration::ZERO) {
+            return Err(TuneError::Clock);
         }
         let mut measured = Vec::new();
         for ((name, choice), least) in self.choices.iter().zip(least) {

@@ -232,6 +232,35 @@ fn what_cannot_be_measured_is_refused() {
     let mut tuning = Tuning::new(&above, &Diffuse, 1.0).expect("sound");
     tuning.add("", &tree, 1).expect("one");
     assert_eq!(tuning.measure(clock(&[1])), Err(TuneError::Dark));
+    let mut tuning = Tuning::new(&points[..1], &Diffuse, 1.0).expect("sound");
+    tuning.add("", &tree, 1).expect("one");
+    assert_eq!(tuning.measure(|| Duration::ZERO), Err(TuneError::Clock));
+}
+
+/// Whatever light a caller names, variances are numbers.
+#[test]
+fn great_light_has_a_variance() {
+    struct Great;
+    impl Lighting for Great {
+        fn light(&self, _: &ShadingPoint, light: &EmissiveTriangle) -> f64 {
+            if light.p[0][0] < 5.0 { f64::MAX } else { 1.0 }
+        }
+    }
+    let lights = row(12);
+    let tree = Bvh::<MomentNode<8>, Flux, 8>::single_level(&lights, &BuildParams::BALANCED);
+    let points = [at(2.5)];
+    let mut tuning = Tuning::new(&points, &Great, 0.0).expect("sound");
+    tuning
+        .add("1", &tree, 1)
+        .expect("one")
+        .add("4", &tree, 4)
+        .expect("four");
+    let found = tuning.measure(clock(&[1])).expect("lit");
+    // Half of the lights have all of it.
+    assert!(
+        found.iter().all(|of| (0.01..10.0).contains(&of.variance)),
+        "{found:?}"
+    );
 }
 
 #[test]

@@ -18,8 +18,9 @@ const SEEMING_ERROR: f64 = 1.05;
 /// on two busy cores, so two measures must agree, and the interval of the ratios must not hold 1.
 const LEAST_TIME: f64 = 1.1;
 
-/// The same of updates, which are short.
+/// The same of updates, which are short, and of their difference, ms: medians over the frames moved by so much from run to run.
 const LEAST_UPDATE: f64 = 1.25;
+const LEAST_UPDATE_MS: f64 = 0.02;
 
 /// The default, and the points that are others than it, as far as no other beats them: another one beats a point if its update, its
 /// image of the same rays or its sample on a device takes less time, or that image has less error, for sure, and it seems to have more of
@@ -94,7 +95,7 @@ impl<'a> Costs<'a> {
     /// Of an update, of the time of an image, of its error, of a sample on some device. What interrupts an image adds to its time: the least of the times says the same
     /// as the median of the ratios where there is a difference. Less error for sure is what lies beyond the interval of the ratios.
     fn less(&self, other: &Self) -> [Less; 4] {
-        let update = self.update_ms * LEAST_UPDATE < other.update_ms;
+        let update = (self.update_ms * LEAST_UPDATE).max(self.update_ms + LEAST_UPDATE_MS) < other.update_ms;
         let ratio = Interval::of_ratios(self.times, other.times);
         let median = ratio.median * LEAST_TIME < 1.0;
         let least = least(self.times) * LEAST_TIME < least(other.times);
@@ -231,6 +232,8 @@ mod tests {
     #[test]
     fn noise_beats_nothing() {
         let usual = costs(1.0, &SAME, &SAME);
+        let short = [0.05, 0.065].map(|update| costs(update, &SAME, &SAME));
+        assert!(short[0].alike(&short[1]));
         // One interrupted image, one lucky image, an update a little faster, times that a busy machine scattered.
         for other in [
             costs(1.0, &[6.0, 20.0, 8.0], &SAME),

@@ -240,36 +240,35 @@ fn ratio(interval: &Interval) -> String {
     )
 }
 
+/// A table for each scene; the JSON has more.
 fn print(points: &[Point]) -> Result<(), HostError> {
-    Ok(table::print(
-        points,
-        &[
-            ("scene", |p| p.scene.clone()),
-            ("choice", |p| p.config.to_string()),
-            ("bytes/light", |p| format!("{:.1}", p.structure.bytes_per_light)),
-            ("build ms", |p| format!("{:.2}", p.structure.build_ms)),
-            ("refit ms", |p| format!("{:.2}", p.structure.refit_ms)),
-            ("update ms", |p| format!("{:.2}", p.structure.update_ms)),
-            ("beside ms", |p| format!("{:.2}", p.structure.beside_ms)),
-            ("image ms", |p| format!("{:.1}", p.images.image_ms)),
-            ("sample ns", |p| format!("{:.0}", p.structure.ns_per_sample)),
-            ("sample to default", |p| ratio(&p.structure.sample_ratio)),
-            ("variance", |p| format!("{:.3}", p.structure.variances.variance)),
-            ("its median", |p| {
-                format!("{:.3}", p.structure.variances.variance_median)
-            }),
-            ("shadowed", |p| {
-                format!("{:.2}", p.structure.variances.shadowed_variance)
-            }),
-            ("its median", |p| {
-                format!("{:.2}", p.structure.variances.shadowed_variance_median)
-            }),
-            ("frame time", |p| ratio(&p.images.frame_ratio)),
-            ("error", |p| format!("{:.0}", p.images.error)),
-            ("error to default", |p| ratio(&p.images.error_ratio)),
-            ("at equal time", |p| format!("{:.0}", p.images.error_equal_time)),
-            ("that to default", |p| ratio(&p.images.equal_time_ratio)),
-            ("front", |p| table::yes(p.pareto)),
-        ],
-    )?)
+    for of_scene in points.chunk_by(|a, b| a.scene == b.scene) {
+        say!("{}", of_scene[0].scene)?;
+        table::print(of_scene, COLUMNS)?;
+    }
+    say!(
+        "ratios to the default's, with 95 % intervals; `update` is what a frame waits for, `beside` what is built beside it; variance of one \
+         sample, mean over the points, without and with shadows; `error` by the same rays, `equal time` by as many as fit into the \
+         default's frame, mean squared, on the CPU; `front`: nothing else is surely better in one of them and no worse in others"
+    )?;
+    Ok(())
 }
+
+const COLUMNS: &[table::Column<Point>] = &[
+    ("choice", |p| p.choice.clone()),
+    ("bytes/light", |p| format!("{:.1}", p.structure.bytes_per_light)),
+    ("build ms", |p| format!("{:.2}", p.structure.build_ms)),
+    ("update ms", |p| format!("{:.2}", p.structure.update_ms)),
+    ("beside ms", |p| format!("{:.2}", p.structure.beside_ms)),
+    ("image ms", |p| format!("{:.1}", p.images.image_ms)),
+    ("sample ns", |p| format!("{:.0}", p.structure.ns_per_sample)),
+    ("sample", |p| ratio(&p.structure.sample_ratio)),
+    ("variance", |p| format!("{:.3}", p.structure.variances.variance)),
+    ("shadowed", |p| {
+        format!("{:.2}", p.structure.variances.shadowed_variance)
+    }),
+    ("frame", |p| ratio(&p.images.frame_ratio)),
+    ("error", |p| ratio(&p.images.error_ratio)),
+    ("equal time", |p| ratio(&p.images.equal_time_ratio)),
+    ("front", |p| table::yes(p.pareto)),
+];

@@ -53,20 +53,20 @@ pub(super) fn markdown(made: &Made, frame: u32, points: &[Point], steps: &[Strin
     text
 }
 
-/// The plots, by the names of their files: time of a frame and its error, by the same rays.
+/// The plots, by the names of their files: time of a frame by the same rays, and the error at equal time.
 pub(super) fn plots(points: &[Point]) -> Vec<(String, Scatter)> {
     let plot = |(of_scene, file): (&[Point], String)| {
         let scene = &of_scene[0].scene;
         let spot = |point: &Point| Spot {
             name: point.choice.clone(),
             x: point.images.frame_ratio.median,
-            y: point.images.error_ratio.median,
+            y: point.images.equal_time_ratio.median,
             marked: point.pareto,
         };
         let scatter = Scatter {
-            title: format!("{}: time and error of a frame by the same rays", name(scene)),
+            title: format!("{}: time by the same rays, error in the same time", name(scene)),
             x_label: String::from("time of a frame over the default's"),
-            y_label: String::from("its error over the default's"),
+            y_label: String::from("error at equal time over the default's"),
             spots: of_scene.iter().map(spot).collect(),
         };
         (file, scatter)

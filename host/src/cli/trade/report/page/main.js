@@ -21,7 +21,7 @@ const theme = (chosen) => {
 
 const begin = () => {
   const { made } = data;
-  byId("made").textContent = `lightbvh ${made.version} on ${made.machine}, ${made.threads} threads, ${made.date}`;
+  byId("made").textContent = `lightbvh ${made.version} on ${made.machine}, ${made.threads} threads, ${made.date}: CPU images of ${data.width} × ${data.height} in frames ${data.frames.join(", ")}, ${data.samples} shadow rays of a pixel where all have as many, ${data.turns} turns of times`;
   const scenes = data.scenes.map((scene) => {
     const input = element("input", { type: "radio", name: "scene", value: scene.name });
     input.checked = scene.name === state.scene;

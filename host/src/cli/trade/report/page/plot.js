@@ -74,15 +74,25 @@ const labels = (points, shown, place, width) => {
     const [x, y] = place(points[at]);
     const long = points[at].choice.length * 6 + 4;
     const places = [[x + 12, y + 4, "start"], [x - 12, y + 4, "end"], [x, y - 13, "middle"], [x, y + 21, "middle"], [x + 10, y - 9, "start"], [x + 10, y + 17, "start"], [x - 10, y - 9, "end"], [x - 10, y + 17, "end"]];
+    // What counts most is named from afar, if need be.
+    if (points[at].default || points[at].pareto) {
+      for (const far of [36, 56, 80, 110]) {
+        for (const [dx, dy] of [[1, -1], [-1, -1], [1, 1], [-1, 1], [0, -1], [0, 1]]) {
+          places.push([x + dx * far, y + dy * far * 0.7, dx > 0 ? "start" : dx < 0 ? "end" : "middle"]);
+        }
+      }
+    }
     for (const [tx, ty, anchor] of places) {
       const left = tx - { start: 0, middle: long / 2, end: long }[anchor];
       const box = { left, right: left + long, top: ty - 11, bottom: ty + 3 };
       if (left < 60 || box.right > width - 4 || box.top < 4 || !clear(box, made.map((label) => label.box)) || !clear(box, marks)) continue;
-      made.push({ box, text: drawing("text", { class: "label", x: tx, y: ty, "text-anchor": anchor }, points[at].choice) });
+      const text = drawing("text", { class: "label", x: tx, y: ty, "text-anchor": anchor }, points[at].choice);
+      const away = Math.hypot(tx - x, ty - y) > 30;
+      made.push({ box, drawn: away ? [drawing("line", { class: "leader", x1: x, y1: y, x2: tx, y2: ty - 4 }), text] : [text] });
       break;
     }
   }
-  return made.map((label) => label.text);
+  return made.flatMap((label) => label.drawn);
 };
 
 const drawPlot = () => {
@@ -138,8 +148,9 @@ const drawPlot = () => {
   byId("chosen").hidden = state.point === null;
   if (state.point !== null) byId("chosen").textContent = wholeText(points[state.point]);
   const own = state.x === "frame" && state.y === "error";
+  const away = points.filter((p, at) => p.pareto && !shown.includes(at)).map((p) => p.choice);
   const unknown = points.filter((p) => ![x.of(p).median, y.of(p).median].every(Number.isFinite)).map((p) => p.choice);
-  byId("plot-hint").textContent = `${unknown.length ? `Not shown, infinite or unknown: ${unknown.join("; ")}. ` : ""}Each point is a choice; lines about it are intervals of 95 %. ${own ? "Rings mark the front: what nothing else beats in update, image and error, the default for all that are like it; the dashed line joins those of them that have the least error for their frame" : "The dashed line joins what nothing is better than in both, by medians; rings mark the front of update, image and error"}. Tab enters the points, arrow keys go along them, Enter chooses one.`;
+  byId("plot-hint").textContent = `${away.length ? `On the front, but out of this range: ${away.join("; ")}. ` : ""}${unknown.length ? `Not shown, infinite or unknown: ${unknown.join("; ")}. ` : ""}Each point is a choice; lines about it are intervals of 95 %. ${state.y === "equal" ? "Below 1 is less error than the default's in the same time. " : ""}${own ? "Rings mark the front: what nothing else beats in update, image and error, the default for all that are like it; the dashed line joins those of them that have the least error for their frame" : "The dashed line joins what nothing is better than in both, by medians; rings mark the front of update, image and error"}. Tab enters the points, arrow keys go along them, Enter chooses one.`;
 };
 
 const move = (event, order, at, groups) => {
