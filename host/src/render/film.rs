@@ -54,7 +54,7 @@ pub enum FilmError {
         source: image::ImageError,
     },
     /// The file cannot be written.
-    #[error("{}: cannot write the image: {source}; check that the directory exists and may be written", .path.display())]
+    #[error("{}: cannot write the image: {source}; check that its folder exists, may be written to and has room", .path.display())]
     Write {
         /// The path asked for.
         path: PathBuf,

@@ -1,0 +1,151 @@
+//! One shadow ray for a glossy surface: to a light as sampled, to one of eight candidates resampled, to one that an importance chose which
+//! knows the lobe.
+//!
+//! `cargo run --release -p lightbvh --example one_of_many` (seconds). Prints the squared error of each before visibility, and checks that the
+//! means are right. A ray into the lobe that finds a light shares it with these by the balance heuristic (E. Veach and L. Guibas, 1995): the
+//! density of a light's point over solid angle is `pmf · density · d² / cos`, with the pmf of [`LightBvh::pmf`] or
+//! `LightTree::pmf_for`.
+
+use lightbvh::exact::{hash, unit_f32};
+use lightbvh::importance::Glossy;
+use lightbvh::reservoir::{LightSample, Resampling, target};
+use lightbvh::{
+    Defensive, Edit, EmissiveTriangle, GlossyPoint, LightBvh, Moments, SampledLight, ShadingPoint, Transform,
+};
+
+/// What [`LightBvh`] chooses by, told of the lobe. The tree is the same.
+type Told = Defensive<Glossy<Moments>, 6>;
+
+const TRIALS: u32 = 200_000;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    // 400 instances of a lamp that shines down, 3 m above a floor.
+    let lamp = EmissiveTriangle {
+        p: [[0.0, 3.0, 0.0], [0.1, 3.0, 0.0], [0.0, 3.0, 0.1]],
+        radiance: [9.0; 3],
+        mesh: 0,
+        flags: 0,
+    };
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(vec![lamp])?;
+    let place = |k: u16| Edit::AddInstance {
+        mesh,
+        transform: Transform::at([f32::from(k % 20), 0.0, f32::from(k / 20)]),
+        radiance: 0.1 + unit_f32(hash(k.into())),
+    };
+    let lamps = bvh.apply((0..400).map(place).collect())?.instances;
+    bvh.refit();
+
+    // The floor, seen from the side: half diffuse, half a lobe about the direction of the mirror.
+    let receiver = GlossyPoint {
+        point: ShadingPoint {
+            p: [5.3, 0.0, 7.1],
+            n: [0.0, 1.0, 0.0],
+        },
+        mirror: [0.6, 0.8, 0.0],
+        diffuse: 0.5,
+        specular: 0.5,
+        exponent: 64.0,
+    }
+    .checked()?;
+
+    // The probability of a known light: its number and the index of its instance.
+    let first = bvh.lights_of(lamps[7]).ok_or("a lamp")?.start;
+    let instance = lamps[7].index();
+    println!(
+        "lamp 7: light {first} of instance {instance}, probability {}",
+        bvh.pmf(&receiver.point, first, instance)
+    );
+
+    // What all of them send: the middles of small lamps stand for them.
+    let all = bvh.world_lights();
+    let right: f64 = all
+        .iter()
+        .map(|light| f64::from(contribution(light, [0.5; 2], &receiver)))
+        .sum();
+    let told = bvh.by::<Told>();
+    let as_sampled = |number: u32| weighted(&bvh, &receiver, &bvh.sample(&receiver.point, number), number);
+    let as_told = |number: u32| weighted(&bvh, &receiver, &told.sample_for(&receiver, number), number);
+    report("a light as sampled", right, as_sampled);
+    report("one of eight", right, |number| {
+        one_of_eight(&bvh, &receiver, number)
+    });
+    report("by an importance that knows the lobe", right, as_told);
+    Ok(())
+}
+
+/// A sampled light's estimate: the shadow ray goes to the point that `number` chooses.
+fn weighted(bvh: &LightBvh, receiver: &GlossyPoint, sampled: &SampledLight, number: u32) -> f32 {
+    let light = bvh.triangle(sampled.light, sampled.instance);
+    light.map_or(0.0, |light| {
+        contribution(&light, uv(number), receiver) / sampled.pmf
+    })
+}
+
+/// Eight candidates by one number, and one of them in proportion to what it sends over its probability: its shadow ray carries all.
+fn one_of_eight(bvh: &LightBvh, receiver: &GlossyPoint, number: u32) -> f32 {
+    let mut stream = Resampling::EMPTY;
+    for (k, sampled) in (0..).zip(bvh.sample_many::<8>(&receiver.point, number)) {
+        let uv = uv(number.wrapping_add(k));
+        let light = bvh.triangle(sampled.light, sampled.instance);
+        let sent = light.map_or(0.0, |light| contribution(&light, uv, receiver));
+        let sample = LightSample {
+            light: sampled.light,
+            instance: sampled.instance,
+            uv,
+        };
+        stream.candidate(
+            sample,
+            target(sent),
+            sampled.pmf,
+            hash(hash(number).wrapping_add(k)),
+        );
+    }
+    let chosen = stream.finish_equal();
+    // Trace the one shadow ray here, to this point of this light.
+    let light = bvh.triangle(chosen.sample.light, chosen.sample.instance);
+    light.map_or(0.0, |light| {
+        contribution(&light, chosen.sample.uv, receiver) * chosen.weight
+    })
+}
+
+fn uv(number: u32) -> [f32; 2] {
+    [1, 2].map(|k| unit_f32(hash(number ^ hash(k))))
+}
+
+/// What a point of a light sends to the viewer, without shadow: over its density, so that the mean over uniform points is the light's.
+fn contribution(light: &EmissiveTriangle, uv: [f32; 2], receiver: &GlossyPoint) -> f32 {
+    let on = light.point(uv);
+    let (p, n, mirror) = (receiver.point.p, receiver.point.n, receiver.mirror);
+    let to = [0, 1, 2].map(|k| on.p[k] - p[k]);
+    let d2 = dot(to, to);
+    let to = to.map(|x| x / d2.sqrt());
+    let (received, emitted) = (dot(n, to).max(0.0), (-dot(on.normal, to)).max(0.0));
+    let view = [0, 1, 2].map(|k| 2.0 * dot(n, mirror) * n[k] - mirror[k]);
+    let half = [0, 1, 2].map(|k| to[k] + view[k]);
+    let cos = dot(n, half) / dot(half, half).sqrt();
+    let lobe = (receiver.exponent + 6.0) / 8.0 * cos.max(0.0).powf(receiver.exponent);
+    let reflected = (receiver.diffuse + receiver.specular * lobe) / std::f32::consts::PI;
+    if on.density > 0.0 {
+        on.radiance[0] * reflected * received * emitted / (d2 * on.density)
+    } else {
+        0.0
+    }
+}
+
+fn report(name: &str, right: f64, estimate: impl Fn(u32) -> f32) {
+    let (mut sum, mut squares) = (0.0, 0.0);
+    for trial in 0..TRIALS {
+        let value = f64::from(estimate(hash(trial))) / right;
+        sum += value;
+        squares += (value - 1.0).powi(2);
+    }
+    let [mean, square] = [sum, squares].map(|of| of / f64::from(TRIALS));
+    let sure = 5.0 * (square / f64::from(TRIALS)).sqrt() + 1e-3;
+    println!("{name}: squared error {square:.4}, mean {mean:.4} ± {sure:.4}");
+    assert!((mean - 1.0).abs() < sure, "biased");
+}
+
+fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
