@@ -116,18 +116,24 @@ fn uv(number: u32) -> [f32; 2] {
 /// What a point of a light sends to the viewer, without shadow: over its density, so that the mean over uniform points is the light's.
 fn contribution(light: &EmissiveTriangle, uv: [f32; 2], receiver: &GlossyPoint) -> f32 {
     let on = light.point(uv);
-    let (p, n, mirror) = (receiver.point.p, receiver.point.n, receiver.mirror);
-    let to = [0, 1, 2].map(|k| on.p[k] - p[k]);
+    let wide = |v: [f32; 3]| v.map(f64::from);
+    let (p, n, mirror) = (
+        wide(receiver.point.p),
+        wide(receiver.point.n),
+        wide(receiver.mirror),
+    );
+    let to: [f64; 3] = [0, 1, 2].map(|k| wide(on.p)[k] - p[k]);
     let d2 = dot(to, to);
     let to = to.map(|x| x / d2.sqrt());
-    let (received, emitted) = (dot(n, to).max(0.0), (-dot(on.normal, to)).max(0.0));
+    let (received, emitted) = (dot(n, to).max(0.0), (-dot(wide(on.normal), to)).max(0.0));
     let view = [0, 1, 2].map(|k| 2.0 * dot(n, mirror) * n[k] - mirror[k]);
     let half = [0, 1, 2].map(|k| to[k] + view[k]);
     let cos = dot(n, half) / dot(half, half).sqrt();
-    let lobe = (receiver.exponent + 6.0) / 8.0 * cos.max(0.0).powf(receiver.exponent);
-    let reflected = (receiver.diffuse + receiver.specular * lobe) / std::f32::consts::PI;
+    let [diffuse, specular, k] = [receiver.diffuse, receiver.specular, receiver.exponent].map(f64::from);
+    let lobe = (k + 6.0) / 8.0 * cos.max(0.0).powf(k);
+    let reflected = (diffuse + specular * lobe) / std::f64::consts::PI;
     if on.density > 0.0 {
-        on.radiance[0] * reflected * received * emitted / (d2 * on.density)
+        (f64::from(on.radiance[0]) * reflected * received * emitted / (d2 * f64::from(on.density))) as f32
     } else {
         0.0
     }
@@ -146,6 +152,6 @@ fn report(name: &str, right: f64, estimate: impl Fn(u32) -> f32) {
     assert!((mean - 1.0).abs() < sure, "biased");
 }
 
-fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

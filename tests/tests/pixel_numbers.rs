@@ -22,7 +22,6 @@ impl PickLight for Listens {
             light: 0,
             instance: 0,
             pmf: 1.0,
-            ..SampledLight::NONE
         }
     }
 

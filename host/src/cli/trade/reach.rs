@@ -13,6 +13,7 @@ pub(super) struct Measured {
 }
 
 /// What a budget comes to.
+#[derive(Debug)]
 pub(super) struct Found {
     /// Least images: a whole number in each, between which this lies.
     pub images: f64,
@@ -112,7 +113,7 @@ mod tests {
 
     #[test]
     fn a_frame_holds_what_fits() {
-        let found = within(20.0).ok().expect("4.5 images");
+        let found = within(20.0).expect("4.5 images");
         let expected = of_white(1200.0 / 4.5);
         assert!(
             (found.images - 4.5).abs() < 1e-9
@@ -120,18 +121,18 @@ mod tests {
                 && (found.error / expected - 1.0).abs() < 1e-9
         );
         assert_eq!(within(5.9).err(), Some(6.0), "an update and one image");
-        let most = within(1e9).ok().expect("more than are tried");
+        let most = within(1e9).expect("more than are tried");
         assert_eq!((most.images, most.frame_ms), (256.0, 2.0 + 256.0 * 4.0));
     }
 
     #[test]
     fn an_error_is_reached_by_what_it_takes() {
-        let found = until(of_white(40.0)).ok().expect("30 images");
+        let found = until(of_white(40.0)).expect("30 images");
         assert!((found.images - 30.0).abs() < 1e-6 && (found.frame_ms - 122.0).abs() < 1e-5);
         // One image has what it has, not what was asked for.
-        let one = until(1.0).ok().expect("one image");
+        let one = until(1.0).expect("one image");
         assert_eq!((one.images, one.error), (1.0, of_white(1200.0)));
-        let beyond = until(of_white(4.0)).err().expect("300 images");
+        let beyond = until(of_white(4.0)).expect_err("300 images");
         assert!((beyond - of_white(1200.0 / 256.0)).abs() < 1e-12);
     }
 }
