@@ -70,7 +70,8 @@ enum Command {
     Stability(stability::Args),
     /// List the Vulkan devices and whether their arithmetic is exact.
     Info,
-    /// Check every invariant of the light BVHs of a scene.
+    /// Check every invariant of the light BVHs of a scene, over its lights as they stand in the world: bytes are of a tree for each
+    /// instance, where `inspect` and `trade` share those of meshes.
     Validate(validate::Args),
     /// Write a scene as a .glb file.
     Export(export::Args),

@@ -26,7 +26,7 @@ pub(super) struct Args {
     heuristic: Option<Builder>,
 }
 
-/// A structure at a frame.
+/// A structure over the lights as they stand in the world: two levels have a tree for each instance, which `inspect` and `trade` share.
 #[derive(Serialize)]
 struct Row {
     structure: Sampler,

@@ -151,13 +151,16 @@ mod tests {
     /// An array has one stride, whichever kernel of a choice of layout takes it.
     #[test]
     fn equal_names_are_arrays_of_equal_strides() {
-        let mut seen: Vec<(&str, bool, u32)> = Vec::new();
+        let mut seen: Vec<(&str, &str, u32)> = Vec::new();
         for kernel in KERNELS {
-            let eq4 = kernel.name.ends_with("_eq4");
+            let suffix = ["_eq4", "_narrow", "_wide"]
+                .into_iter()
+                .find(|suffix| kernel.name.ends_with(suffix));
             for binding in kernel.bindings {
                 // Each pass has results of its own; nodes have the layout of the choice.
                 if binding.name != "results" {
-                    seen.push((binding.name, eq4 && binding.name == "nodes", binding.stride));
+                    let layout = suffix.filter(|_| binding.name == "nodes").unwrap_or("");
+                    seen.push((binding.name, layout, binding.stride));
                 }
             }
         }

@@ -140,10 +140,10 @@ fn buffers_have_their_strides_readers_and_writers() {
     }
     let own = ["refit_", "sample", "pmf", "render_", "path_", "restir_"];
     for kernel in KERNELS {
-        let (name, is_paper) = match kernel.name.strip_suffix("_eq4") {
-            Some(name) => (name, true),
-            None => (kernel.name, false),
-        };
+        let (name, layout) = ["_eq4", "_narrow", "_wide"]
+            .into_iter()
+            .find_map(|suffix| Some((kernel.name.strip_suffix(suffix)?, suffix)))
+            .unwrap_or((kernel.name, ""));
         // Over the default's buffers.
         let name = name.strip_suffix("_native").unwrap_or(name);
         if !own.iter().any(|own| name.starts_with(own)) {
@@ -157,9 +157,13 @@ fn buffers_have_their_strides_readers_and_writers() {
             if binding.name == "results" && !["sample", "pmf"].contains(&name) {
                 continue;
             }
-            let stride = match (binding.name, is_paper) {
-                ("nodes", true) => strides.split_once("`_eq4` ").expect("a second one").1,
-                ("nodes", false) => strides.split_once(',').expect("a first one").0,
+            let stride = match (binding.name, layout) {
+                ("nodes", "") => strides.split_once(',').expect("a first one").0,
+                ("nodes", layout) => {
+                    let own = format!("`{layout}` ");
+                    let after = strides.split_once(&*own).expect("its own").1;
+                    after.split(',').next().unwrap_or(after)
+                }
                 ("results", _) => {
                     let own = format!("`{name}` ");
                     let after = strides.split_once(&*own).expect("its results").1;
