@@ -119,3 +119,26 @@ fn restir_says_what_it_is_and_gives_the_same_file_on_both_processors() {
     let help = String::from_utf8(run("render --help").stdout).expect("text");
     assert!(help.contains("biased (darker"), "{help}");
 }
+
+/// Nobody reads what it says: an error with its own exit code, no panic, and the image is there.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_standard_output_is_an_error() {
+    let folder = Folder::new("full-output");
+    let image = folder.file("image.png");
+    let full = std::fs::File::create("/dev/full").expect("a device that is always full");
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_lightbvh"))
+        .args([
+            "render", "street", "--width", "8", "--height", "8", "--spp", "1", "-o", &image,
+        ])
+        .stdout(full)
+        .output()
+        .expect("the program starts");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(
+        said.contains("cannot write to standard output") && !said.contains("panicked"),
+        "{said}"
+    );
+    assert!(std::path::Path::new(&image).exists());
+}
