@@ -6,7 +6,6 @@ use core::ops::Range;
 use super::edit::{InstanceId, MeshId};
 use super::{Bvh, Trails};
 use crate::light::EmissiveTriangle;
-
 use crate::lights::{Lights, LightsError, MAX_LIGHTS};
 use crate::node::LightNode;
 use crate::requirements::Placed;

@@ -55,14 +55,14 @@ pub(super) fn print_json(value: &impl serde::Serialize) -> io::Result<()> {
     writeln!(out)
 }
 
-/// A line on standard output; whoever closed it is told as an error, which `println!` would panic at.
+/// A line on standard output. A closed or full output is an error; `println!` panics then.
 macro_rules! say {
     ($($words:tt)*) => {
         $crate::cli::table::print_text(&format!("{}\n", format_args!($($words)*)))
     };
 }
 
-/// A line of news on standard error; where nobody can read it, it is lost, which `eprintln!` would panic at.
+/// A line of news on standard error. A closed or full output loses it; `eprintln!` panics then.
 macro_rules! news {
     ($($words:tt)*) => {
         $crate::cli::table::tell(format_args!($($words)*))

@@ -1,0 +1,211 @@
+//! Images of known error and known time.
+
+use std::time::Duration;
+
+use super::*;
+use crate::backend::{Sampler, Timed};
+use crate::cli::trade::choices::{Axis, Config};
+use crate::cli::trade::update::{Frame, Spent, Update};
+use crate::method::Builder;
+use crate::workload::arrays_at;
+use lightbvh::{Lights, Random64, ShadingPoint};
+
+/// Half of the pixels too bright and half too dark, by a step that falls as the root of the rays.
+struct Known {
+    axis: Axis,
+    /// Time of a ray of all pixels, ms.
+    ray_ms: f64,
+    /// Of one ray, as radiance.
+    step: f32,
+    least_rays: u32,
+    /// Adds to every pixel.
+    bias: f32,
+}
+
+impl Subject for Known {
+    fn config(&self) -> Config {
+        Config {
+            axis: self.axis,
+            integrator: "direct",
+            levels: Sampler::TwoLevel,
+            importance: "",
+            layout: "",
+            width: 8,
+            builder: Builder::Ward,
+            update: Update::Refit,
+            candidates: 1,
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        0
+    }
+
+    fn build(&self, _: &Frame<'_>) -> Result<Duration, HostError> {
+        Ok(Duration::ZERO)
+    }
+
+    fn advance(&mut self, _: &Frame<'_>) -> Result<Spent, HostError> {
+        Ok(Spent::default())
+    }
+
+    fn sample(&self, _: &[ShadingPoint], _: u32) -> Duration {
+        Duration::ZERO
+    }
+
+    fn candidates(&self, _: &ShadingPoint, _: Random64, _: &mut Vec<(u32, f32)>) {}
+
+    fn pmf(&self, _: &Lights, _: &ShadingPoint, _: u32) -> f32 {
+        1.0
+    }
+
+    fn least_rays(&self) -> u32 {
+        self.least_rays
+    }
+
+    fn render(&mut self, _: &SceneArrays, params: RenderParams) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
+        let rays = (params.samples / self.least_rays).max(1) * self.least_rays;
+        let off = match params.seed {
+            REFERENCE_SEED.. => 0.0,
+            _ => self.step / (rays as f32).sqrt(),
+        };
+        let value = |k: u32| 1.0 + if k.is_multiple_of(2) { off } else { -off } + self.bias;
+        Ok(Timed {
+            value: (0..params.width * params.height).map(|k| [value(k); 3]).collect(),
+            time: Duration::from_secs_f64(1e-3 * self.ray_ms * f64::from(rays)),
+        })
+    }
+}
+
+const BUDGET: Budget = Budget {
+    turns: 1,
+    passes: 1,
+    points: 1,
+    width: 16,
+    height: 16,
+    samples: 12,
+    frames: 1,
+    seeds: 2,
+    reference: 16,
+};
+
+fn measured(others: Vec<(Known, f64)>, update_ms: f64) -> Vec<Images> {
+    let scene = crate::scene::Scene::open("street").expect("a scene");
+    let arrays = arrays_at(&scene, 0, 16, 16).expect("a frame");
+    let default = Known {
+        axis: Axis::Default,
+        ray_ms: 1.0,
+        step: STEP,
+        least_rays: 1,
+        bias: 0.0,
+    };
+    let mut subjects: Vec<Box<dyn Subject>> = vec![Box::new(default)];
+    let mut updates = vec![update_ms];
+    for (known, update) in others {
+        subjects.push(Box::new(known));
+        updates.push(update);
+    }
+    let mut measured = Measured::default();
+    measured
+        .add(&mut subjects, &updates, &arrays, [0.0; 3], &BUDGET)
+        .expect("images");
+    measured.finish().0
+}
+
+/// Several steps of a byte by twelve rays, and far from what a display bends by one.
+const STEP: f32 = 0.2;
+
+fn known(ray_ms: f64, step: f32) -> Known {
+    Known {
+        axis: Axis::Width,
+        ray_ms,
+        step,
+        least_rays: 1,
+        bias: 0.0,
+    }
+}
+
+fn near(found: f64, expected: f64, part: f64) {
+    assert!(
+        (found / expected - 1.0).abs() <= part,
+        "{found} is not {expected}"
+    );
+}
+
+/// Errors fall as the inverse of the rays, so that those at equal time are known: to the steps of a byte.
+#[test]
+fn equal_time_is_what_fits_beside_the_update() {
+    const BYTES: f64 = 0.15;
+    let images = measured(
+        vec![
+            (known(1.0, STEP), 1.0),
+            // Twice the time of a ray, twice the squared error.
+            (known(2.0, STEP * 2f32.sqrt()), 1.0),
+            // Four milliseconds more for an update: 8 rays of 12.
+            (known(1.0, STEP), 5.0),
+            // No time for half a ray.
+            (known(40.0, 0.5), 1.0),
+            (
+                Known {
+                    least_rays: 6,
+                    ..known(1.0, STEP)
+                },
+                1.0,
+            ),
+        ],
+        1.0,
+    );
+    let [default, same, slow, late, slowest, whole] = &images[..] else {
+        panic!("{}", images.len());
+    };
+    assert_eq!(
+        (default.samples_equal_time, default.equal_time_ratio.median),
+        (12.0, 1.0)
+    );
+    near(same.equal_time_ratio.median, 1.0, 1e-9);
+    near(slow.time_ratio.median, 2.0, 1e-9);
+    near(slow.frame_ratio.median, 25.0 / 13.0, 1e-9);
+    near(slow.samples_equal_time, 6.0, 1e-9);
+    near(slow.error_ratio.median, 2.0, BYTES);
+    near(slow.equal_time_ratio.median, 4.0, BYTES);
+    near(late.frame_ratio.median, 17.0 / 13.0, 1e-9);
+    near(late.samples_equal_time, 8.0, 1e-9);
+    near(late.equal_time_ratio.median, 1.5, BYTES);
+    // The error of one ray, which a display bends, by what fits of it.
+    near(slowest.samples_equal_time, 12.0 / 40.0, 1e-9);
+    let one = slowest.error_equal_time * 0.3;
+    assert!(one > 12.0 * (1.0 - BYTES) * default.error_equal_time && one < 255.0 * 255.0);
+    near(whole.samples_equal_time, 12.0, 1e-9);
+    near(whole.equal_time_ratio.median, 1.0, 1e-9);
+    assert!(
+        images
+            .iter()
+            .all(|images| images.bias.expect("images").mean.abs() < 1e-3)
+    );
+}
+
+/// Between whole numbers of rays errors are powers of them.
+#[test]
+fn between_whole_rays_errors_are_powers() {
+    let images = measured(vec![(known(12.0 / 2.5, STEP), 0.0)], 0.0);
+    near(images[1].samples_equal_time, 2.5, 1e-9);
+    near(images[1].equal_time_ratio.median, 12.0 / 2.5, 0.15);
+    assert_eq!(images[1].shown.1, 3);
+}
+
+#[test]
+fn a_bias_is_seen() {
+    let images = measured(
+        vec![(
+            Known {
+                bias: 0.1,
+                ..known(1.0, STEP)
+            },
+            0.0,
+        )],
+        0.0,
+    );
+    near(images[1].bias.expect("images").mean, 0.1, 1e-3);
+    assert!(images[0].bias.expect("images").mean.abs() < 1e-3);
+    assert!(images[1].error > images[0].error);
+}
