@@ -8,10 +8,10 @@ use lightbvh_kernels::query::Query;
 use serde::Serialize;
 
 use super::quantile::Interval;
+use super::turns::in_turns;
 use crate::backend::{Backend, Bvh, CpuBackend, DeviceBackend, Sampler, Timed};
 use crate::cli::devices::Opened;
 use crate::cli::table;
-use crate::cli::times::ms;
 use crate::error::HostError;
 use crate::scene::Scene;
 use crate::workload::{arrays_at, build, lights_at, queries};
@@ -118,15 +118,9 @@ pub(super) fn measure(
         .iter_mut()
         .map(|side| side.words(&asked, &chosen))
         .collect::<Result<_, _>>()?;
-    let mut times = vec![Vec::new(); sides.len()];
-    for turn in 0..turns as usize {
-        // Each turn begins elsewhere, so that no side always follows the same one.
-        for k in 0..sides.len() {
-            let at = (k + turn) % sides.len();
-            let time = (sides[at].sample)(&asked)?.time;
-            times[at].push(1e6 * ms(time) / f64::from(QUERIES));
-        }
-    }
+    let times = in_turns(sides.len(), turns, QUERIES, |at| {
+        Ok((sides[at].sample)(&asked)?.time)
+    })?;
     Ok((0..sides.len())
         .map(|at| {
             let side = &sides[at];

@@ -15,6 +15,7 @@ mod report;
 mod reservoirs;
 mod steps;
 mod structure;
+mod turns;
 mod update;
 mod widths;
 
