@@ -14,7 +14,6 @@ use crate::exact::{self, flush, pow2};
 use crate::light::INVALID;
 use crate::light::{EmissiveTriangle, MAX_COORDINATE, MIN_COORDINATE};
 use crate::point::ShadingPoint;
-use crate::trail::BitTrail;
 use crate::vector::{dot, flush3, greatest_exponent, length_squared};
 
 /// Lengths below this in a mesh's space count as zero, metres: 2^-60. Entries of the maps are zero or at least 2^-60, so no
@@ -33,8 +32,11 @@ const FAR: f32 = pow2(60);
 pub struct Instance {
     /// Node index of the root of its bottom level.
     pub root: u32,
-    /// Its bit trail in the top level, low and high word.
-    pub trail: [u32; 2],
+    /// Where in the top level it is a leaf: a [place](crate::trail::place), or `u32::MAX` where it is none.
+    pub place: u32,
+    /// Has nothing to do with this instance: record k has the place of node number k of the top level in the node above it,
+    /// `u32::MAX` for the root. Places lead from a leaf up to the root, so that a subtree moves by one word.
+    pub above: u32,
     /// Index of its bottom level.
     pub blas: u32,
     /// Its first light; its lights are numbered without gaps.
@@ -68,7 +70,8 @@ impl Instance {
     /// A bottom level in world space.
     pub const IDENTITY: Self = Self {
         root: u32::MAX,
-        trail: [0; 2],
+        place: u32::MAX,
+        above: u32::MAX,
         blas: u32::MAX,
         first: 0,
         first_triangle: 0,
@@ -82,21 +85,6 @@ impl Instance {
         radiance: 1.0,
         mirrored: 0,
     };
-
-    /// Its bit trail in the top level.
-    #[inline(always)]
-    #[must_use]
-    pub fn trail(&self) -> BitTrail {
-        BitTrail {
-            low: self.trail[0],
-            high: self.trail[1],
-        }
-    }
-
-    /// Sets its bit trail in the top level.
-    pub fn set_trail(&mut self, trail: BitTrail) {
-        self.trail = [trail.low, trail.high];
-    }
 
     /// The light that triangle `triangle` of the bottom level is here.
     #[inline(always)]

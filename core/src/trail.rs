@@ -41,6 +41,23 @@ pub const fn trail_words(w: usize, depth: u32) -> u32 {
     if depth <= word_levels(w) { 1 } else { 2 }
 }
 
+/// The place of `slot` of node number `node` of the top level; see [`Instance::place`](crate::Instance::place).
+#[inline(always)]
+#[must_use]
+pub const fn place<const W: usize>(node: u32, slot: u32) -> u32 {
+    (node << Width::<W>::BITS) | slot
+}
+
+/// Node and slot of a [`place`].
+#[inline(always)]
+#[must_use]
+pub const fn place_parts<const W: usize>(place: u32) -> (u32, u32) {
+    (place >> Width::<W>::BITS, place & Width::<W>::MASK)
+}
+
+/// Most nodes of a top level, and so most instances: 2^27, whose places are words at any width, none of them `u32::MAX`.
+pub const MAX_PLACES: u32 = 1 << 27;
+
 /// Refuses, when it is compiled, a width whose slots no trail can name.
 struct Width<const W: usize>;
 
@@ -81,6 +98,20 @@ impl BitTrail {
                 low: self.low,
                 high: (self.high & clear) | set,
             }
+        }
+    }
+
+    /// The trail of one level more, with `slot` taken at the first; the others follow it. What is longer than
+    /// [`max_levels`] loses its last.
+    #[inline(always)]
+    #[must_use]
+    pub fn behind<const W: usize>(self, slot: u32) -> Self {
+        let bits = Width::<W>::BITS;
+        let last = bits * (word_levels(W) - 1);
+        let kept = Width::<W>::MASK << last | ((1 << last) - 1);
+        Self {
+            low: ((self.low << bits) | (slot & Width::<W>::MASK)) & kept,
+            high: ((self.high << bits) | ((self.low >> last) & Width::<W>::MASK)) & kept,
         }
     }
 
@@ -171,6 +202,33 @@ mod tests {
         keeps_slots::<8>();
         keeps_slots::<9>();
         keeps_slots::<16>();
+    }
+
+    /// A trail from the last slot to the first is that from the first to the last.
+    fn grows_from_its_end<const W: usize>() {
+        for levels in [1, 3, word_levels(W), word_levels(W) + 1, max_levels(W)] {
+            let slot = |level: u32| noise(level * 5 + levels) % W as u32;
+            let (mut down, mut up) = (BitTrail::default(), BitTrail::default());
+            for level in 0..levels {
+                down = down.with::<W>(level, slot(level));
+                up = up.behind::<W>(slot(levels - 1 - level));
+            }
+            assert_eq!(down, up, "W {W}, {levels} levels");
+        }
+        assert_eq!(
+            place_parts::<W>(place::<W>(MAX_PLACES - 1, 1)),
+            (MAX_PLACES - 1, 1)
+        );
+        assert!(place::<W>(MAX_PLACES - 1, W as u32 - 1) < u32::MAX);
+    }
+
+    #[test]
+    fn trails_grow_from_their_ends() {
+        grows_from_its_end::<2>();
+        grows_from_its_end::<3>();
+        grows_from_its_end::<4>();
+        grows_from_its_end::<8>();
+        grows_from_its_end::<16>();
     }
 
     #[test]

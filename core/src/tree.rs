@@ -9,7 +9,7 @@ use crate::instance::{Instance, world_light};
 use crate::light::EmissiveTriangle;
 pub use crate::light::INVALID;
 use crate::node::DefaultNode;
-use crate::trail::{BitTrail, Path};
+use crate::trail::{BitTrail, Path, max_levels, place_parts};
 
 /// A light BVH of one or two levels: borrowed arrays with nodes of layout `N` and width `W`, and what children are chosen by, `I`.
 ///
@@ -88,7 +88,7 @@ impl<'a, N, I, const W: usize> LightTree<'a, N, I, W> {
     pub(crate) fn path_of(&self, triangle: u32, instance: u32) -> Path {
         if instance < self.instances.len() as u32 {
             Path {
-                top: self.instances[instance as usize].trail(),
+                top: self.trail_to(instance),
                 bottom: self.trail(triangle),
             }
         } else {
@@ -97,6 +97,25 @@ impl<'a, N, I, const W: usize> LightTree<'a, N, I, W> {
                 bottom: BitTrail { low: 0, high: 0 },
             }
         }
+    }
+
+    /// Trail of an instance in the top level, from its leaf up: at most as many steps as a tree has levels, for any words.
+    #[inline]
+    fn trail_to(&self, instance: u32) -> BitTrail {
+        let count = self.instances.len() as u32;
+        let mut trail = BitTrail { low: 0, high: 0 };
+        let mut place = self.instances[instance as usize].place;
+        let mut steps = 0;
+        while place != INVALID && steps < max_levels(W) {
+            let (node, slot) = place_parts::<W>(place);
+            trail = trail.behind::<W>(slot);
+            place = INVALID;
+            if node < count {
+                place = self.instances[node as usize].above;
+            }
+            steps += 1;
+        }
+        trail
     }
 
     /// Trail of a triangle in the tree that holds it.

@@ -148,6 +148,15 @@ fn hostile_nodes<N: LightNode<W>, const W: usize>(random: &mut Random, count: u3
         .collect()
 }
 
+/// A place of few nodes, which may hang below each other in circles, or any word.
+fn place(random: &mut Random) -> u32 {
+    if random.below(4) == 0 {
+        random.bits()
+    } else {
+        random.below(64)
+    }
+}
+
 fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32) {
     let random = &mut Random::new(seed);
     let nodes_count = 1 + random.below(10);
@@ -160,7 +169,8 @@ fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32) {
             }
             Instance {
                 root: link(random, nodes_count),
-                trail: [random.bits(), random.bits()],
+                place: place(random),
+                above: place(random),
                 count: count(random),
                 listed: link(random, 4),
                 ..instance

@@ -291,6 +291,8 @@ fn violations() {
         (What::Owner, "mesh light of the triangle"),
         (What::TrailLow, "low word of the leaf's trail"),
         (What::TrailHigh, "high word of the leaf's trail"),
+        (What::Place, "place in the node above"),
+        (What::Children, "number of children"),
         (What::Listed, "times in the list of levels"),
         (What::ListedLevel, "level in the list of levels"),
         (What::Word(5), "word 5 of the node"),

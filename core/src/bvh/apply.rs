@@ -43,7 +43,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         });
         let mut topologies = build_each(&new_meshes.collect::<Vec<_>>(), &self.params).into_iter();
         let mut updated = Added::default();
-        let mut added = Vec::new();
+        let (mut added, mut moved) = (Vec::new(), Vec::new());
         for edit in edits {
             match edit {
                 Edit::AddMesh { triangles } => {
@@ -65,10 +65,15 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 Edit::SetTransform { instance, transform } => {
                     self.placed[instance.index as usize].transform = transform;
                     self.place(instance.index);
+                    moved.push(instance.index);
                 }
                 Edit::SetRadiance { instance, radiance } => {
-                    self.placed[instance.index as usize].radiance = radiance;
+                    let placed = &mut self.placed[instance.index as usize];
+                    let was = core::mem::replace(&mut placed.radiance, radiance);
                     self.place(instance.index);
+                    if was == 0.0 && radiance > 0.0 {
+                        moved.push(instance.index);
+                    }
                 }
                 Edit::SetTriangles { mesh, triangles } => {
                     let extent = deformed.next().unwrap_or_else(|| Extent::of(&triangles));
@@ -79,8 +84,10 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 Edit::RemoveMesh(id) => self.take_mesh(id.index),
             }
         }
+        self.take_misplaced(moved, &mut added);
         added.sort_unstable();
         self.insert_instances(&added);
+        self.settle();
         self.bound_changes();
         Ok(updated)
     }
@@ -141,16 +148,18 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             lights: self.lights.take(lights as u32),
             node: INVALID,
             slot: 0,
-            created: self.epoch,
+            hung: self.epoch,
+            mark: 0,
             changed: self.epoch,
         };
         put(&mut self.placed, index, placed.clone(), &placed);
-        // The record may hold an entry of the list, which is not this instance's to take.
-        let listed = self.instances.get(index as usize).map_or(0, |old| old.listed);
-        let record = Instance {
-            listed,
+        // The record may hold an entry of the list and a link of the top level, which are not this instance's to take.
+        let old = self.instances.get(index as usize);
+        let record = old.map_or(NO_INSTANCE, |old| Instance {
+            listed: old.listed,
+            above: old.above,
             ..NO_INSTANCE
-        };
+        });
         put(&mut self.instances, index, record, &NO_INSTANCE);
         self.live.push(index);
         self.list(self.live.len() as u32 - 1);
@@ -180,9 +189,10 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             self.placed[moved as usize].listed = listed;
             self.list(listed);
         }
-        let old = self.instances[index as usize].listed;
+        let old = self.instances[index as usize];
         self.instances[index as usize] = Instance {
-            listed: old,
+            listed: old.listed,
+            above: old.above,
             ..NO_INSTANCE
         };
         self.changes.new.written_instances.push(index);
@@ -216,7 +226,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             first_triangle: self.blases[blas as usize].triangles.start,
             count: placed.lights.len() as u32,
             listed: old.listed,
-            trail: old.trail,
+            place: old.place,
+            above: old.above,
             ..placed.transform.instance(placed.radiance)
         };
         self.changes.new.mark_instance(index);

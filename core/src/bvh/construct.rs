@@ -40,9 +40,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             return bvh;
         }
         // The top level of no instances gives its place up, so that no node is left unused.
-        for range in core::mem::take(&mut bvh.top.ranges) {
-            bvh.node_ranges.give(range);
-        }
+        bvh.vacate_top();
         let topologies = build_each(&meshes, params);
         let mut added = Vec::new();
         for (triangles, topology) in meshes.into_iter().zip(topologies) {

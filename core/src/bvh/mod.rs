@@ -13,10 +13,10 @@
 //!
 //! | change | costs |
 //! |---|---|
-//! | any affine motion, brightness | the instance's leaf and the nodes above it; far from its neighbours also variance, until the next rebuild |
+//! | any affine motion, brightness | the instance's leaf and the nodes above it; far from its neighbours it is taken out and put in elsewhere |
 //! | vertices or emission of a mesh | its bottom level, and the leaves of its instances |
-//! | removed instance | its slot, empty until the next rebuild, and the nodes above it |
-//! | added instances | a tree over those of the batch and a node on top of the top level, and the trails of all instances: add many in one batch |
+//! | removed instance | its leaf and the nodes above it; the place is filled from below |
+//! | added instance | one node of each level on the way to where it costs least, and their links |
 
 mod apply;
 mod blas;
@@ -218,7 +218,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 .blases
                 .first_mut()
                 .map_or(&mut [], |blas| &mut blas.levels.nodes),
-            top: &mut self.top.levels.nodes,
+            top: &mut self.top.nodes,
         }
     }
 }
@@ -292,11 +292,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// counted.
     #[must_use]
     pub fn memory(&self) -> usize {
-        let levels = self
-            .blases
-            .iter()
-            .map(|blas| &blas.levels)
-            .chain([&self.top.levels]);
+        let levels = self.blases.iter().map(|blas| &blas.levels);
         let users = self.meshes.iter().map(|mesh| size_of_val(&*mesh.users));
         self.bytes()
             + size_of_val(&*self.parents)
@@ -308,9 +304,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             + size_of_val(&*self.placed)
             + size_of_val(&*self.live)
             + levels.map(|levels| size_of_val(levels.nodes())).sum::<usize>()
-            + size_of_val(&*self.top.leaves)
-            + size_of_val(&*self.top.node_levels)
-            + size_of_val(&*self.top.marks)
+            + self.top.memory()
     }
 
     fn blas_of(&self, placed: &InstanceState) -> &Blas {
@@ -327,7 +321,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if self.single && !self.blases.is_empty() {
             self.bottom_depth
         } else {
-            self.top.depth + self.bottom_depth
+            self.top.depth() + self.bottom_depth
         }
     }
 

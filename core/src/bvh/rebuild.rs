@@ -6,16 +6,12 @@ use core::marker::PhantomData;
 use core::ops::Range;
 
 use super::blas::Blas;
-use super::top::TopTree;
+use super::top::{TopCopy, TopTree};
 use super::{Bvh, Trails};
-use crate::build::{self, BuildParams, Topology, build_over, drift};
-use crate::instance::Instance;
-use crate::levels::Levels;
+use crate::build::{BuildParams, Topology, build_over, drift};
 use crate::light::EmissiveTriangle;
 use crate::node::LightNode;
-use crate::refit::{self, BlasRoot};
 use crate::summary::Summary;
-use crate::tree::INVALID;
 
 /// When trees are built anew. By default the top level always, bottom levels at 1.5 times their cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,7 +38,7 @@ impl Default for RebuildParams {
 pub struct Rebuild<N, const W: usize> {
     params: BuildParams,
     taken: Taken,
-    top: Option<TopLeaves>,
+    top: Option<TopCopy>,
     bottoms: Vec<Bottom>,
     layout: PhantomData<N>,
 }
@@ -52,16 +48,6 @@ pub struct Rebuild<N, const W: usize> {
 pub(crate) struct Taken {
     tree: u32,
     epoch: u64,
-}
-
-/// What the leaves of the top level are computed from.
-#[derive(Clone, Debug)]
-struct TopLeaves {
-    /// By index, those not in use included.
-    instances: Vec<Instance>,
-    roots: Vec<BlasRoot>,
-    /// Indices of the instances in use.
-    live: Vec<u32>,
 }
 
 /// A bottom level whose cost has drifted.
@@ -113,7 +99,7 @@ impl<N: LightNode<W>, const W: usize> Rebuild<N, W> {
     /// Builds. The result depends on nothing but `self`: not on the thread, nor on when it runs.
     #[must_use]
     pub fn run(self) -> Rebuilt<N, W> {
-        let top = self.top.map(|leaves| build_top::<N, W>(&leaves, &self.params));
+        let top = self.top.map(|copy| copy.build::<N, W>(&self.params));
         let params = self.params;
         let bottoms = self.bottoms.into_iter().map(|bottom| {
             let mut topology = build_over::<N, W>(&bottom.triangles, &params);
@@ -126,24 +112,6 @@ impl<N: LightNode<W>, const W: usize> Rebuild<N, W> {
             bottoms: bottoms.collect(),
         }
     }
-}
-
-/// A tree over the leaves, refitted.
-fn build_top<N: LightNode<W>, const W: usize>(leaves: &TopLeaves, params: &BuildParams) -> TopTree<N> {
-    if leaves.live.is_empty() {
-        return TopTree::empty::<W>();
-    }
-    let summaries = leaves.live.iter().map(|&i| {
-        let instance = &leaves.instances[i as usize];
-        let local = leaves.roots[instance.blas as usize].summary::<N::Summary>();
-        (i, local.to_world(instance))
-    });
-    let mut topology: Topology<N> = build::build_top::<N, W>(summaries, params);
-    let levels = Levels::gather(topology.leveled(0));
-    for &node in levels.nodes() {
-        topology.nodes[node as usize] = refit::top(&topology.nodes, &leaves.instances, &leaves.roots, node);
-    }
-    TopTree::new::<W>(topology, levels)
 }
 
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
@@ -160,15 +128,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let since = since
             .filter(|since| since.tree == self.id.0)
             .map_or(0, |since| since.epoch);
-        let top = params.top.then(|| TopLeaves {
-            instances: self.instances.clone(),
-            roots: self.roots.clone(),
-            live: (0..)
-                .zip(&self.placed)
-                .filter(|(_, placed)| placed.live)
-                .map(|(index, _)| index)
-                .collect(),
-        });
+        let top = params.top.then(|| self.copy_top());
         let drifted = (0..).zip(&self.blases).filter(|&(blas, own)| {
             let nodes = &self.nodes[own.nodes.start as usize..own.nodes.end as usize];
             params.drift.is_finite()
@@ -211,22 +171,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             }
         }
         if let Some(top) = rebuilt.top {
-            self.replace_top_by(top, rebuilt.taken.epoch);
-            let added: Vec<u32> = (0..)
-                .zip(&self.placed)
-                .filter(|(_, placed)| placed.live && placed.node == INVALID)
-                .map(|(index, _)| index)
-                .collect();
-            self.insert_instances(&added);
-            // Where a device refits in place of the CPU, the copy was of roots that are not those of the device.
-            self.changes.new.whole_top |= !self.changes.unrefitted.is_empty();
-            // Its words are those of the copy.
-            for (index, placed) in (0..).zip(&self.placed).filter(|(_, placed)| placed.live) {
-                let blas = &self.blases[self.meshes[placed.mesh as usize].blas as usize];
-                if placed.changed.max(blas.changed).max(blas.created) > rebuilt.taken.epoch {
-                    self.changes.new.instances.push(index);
-                }
-            }
+            self.install_top(&top, rebuilt.taken.epoch);
         }
         self.bound_changes();
         Ok(())

@@ -33,8 +33,10 @@ pub(super) struct InstanceState {
     /// Where in the top level it is a leaf.
     pub node: u32,
     pub slot: u32,
-    /// When it came into the scene.
-    pub created: u64,
+    /// When it was put where it is in the top level, but for rebuilds.
+    pub hung: u64,
+    /// The last search that came by.
+    pub mark: u32,
     /// When its words changed last.
     pub changed: u64,
 }

@@ -11,8 +11,8 @@ use crate::refit;
 use crate::sweep;
 use crate::tree::INVALID;
 
-/// Where more than this share of the top level's leaves changed, all of it is refitted by its ready-made lists.
-const MOST: usize = 3;
+/// Where more than this share of all instances changed, all of the top level is refitted by its ready-made lists.
+const MOST: usize = 2;
 
 /// What a refit does: what a mirror of the scene's arrays must copy before it, and the lists of the passes that then make its
 /// nodes the same. Copy first, then run [`refit::bottom`], [`refit::root`] and [`refit::top`] over the lists in this order,
@@ -78,7 +78,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             bottom: Levels::join(&levels),
             trees: used().map(|(_, blas)| blas.nodes.clone()).collect(),
             roots: used().map(|(index, _)| index).collect(),
-            top: self.top.levels.clone(),
+            top: self.top.levels.clone().unwrap_or_else(|| self.top.by_height()),
             ..RefitPlan::default()
         }
     }
@@ -182,9 +182,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             instances.extend(&self.meshes[mesh as usize].users);
         }
 
-        let all = self.top.leaves.len();
-        if pending.whole_top || instances.len() > all * W / MOST {
-            work.top = self.top.levels.clone();
+        if pending.whole_top || instances.len() > self.live.len() / MOST {
+            work.top = self.top_levels().clone();
         } else {
             self.dirty_top(&instances, &pending.top_nodes, &mut work);
         }
@@ -202,12 +201,18 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     fn dirty_top(&mut self, instances: &[u32], nodes: &[u32], work: &mut RefitPlan) {
         let leaves = instances.iter().map(|&i| self.placed[i as usize].node);
         let mut pairs = Vec::new();
+        let depth = self.top.depth();
         self.top.mark += 1;
         for start in leaves.chain(nodes.iter().copied()) {
             let mut node = start;
-            while node != INVALID && self.top.marks[node as usize] != self.top.mark {
-                self.top.marks[node as usize] = self.top.mark;
-                pairs.push((self.top.node_levels[node as usize], node));
+            // Nodes that were marked may be gone since.
+            while self.top.number(node) != INVALID {
+                let number = self.top.number(node) as usize;
+                if self.top.marks[number] == self.top.mark {
+                    break;
+                }
+                self.top.marks[number] = self.top.mark;
+                pairs.push((depth - self.top.heights[number], node));
                 node = self.parents[node as usize];
             }
         }

@@ -1,117 +1,130 @@
-//! The top level: a tree over instances that edits patch and rebuilds replace.
+//! The top level: a tree over instances that edits change leaf by leaf and rebuilds replace.
+//!
+//! Its nodes lie anywhere among the nodes, and have numbers of their own: links upward, from a leaf to the root, stand in the
+//! records of instances by those numbers ([`Instance::place`](crate::Instance), `above`). So a subtree is moved by one link down and
+//! one up, whatever is below it. Every node but the root has two children or more, so there are fewer nodes than instances, and
+//! enough records.
 
-mod tree;
+mod cost;
+mod insert;
+mod links;
+mod misplaced;
+mod rebuild;
+mod remove;
+mod settle;
 
 use alloc::vec::Vec;
-use core::ops::Range;
 
-pub(super) use self::tree::TopTree;
-use self::tree::{Place, without_children};
+pub(super) use self::rebuild::{TopCopy, TopTree};
+use super::ranges::Ranges;
 use super::{Bvh, Trails};
 use crate::build::{Topology, build_top};
 use crate::levels::Levels;
 use crate::node::{LightNode, kind};
 use crate::refit;
 use crate::summary::Summary;
-use crate::trail::{BitTrail, max_levels};
 use crate::tree::INVALID;
 
 /// The top level's place among the nodes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Top {
+    /// Index of its root.
     pub root: u32,
-    /// Its nodes: one range after a rebuild, more after instances were added.
-    pub ranges: Vec<Range<u32>>,
-    /// Its nodes by level.
-    pub levels: Levels,
-    /// Its nodes with instances.
-    pub leaves: Vec<u32>,
-    /// Number of levels.
-    pub depth: u32,
-    /// By node: its level; only those of the top level count.
-    pub node_levels: Vec<u32>,
-    /// By node: the last search that came by.
+    /// By number of a node of it: the node's index, [`INVALID`] where the number is free.
+    pub nodes: Vec<u32>,
+    /// Which numbers are in use.
+    pub numbers: Ranges,
+    /// By index of a node: its number, [`INVALID`] where it is no node of the top level. As long as needed.
+    pub number_of: Vec<u32>,
+    /// By number: levels from this node down, 1 where all children are instances.
+    pub heights: Vec<u32>,
+    /// By number: instances below.
+    pub counts: Vec<u32>,
+    /// By number: edits below since the node was built.
+    pub edits: Vec<u64>,
+    /// Nodes whose children edits have changed; they may be gone.
+    pub touched: Vec<u32>,
+    /// By number: the last search that came by. Instances have theirs.
     pub marks: Vec<u32>,
     pub mark: u32,
+    /// Its nodes by height, where nothing has changed since they were listed.
+    pub levels: Option<Levels>,
+}
+
+impl Top {
+    /// Number of levels.
+    pub fn depth(&self) -> u32 {
+        self.heights[self.number(self.root) as usize]
+    }
+
+    /// The number of a node of the top level; [`INVALID`] where it is none.
+    pub fn number(&self, node: u32) -> u32 {
+        self.number_of.get(node as usize).copied().unwrap_or(INVALID)
+    }
+
+    /// Number of nodes.
+    pub fn len(&self) -> usize {
+        self.in_use().count()
+    }
+
+    /// Its nodes, in the order of their numbers.
+    pub fn in_use(&self) -> impl Iterator<Item = u32> + '_ {
+        self.nodes.iter().copied().filter(|&node| node != INVALID)
+    }
+
+    /// Its nodes by height, those with instances alone first: an order in which they may be refitted.
+    pub fn by_height(&self) -> Levels {
+        let depth = self.depth();
+        let used = self.heights.iter().zip(&self.nodes);
+        let used = used.filter(|&(_, &node)| node != INVALID);
+        Levels::gather(used.map(|(&height, &node)| (depth - height, node)).collect())
+    }
+
+    /// Bytes of its arrays.
+    pub fn memory(&self) -> usize {
+        size_of_val(&*self.nodes)
+            + size_of_val(&*self.number_of)
+            + size_of_val(&*self.heights)
+            + size_of_val(&*self.counts)
+            + size_of_val(&*self.edits)
+            + size_of_val(&*self.marks)
+            + self
+                .levels
+                .as_ref()
+                .map_or(0, |levels| size_of_val(levels.nodes()))
+    }
 }
 
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// A top level without instances: one empty node.
     pub(super) fn empty_top(&mut self) {
-        self.replace_top(&[without_children::<N, W>()]);
+        let mut node = N::EMPTY;
+        node.set_summaries(&[N::Summary::EMPTY; W]);
+        self.replace_top(&[node]);
     }
 
     /// Puts `nodes`, links counting from the first, which is the root, in place of the top level. Bounds of instances that
     /// changed meanwhile are marked by the caller.
     pub(super) fn replace_top(&mut self, nodes: &[N]) {
-        self.place_top(nodes);
+        self.vacate_top();
+        let range = self.place_nodes(nodes);
+        self.top.root = range.start;
+        self.top.nodes = range.collect();
         self.index_top();
     }
 
-    /// As [`replace_top`](Self::replace_top), with a tree that knows where everything in it is, but not what became of its
-    /// instances since the scene's epoch stood at `since`: those gone leave empty slots.
-    pub(super) fn replace_top_by(&mut self, tree: TopTree<N>, since: u64) {
-        let range = self.place_top(&tree.nodes);
-        if !self.place_instances(&tree.places, range.start, since) {
-            for node in range {
-                for slot in 0..W {
-                    let own = &mut self.nodes[node as usize];
-                    if own.kind(slot) == kind::MESH {
-                        let placed = self.placed.get(own.link(slot) as usize);
-                        if !placed.is_some_and(|placed| placed.live && placed.created <= since) {
-                            own.set_child(slot, kind::EMPTY, 0);
-                            self.changes.new.top_nodes.push(node);
-                        }
-                    }
-                }
-            }
-            self.index_top();
-            return;
+    /// Gives back the nodes of the top level, which is to get others.
+    pub(super) fn vacate_top(&mut self) {
+        let mut old: Vec<u32> = core::mem::take(&mut self.top.nodes);
+        old.retain(|&node| node != INVALID);
+        old.sort_unstable();
+        for &node in &old {
+            self.top.number_of[node as usize] = INVALID;
         }
-        let first = range.start;
-        self.top.node_levels.resize(self.nodes.len(), 0);
-        self.top.marks.resize(self.nodes.len(), 0);
-        self.top.node_levels[first as usize..range.end as usize].copy_from_slice(&tree.node_levels);
-        self.top.depth = tree.depth;
-        self.top.levels = tree.levels;
-        self.top.leaves = tree.leaves;
-        for node in self.top.levels.nodes.iter_mut().chain(&mut self.top.leaves) {
-            *node += first;
-        }
-    }
-
-    /// Notes for every instance where it is a leaf, the nodes of `places` counting from `first`; false where one of them is
-    /// no instance, or not the one that was there when the epoch stood at `since`.
-    fn place_instances(&mut self, places: &[Place], first: u32, since: u64) -> bool {
-        let mut places = places.iter().peekable();
-        for (index, (placed, instance)) in (0..).zip(self.placed.iter_mut().zip(&mut self.instances)) {
-            let Some(place) = places.next_if(|place| place.instance == index) else {
-                placed.node = INVALID;
-                continue;
-            };
-            if !placed.live || placed.created > since {
-                return false;
-            }
-            placed.node = first + place.node;
-            placed.slot = place.slot;
-            if instance.trail() != place.trail {
-                instance.set_trail(place.trail);
-                self.changes.new.written_instances.push(index);
-            }
-        }
-        places.peek().is_none()
-    }
-
-    /// Puts nodes in place of those of the top level.
-    fn place_top(&mut self, nodes: &[N]) -> Range<u32> {
-        for range in core::mem::take(&mut self.top.ranges) {
-            self.node_ranges.give(range);
+        for run in old.chunk_by(|a, b| a + 1 == *b) {
+            self.node_ranges.give(run[0]..run[0] + run.len() as u32);
         }
         self.changes.forget_top();
-        let range = self.place_nodes(nodes);
-        self.top.root = range.start;
-        self.top.ranges.push(range.clone());
-        range
     }
 
     /// Builds the top level over all instances, here and now.
@@ -128,99 +141,63 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.changes.new.whole_top = true;
     }
 
-    /// Puts a tree over `added` instances beside the top level, below a new root. Where that would be too deep, everything
-    /// is built anew.
-    pub(super) fn insert_instances(&mut self, added: &[u32]) {
-        if added.is_empty() {
-            return;
-        }
-        let topology: Topology<N> =
-            build_top::<N, W>(added.iter().map(|&i| (i, self.in_world(i))), &self.params);
-        if self.top.leaves.is_empty() || self.top.depth.max(topology.depth) + 1 > max_levels(W) {
-            self.build_top();
-            return;
-        }
-        let new = self.place_nodes(&topology.nodes);
-        let mut above = N::EMPTY;
-        above.set_child(0, kind::INNER, 0);
-        above.set_child(1, kind::INNER, 0);
-        let root = self.place_nodes(&[above]);
-        for (slot, child) in [(0, self.top.root), (1, new.start)] {
-            self.nodes[root.start as usize].relink(slot, child);
-            self.parents[child as usize] = root.start;
-        }
-        // Summaries of what is new, so that as much as possible is right before the next refit.
-        for node in new.clone().rev().chain([root.start]) {
-            self.nodes[node as usize] = refit::top(&self.nodes, &self.instances, &self.roots, node);
-        }
-        self.changes.new.instances.extend(added);
-        self.top.root = root.start;
-        self.top.ranges.extend([new, root]);
-        self.index_top();
-    }
-
-    /// Takes the leaf of an instance out; its slot stays empty until the next rebuild.
-    pub(super) fn remove_leaf(&mut self, index: u32) {
-        let (node, slot) = {
-            let placed = &self.placed[index as usize];
-            (placed.node, placed.slot)
-        };
-        if node != INVALID {
-            self.nodes[node as usize].set_child(slot as usize, kind::EMPTY, 0);
-            self.changes.new.top_nodes.push(node);
-            self.changes.new.written_nodes.push(node..node + 1);
-        }
-    }
-
     /// What is known of an instance in the world.
-    fn in_world(&self, index: u32) -> N::Summary {
+    pub(super) fn in_world(&self, index: u32) -> N::Summary {
         let instance = &self.instances[index as usize];
         self.root_of(instance.blas).to_world(instance)
     }
 
-    /// Walks the top level and notes where everything is: parents, levels, lists, and the place and trail of each instance.
+    /// Notes all of the top level's nodes anew, which have the numbers by which `top.nodes` lists them: heights, counts, and the links
+    /// upward from each node and instance.
     pub(super) fn index_top(&mut self) {
-        let count = self.nodes.len();
-        self.top.node_levels.resize(count, 0);
-        self.top.marks.resize(count, 0);
+        let numbers = self.top.nodes.len();
+        let used = (0..).zip(&self.top.nodes).filter(|&(_, &node)| node != INVALID);
+        let used: Vec<_> = used.map(|(number, _)| number..number + 1).collect();
+        self.top.numbers = Ranges::taken(numbers as u32, used).unwrap_or_default();
+        self.reserve_numbers();
+        for number in 0..numbers {
+            let node = self.top.nodes[number];
+            if node != INVALID {
+                self.top.number_of[node as usize] = number as u32;
+            }
+        }
         for placed in &mut self.placed {
             placed.node = INVALID;
         }
-        self.top.leaves.clear();
-        self.top.depth = 0;
-        let mut pairs = Vec::new();
-        let mut stack = alloc::vec![(self.top.root, 0, BitTrail::default())];
         self.parents[self.top.root as usize] = INVALID;
-        while let Some((node, level, trail)) = stack.pop() {
-            self.top.node_levels[node as usize] = level;
-            self.top.depth = self.top.depth.max(level + 1);
-            let mut leaf = false;
-            for slot in (0..W).rev() {
-                let (to, link) = {
-                    let own = &self.nodes[node as usize];
-                    (own.kind(slot), own.link(slot))
-                };
-                let own_trail = trail.with::<W>(level, slot as u32);
+        self.set_above(self.top.root, INVALID);
+        let mut order = alloc::vec![self.top.root];
+        let mut next = 0;
+        while let Some(&node) = order.get(next) {
+            next += 1;
+            for slot in 0..W {
+                let own = &self.nodes[node as usize];
+                let (to, link) = (own.kind(slot), own.link(slot));
                 if to == kind::INNER {
-                    stack.push((link, level + 1, own_trail));
-                } else if to == kind::MESH {
-                    leaf = true;
-                    let instance = &mut self.instances[link as usize];
-                    if instance.trail() != own_trail {
-                        instance.set_trail(own_trail);
-                        self.changes.new.written_instances.push(link);
-                    }
-                    let placed = &mut self.placed[link as usize];
-                    placed.node = node;
-                    placed.slot = slot as u32;
+                    order.push(link);
                 }
-            }
-            pairs.push((level, node));
-            if leaf {
-                self.top.leaves.push(node);
+                self.link_up(node, slot);
             }
         }
-        self.top.levels = Levels::gather(pairs);
+        for &node in order.iter().rev() {
+            self.measure(node);
+        }
+        self.top.edits.fill(0);
+        self.top.touched.clear();
+        self.top.levels = None;
+    }
+
+    /// The top level's nodes by height, listed once and kept until one comes or goes.
+    pub(super) fn top_levels(&mut self) -> &Levels {
+        if self.top.levels.is_none() {
+            self.top.levels = Some(self.top.by_height());
+        }
+        self.top.levels.get_or_insert_default()
+    }
+
+    /// The summaries of the children of a node of the top level, computed.
+    fn refit_node(&mut self, node: u32) {
+        self.nodes[node as usize] = refit::top(&self.nodes, &self.instances, &self.roots, node);
     }
 }
 

@@ -10,7 +10,7 @@ use self::walk::{bad, listed};
 use super::{Bvh, Trails};
 use crate::node::{LightNode, kind};
 use crate::refit;
-use crate::trail::BitTrail;
+use crate::trail::{BitTrail, place};
 use crate::tree::INVALID;
 use crate::validate::{Violation, What, contained, equal, same_words};
 
@@ -35,7 +35,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// - each node in use is reached once, through links that are in range, and knows its parent;
     /// - each live instance is a leaf of the top level exactly once, each triangle of a bottom level a leaf of it exactly
     ///   once, and their trails lead there;
-    /// - the lists of levels are complete and run from the deepest level to the root;
+    /// - the lists of levels are complete and run from the deepest level to the root; heights and counts are those of what is below;
+    /// - every node of the top level but its root has two children or more;
     /// - ranges of nodes, triangles and lights in use do not overlap;
     /// - an instance's words are those of its transform, mesh and bottom level;
     /// - every word of every bounds is what refit makes of triangles and instances from scratch;
@@ -100,7 +101,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             let placed = &self.placed[link as usize];
             equal(node, slot, What::Link, node, placed.node)?;
             equal(node, slot, What::Link, slot, placed.slot)?;
-            let own = self.instances[link as usize].trail();
+            let own = self.arrays().path_of(INVALID, link).top;
             equal(node, slot, What::TrailLow, trail.low, own.low)?;
             equal(node, slot, What::TrailHigh, trail.high, own.high)?;
         }
@@ -127,7 +128,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             .map(|range: &Range<u32>| range.end - range.start)
             .sum();
         disjoint(used_lights)?;
-        listed(&self.top.levels, &found)?;
+        self.check_top(&found)?;
 
         let mut nodes = 0;
         for (index, (expected, found)) in (0u32..).zip(again.iter().zip(&self.nodes)) {
@@ -199,7 +200,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         )?;
         let expected = crate::instance::Instance {
             root: found.root,
-            trail: found.trail,
+            place: found.place,
+            above: found.above,
             blas: found.blas,
             first: found.first,
             first_triangle: found.first_triangle,
@@ -222,6 +224,61 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             index,
             self.instances[placed.listed as usize].listed,
         )
+    }
+
+    /// Numbers, heights, counts and links upward of the top level's nodes, as a walk found them. Every node but the root has two
+    /// children or more.
+    fn check_top(&self, found: &Found) -> Result<(), Violation> {
+        let top = &self.top;
+        equal(
+            INVALID,
+            INVALID,
+            What::Listed,
+            found.levels.len() as u32,
+            top.len() as u32,
+        )?;
+        let mut levels = found.levels.clone();
+        levels.sort_unstable_by_key(|&(level, node)| (core::cmp::Reverse(level), node));
+        let mut measured = alloc::vec![(0, 0); top.nodes.len()];
+        for &(_, node) in &levels {
+            let number = top.number(node);
+            let listed = top.nodes.get(number as usize).copied().unwrap_or(INVALID);
+            equal(node, INVALID, What::Listed, node, listed)?;
+            let own = &self.nodes[node as usize];
+            let (mut height, mut count, mut children) = (1, 0, 0);
+            for slot in 0..W {
+                let link = own.link(slot);
+                if own.kind(slot) == kind::INNER {
+                    let (below, instances): (u32, u32) = measured[top.number(link) as usize];
+                    (height, count) = (height.max(below + 1), count + instances);
+                    let above = place::<W>(number, slot as u32);
+                    let record = self.instances.get(top.number(link) as usize);
+                    equal(
+                        node,
+                        slot as u32,
+                        What::Place,
+                        above,
+                        record.map_or(0, |record| record.above),
+                    )?;
+                } else if own.kind(slot) == kind::MESH {
+                    count += 1;
+                }
+                children += u32::from(own.kind(slot) != kind::EMPTY);
+            }
+            measured[number as usize] = (height, count);
+            equal(
+                node,
+                INVALID,
+                What::ListedLevel,
+                height,
+                top.heights[number as usize],
+            )?;
+            equal(node, INVALID, What::Listed, count, top.counts[number as usize])?;
+            if node != top.root {
+                equal(node, INVALID, What::Children, children.max(2), children)?;
+            }
+        }
+        Ok(())
     }
 
     /// The children of what `node` links to lie within what it holds of them.

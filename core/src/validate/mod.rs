@@ -58,6 +58,10 @@ pub enum What {
     Listed,
     /// Level of a node in the list: that of its range, and below the range before.
     ListedLevel,
+    /// The place of a node of the top level in the node above it, in the record of its number.
+    Place,
+    /// Number of children of a node of the top level, at least two below the root.
+    Children,
     /// A word of a node that does not show in the decoded summaries; the number counts words.
     Word(u32),
     /// A component of a child's summary that refit would not give.
@@ -89,6 +93,8 @@ impl fmt::Display for What {
             Self::Owner => write!(f, "mesh light of the triangle"),
             Self::TrailLow => write!(f, "low word of the leaf's trail"),
             Self::TrailHigh => write!(f, "high word of the leaf's trail"),
+            Self::Place => write!(f, "place in the node above"),
+            Self::Children => write!(f, "number of children"),
             Self::Listed => write!(f, "times in the list of levels"),
             Self::ListedLevel => write!(f, "level in the list of levels"),
             Self::Word(word) => write!(f, "word {word} of the node"),

@@ -2,6 +2,8 @@
 
 extern crate std;
 
+use std::vec::Vec;
+
 use crate::bvh::{Rebuild, RebuildParams};
 use crate::kit::line;
 use crate::{Edit, LightBvh, MeshId, Transform};
@@ -25,6 +27,16 @@ fn scramble(bvh: &mut LightBvh, mesh: MeshId) {
     let triangles = (0..200).map(|k| line(k * 77 % 200, 10.0));
     bvh.set_triangles(mesh, triangles.collect()).expect("as many");
     bvh.refit();
+}
+
+/// As many instances as there are, so that the top level is built anew.
+fn as_many(bvh: &LightBvh, mesh: MeshId) -> Vec<Edit> {
+    let add = |k: usize| Edit::AddInstance {
+        mesh,
+        transform: Transform::at([k as f32, 50.0, 0.0]),
+        radiance: 1.0,
+    };
+    (0..bvh.live.len()).map(add).collect()
 }
 
 const TOP: RebuildParams = RebuildParams {
@@ -80,14 +92,8 @@ fn a_top_level_built_by_an_edit_is_that_of_a_rebuild() {
         bvh.remove_instance(id).expect("its own");
     }
     bvh.refit();
-    for k in 0.. {
-        bvh.add_instance(mesh, Transform::at([k as f32, 50.0, 0.0]))
-            .expect("one more");
-        if bvh.changes.new.whole_top {
-            break;
-        }
-        bvh.refit();
-    }
+    bvh.apply(as_many(&bvh, mesh)).expect("instances");
+    assert!(bvh.changes.new.whole_top);
     bvh.refit();
     let before = bvh.instances().to_vec();
     let rebuild: Rebuild<_, 8> = bvh.rebuild(&TOP);

@@ -8,13 +8,13 @@ use crate::node::LightNode;
 use crate::trail::max_levels;
 
 /// Version of the words of [`Bvh::to_words`](crate::Bvh::to_words).
-pub const FORMAT: u32 = 1;
+pub const FORMAT: u32 = 2;
 
 /// "LBVH" as bytes in little-endian order.
 const MAGIC: u32 = u32::from_le_bytes(*b"LBVH");
 
 /// Words of a header.
-pub(super) const HEADER_WORDS: usize = 20;
+pub(super) const HEADER_WORDS: usize = 19;
 
 const SINGLE: u32 = 1;
 const FORGOTTEN: u32 = 2;
@@ -41,8 +41,8 @@ pub(super) struct Header {
     /// Number of ranges of lights that are no more.
     pub removed: u32,
     pub top_root: u32,
-    pub top_ranges: u32,
-    pub top_leaves: u32,
+    /// Numbers of the top level's nodes, free ones included.
+    pub top_nodes: u32,
     /// Number of bottom levels that may have lost quality.
     pub refitted: u32,
 }
@@ -70,8 +70,7 @@ impl Header {
             self.lights,
             self.removed,
             self.top_root,
-            self.top_ranges,
-            self.top_leaves,
+            self.top_nodes,
             self.refitted,
         ]
     }
@@ -117,7 +116,7 @@ impl Header {
         words.expect(triangles as usize <= MAX_LIGHTS, "number of triangles")?;
         let [blases, meshes, instances, lights] = words.array()?;
         words.expect(lights as usize <= MAX_LIGHTS, "end of the lights' numbers")?;
-        let [removed, top_root, top_ranges, top_leaves, refitted] = words.array()?;
+        let [removed, top_root, top_nodes, refitted] = words.array()?;
         if top_root >= nodes {
             return Err(ReadError::Places {
                 what: "the top level's root",
@@ -140,8 +139,7 @@ impl Header {
             lights,
             removed,
             top_root,
-            top_ranges,
-            top_leaves,
+            top_nodes,
             refitted,
         })
     }

@@ -28,12 +28,16 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         bvh.removed_lights = read_ranges(words, header.removed, header.lights, "removed lights")?;
         words.expect(!header.forgotten || header.removed > 0, "removed lights")?;
         bvh.top.root = header.top_root;
-        bvh.top.ranges = read_ranges(words, header.top_ranges, header.nodes, "nodes of the top level")?;
-        let leaves = read_indices(words, header.top_leaves, header.nodes, "leaf of the top level")?;
+        bvh.top.nodes = Vec::with_capacity(words.need(header.top_nodes)?);
+        for _ in 0..header.top_nodes {
+            let node = words.one()?;
+            words.expect(node < header.nodes || node == INVALID, "node of the top level")?;
+            bvh.top.nodes.push(node);
+        }
         let refitted = read_indices(words, header.refitted, header.blases, "refitted bottom level")?;
         bvh.read_nodes(words, &header)?;
         bvh.read_triangles(words, &header)?;
-        bvh.restore(&header, leaves)?;
+        bvh.restore(&header)?;
         bvh.restore_changes(refitted)?;
         Ok(bvh)
     }
@@ -121,7 +125,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 lights: 0..0,
                 node: INVALID,
                 slot: 0,
-                created: 0,
+                hung: 0,
+                mark: 0,
                 changed: 0,
             };
             if placed.live {

@@ -25,14 +25,15 @@ const LISTS: ReadError = ReadError::Places {
 };
 
 impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
-    pub(super) fn restore(&mut self, header: &Header, top_leaves: Vec<u32>) -> Result<(), ReadError> {
+    pub(super) fn restore(&mut self, header: &Header) -> Result<(), ReadError> {
         let bottoms = self.blases.iter().map(|blas| blas.nodes.clone());
-        let used = bottoms.chain(self.top.ranges.iter().cloned()).collect();
+        let tops = self.top.in_use().map(|node| node..node + 1);
+        let used = bottoms.chain(tops).collect();
         self.node_ranges = taken(header.nodes, used, "nodes")?;
         self.restore_lists()?;
         self.restore_lights(header)?;
         self.restore_bottoms()?;
-        self.restore_top(top_leaves)?;
+        self.restore_top()?;
         if self.single {
             self.check_single()?;
         }
@@ -154,7 +155,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         Ok(())
     }
 
-    fn restore_top(&mut self, top_leaves: Vec<u32>) -> Result<(), ReadError> {
+    fn restore_top(&mut self) -> Result<(), ReadError> {
         self.instances = alloc::vec![NO_INSTANCE; self.placed.len()];
         for (instance, &listed) in self.instances.iter_mut().zip(&self.live) {
             instance.listed = listed;
@@ -176,29 +177,30 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 return Err(LISTS);
             }
         }
-        // Each is in one place at most, and so in a place of its own.
-        let mut in_ranges = alloc::vec![false; self.nodes.len()];
-        for range in &self.top.ranges {
-            in_ranges[range.start as usize..range.end as usize].fill(true);
-        }
-        let own: usize = self.top.ranges.iter().map(ExactSizeIterator::len).sum();
-        let found_nodes = found.levels.iter().map(|&(_, node)| node);
-        let mut nodes = found_nodes.chain(top_leaves.iter().copied());
+        // Each is in one place at most, and so in a place of its own. No two of the listed nodes are one, or they would overlap.
+        let mut is_listed = alloc::vec![false; self.nodes.len()];
+        self.top.in_use().for_each(|node| is_listed[node as usize] = true);
+        let root = self.top.root;
+        let is_branched = |node: u32| {
+            (0..W)
+                .filter(|&slot| self.nodes[node as usize].kind(slot) != kind::EMPTY)
+                .count()
+                > 1
+        };
+        let mut nodes = found.levels.iter().map(|&(_, node)| node);
+        // There are fewer nodes than records, unless there are none of these.
+        let fits = self.top.nodes.len() <= self.placed.len().max(1);
         if found.leaves.len() != self.live.len()
-            || found.levels.len() != own
-            || top_leaves.len() > own
-            || !nodes.all(|node| in_ranges[node as usize])
+            || found.levels.len() != self.top.len()
+            || !fits
+            || !nodes.all(|node| is_listed[node as usize] && (node == root || is_branched(node)))
         {
             return Err(NODES);
         }
         self.index_top();
-        // Those that have lost their instances are among them.
-        if top_leaves.len() < self.top.leaves.len() {
-            return Err(NODES);
-        }
-        self.top.leaves = top_leaves;
-        for range in self.top.levels.ranges() {
-            let nodes = &self.top.levels.nodes()[range];
+        let levels = self.top.by_height();
+        for range in levels.ranges() {
+            let nodes = &levels.nodes()[range];
             sweep::top(&mut self.nodes, &self.instances, &self.roots, nodes);
         }
         Ok(())

@@ -28,17 +28,16 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             lights: self.lights.end(),
             removed: self.removed_lights.len() as u32,
             top_root: self.top.root,
-            top_ranges: self.top.ranges.len() as u32,
-            top_leaves: self.top.leaves.len() as u32,
+            top_nodes: self.top.nodes.len() as u32,
             refitted: refitted.len() as u32,
         };
         let mut words = header.words::<N, W>().to_vec();
         self.write_bottoms(&mut words);
         self.write_instances(&mut words);
-        for range in self.removed_lights.iter().chain(&self.top.ranges) {
+        for range in &self.removed_lights {
             words.extend([range.start, range.end]);
         }
-        words.extend(&self.top.leaves);
+        words.extend(&self.top.nodes);
         words.extend(refitted);
         self.write_nodes(&mut words);
         self.write_triangles_to(&mut words);
@@ -89,10 +88,10 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// Kinds and links of the nodes in use.
     fn write_nodes(&self, words: &mut Vec<u32>) {
         let mut used = alloc::vec![false; self.nodes.len()];
-        let bottoms = self.blases.iter().map(|blas| &blas.nodes);
-        for range in bottoms.chain(&self.top.ranges) {
+        for range in self.blases.iter().map(|blas| &blas.nodes) {
             used[range.start as usize..range.end as usize].fill(true);
         }
+        self.top.in_use().for_each(|node| used[node as usize] = true);
         for (node, &used) in self.nodes.iter().zip(&used) {
             let kind = |slot: usize| if used { node.kind(slot) } else { kind::EMPTY };
             words.push((0..W).fold(0, |kinds, slot| kinds | (kind(slot) << (2 * slot))));

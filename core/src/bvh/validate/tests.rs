@@ -52,19 +52,16 @@ fn finds(what: What, break_it: impl FnOnce(&mut Tree)) {
 fn a_sound_scene_is_counted() {
     let scene = scene();
     let stats = scene.validate().expect("sound");
-    let used = scene
-        .blases
-        .iter()
-        .map(|blas| &blas.nodes)
-        .chain(&scene.top.ranges);
+    let used = scene.blases.iter().map(|blas| blas.nodes.len());
+    let used = used.sum::<usize>() + scene.top.len();
     assert_eq!(
         stats,
         Stats {
-            nodes: used.map(|range| range.end - range.start).sum(),
+            nodes: used as u32,
             instances: 6,
             blases: 2,
             lights: 3 * 9,
-            depth: scene.top.depth + scene.blases.iter().map(|blas| blas.depth).max().expect("two"),
+            depth: scene.top.depth() + scene.blases.iter().map(|blas| blas.depth).max().expect("two"),
         }
     );
 }
@@ -108,11 +105,20 @@ fn broken_trees_are_found() {
 fn trees_deeper_than_a_trail_are_found() {
     // A chain of nodes below the root, one more than a trail of one bit per level holds.
     let chain = |levels: u32| {
-        let mut nodes = vec![CompactNode::EMPTY; levels as usize];
-        for link in 1..levels {
-            nodes[link as usize - 1].set_child(0, kind::INNER, link);
+        let mut scene = scene();
+        let mesh = scene.mesh_id(0).expect("there");
+        while scene.live.len() <= levels as usize {
+            scene.add_instance(mesh, Transform::IDENTITY).expect("one more");
         }
-        let mut scene = Tree::default();
+        let mut nodes = vec![CompactNode::EMPTY; levels as usize];
+        for (link, node) in (1..).zip(&mut nodes) {
+            node.set_child(1, kind::MESH, link);
+            if link < levels {
+                node.set_child(0, kind::INNER, link);
+            } else {
+                node.set_child(0, kind::MESH, 0);
+            }
+        }
         scene.replace_top(&nodes);
         scene.changes.new.whole_top = true;
         scene.refit();
@@ -184,8 +190,25 @@ fn broken_instances_are_found() {
     finds(What::Mesh, |s| s.placed[2].live = false);
     finds(What::Link, |s| s.placed[2].node += 1);
     finds(What::Link, |s| s.placed[2].slot ^= 1);
-    finds(What::TrailLow, |s| s.instances[2].trail[0] ^= 1 << 20);
-    finds(What::TrailHigh, |s| s.instances[2].trail[1] ^= 1);
+    finds(What::TrailLow, |s| s.instances[2].place ^= 1);
+    finds(What::TrailLow, |s| s.instances[2].place = INVALID);
+    // The link upward of a node, in the record of its number.
+    finds(What::TrailLow, |s| s.instances[1].above ^= 1);
+    finds(What::ListedLevel, |s| s.top.heights[0] += 1);
+    finds(What::Listed, |s| s.top.counts[0] += 1);
+    finds(What::Listed, |s| s.top.nodes.swap(0, 1));
+    finds(What::Children, |s| {
+        // A node between the root and one of its nodes.
+        let root = s.top.root;
+        let slot = (0..2)
+            .find(|&slot| s.nodes[root as usize].kind(slot) == kind::INNER)
+            .expect("a node");
+        let below = s.nodes[root as usize].link(slot);
+        let between = s.new_top_node();
+        s.hang(between, 0, kind::INNER, below);
+        s.hang(root, slot, kind::INNER, between);
+        s.update_path(between);
+    });
     finds(What::Blas, |s| s.instances[2].blas = 1);
     finds(What::Root, |s| s.instances[2].root += 1);
     finds(What::First, |s| s.instances[2].first += 1);

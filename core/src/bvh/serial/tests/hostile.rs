@@ -133,13 +133,14 @@ fn random_words_are_refused() {
 #[test]
 fn lists_that_are_not_those_of_the_tree_are_refused() {
     type Small = Bvh<MomentNode<8>, Moments, 8>;
-    let wrong: [fn(&mut Small); 4] = [
+    let wrong: [fn(&mut Small); 5] = [
         |bvh| bvh.bottom_depth = 0,
         |bvh| {
-            bvh.top.leaves.pop();
+            bvh.top.nodes.pop();
         },
-        |bvh| bvh.top.leaves.clear(),
-        |bvh| bvh.top.leaves = [&*bvh.top.leaves; 9].concat(),
+        |bvh| bvh.top.nodes.clear(),
+        |bvh| bvh.top.nodes = [&*bvh.top.nodes; 9].concat(),
+        |bvh| bvh.top.nodes.extend([u32::MAX; 9999]),
     ];
     for (k, wrong) in wrong.into_iter().enumerate() {
         let mut bvh: Small = small();

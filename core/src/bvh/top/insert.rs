@@ -1,0 +1,225 @@
+//! Instances put into the top level one by one: down from the root to the place where they cost least.
+
+use alloc::vec::Vec;
+
+use super::cost::{Cluster, floor};
+use crate::build::{Topology, build_top};
+use crate::bvh::{Bvh, Trails};
+use crate::node::{LightNode, kind};
+use crate::trail::max_levels;
+
+/// What is put into the top level: an instance, or a node with its children.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Item {
+    pub kind: u32,
+    pub link: u32,
+    pub cluster: Cluster,
+    /// Levels of the node; 0 of an instance.
+    pub height: u32,
+}
+
+/// A child of a node, as an insertion sees it.
+#[derive(Clone, Copy, Debug)]
+struct Child {
+    slot: usize,
+    item: Item,
+}
+
+/// Where an item goes.
+#[derive(Clone, Copy, Debug)]
+enum Step {
+    /// Into an empty slot.
+    Place(usize),
+    /// To the node in this slot.
+    Enter(usize),
+    /// Into a new node, with the child that is in this slot.
+    Pair(usize),
+    /// Into the second slot; both children are put into a new node, in the first slot.
+    Merge(usize, usize),
+}
+
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+    /// Puts `added` instances into the top level, which has none of them. A few go in one by one, each in time in proportion to the
+    /// depth. Many are built into a tree of their own first, whose lowest nodes go in; as many as there are already, and everything is
+    /// built anew. So time is in proportion to what is added, times the depth.
+    pub(in crate::bvh) fn insert_instances(&mut self, added: &[u32]) {
+        let root = self.top.number(self.top.root);
+        let there = self.top.counts.get(root as usize).copied().unwrap_or(0) as usize;
+        if added.is_empty() {
+            return;
+        }
+        if added.len() >= there {
+            self.build_top();
+            return;
+        }
+        if added.len() < 4 * W {
+            for &index in added {
+                self.insert_instance_leaf(index);
+            }
+            return;
+        }
+        let topology: Topology<N> =
+            build_top::<N, W>(added.iter().map(|&i| (i, self.in_world(i))), &self.params);
+        for node in &topology.nodes {
+            let leaves = (0..W).filter(|&slot| node.kind(slot) == kind::MESH);
+            let leaves: Vec<u32> = leaves.map(|slot| node.link(slot)).collect();
+            if leaves.len() < 2 {
+                leaves
+                    .into_iter()
+                    .for_each(|leaf| self.insert_instance_leaf(leaf));
+                continue;
+            }
+            let own = self.new_top_node();
+            for (slot, &leaf) in leaves.iter().enumerate() {
+                self.hang(own, slot, kind::MESH, leaf);
+            }
+            self.measure(own);
+            self.refit_node(own);
+            self.changes.new.top_nodes.push(own);
+            let item = Item {
+                kind: kind::INNER,
+                link: own,
+                cluster: Cluster::new(&self.nodes[own as usize].merged(), leaves.len() as u32),
+                height: 1,
+            };
+            if !self.insert(item) {
+                self.free_top_node(own);
+                leaves
+                    .into_iter()
+                    .for_each(|leaf| self.insert_instance_leaf(leaf));
+            }
+        }
+    }
+
+    /// Puts one instance into the top level, in time in proportion to the depth.
+    pub(in crate::bvh) fn insert_instance_leaf(&mut self, index: u32) {
+        let item = Item {
+            kind: kind::MESH,
+            link: index,
+            cluster: Cluster::new(&self.in_world(index), 1),
+            height: 0,
+        };
+        let placed = self.insert(item);
+        debug_assert!(placed, "an instance fits into any tree");
+        self.changes.new.mark_instance(index);
+    }
+
+    /// Puts an item where it costs least, as far as a walk from the root tells that looks at one node of each level. False where the
+    /// tree would get deeper than places may be; an instance always fits.
+    pub(super) fn insert(&mut self, item: Item) -> bool {
+        let mut node = self.top.root;
+        let mut level = 0;
+        loop {
+            let Some(step) = self.step(node, level, &item) else {
+                return false;
+            };
+            match step {
+                Step::Place(slot) => self.hang(node, slot, item.kind, item.link),
+                Step::Enter(slot) => {
+                    node = self.nodes[node as usize].link(slot);
+                    level += 1;
+                    continue;
+                }
+                Step::Pair(slot) => {
+                    let own = &self.nodes[node as usize];
+                    let (to, link) = (own.kind(slot), own.link(slot));
+                    self.pair(node, slot, (to, link), (item.kind, item.link));
+                }
+                Step::Merge(a, b) => {
+                    let own = &self.nodes[node as usize];
+                    let [one, other] = [a, b].map(|slot| (own.kind(slot), own.link(slot)));
+                    self.pair(node, a, one, other);
+                    self.hang(node, b, item.kind, item.link);
+                }
+            }
+            self.update_path(node);
+            self.top.touched.push(node);
+            return true;
+        }
+    }
+
+    /// Puts a new node over two children, each kind and link, into `slot` of `node`.
+    fn pair(&mut self, node: u32, slot: usize, one: (u32, u32), other: (u32, u32)) {
+        let own = self.new_top_node();
+        self.hang(own, 0, one.0, one.1);
+        self.hang(own, 1, other.0, other.1);
+        self.dissolve(own);
+        self.measure(own);
+        self.refit_node(own);
+        self.changes.new.top_nodes.push(own);
+        self.hang(node, slot, kind::INNER, own);
+    }
+
+    /// The children of a node of the top level.
+    fn children(&self, node: u32) -> impl Iterator<Item = Child> + '_ {
+        let own = &self.nodes[node as usize];
+        (0..W)
+            .filter(|&slot| own.kind(slot) != kind::EMPTY)
+            .map(move |slot| {
+                let (to, link) = (own.kind(slot), own.link(slot));
+                let (height, count) = self.measured(to, link);
+                let cluster = Cluster::new(&own.summary(slot), count);
+                let item = Item {
+                    kind: to,
+                    link,
+                    cluster,
+                    height,
+                };
+                Child { slot, item }
+            })
+    }
+
+    /// Where an item goes from `node` at `level`: what costs least of all that keeps the tree within its levels. `None` where nothing
+    /// does, never for an instance: a node with less than its levels hold has a child of which that is true, too.
+    fn step(&self, node: u32, level: u32, item: &Item) -> Option<Step> {
+        let levels = max_levels(W);
+        let own = &self.nodes[node as usize];
+        if let Some(slot) = (0..W).find(|&slot| own.kind(slot) == kind::EMPTY) {
+            return (level + 1 + item.height <= levels).then_some(Step::Place(slot));
+        }
+        let mut children: Vec<Child> = self.children(node).collect();
+        let mut item = *item;
+        let phi = children.iter().map(|child| child.item.cluster.phi).sum();
+        let count = children.iter().map(|child| child.item.cluster.count).sum();
+        let least = floor(phi, count);
+        for own in children
+            .iter_mut()
+            .map(|child| &mut child.item)
+            .chain([&mut item])
+        {
+            own.cluster.phi = own.cluster.phi.max(least * f64::from(own.cluster.count));
+        }
+
+        let mut best: Option<(f64, Step)> = None;
+        let mut offer = |cost: f64, step: Step| {
+            if best.is_none_or(|(least, _)| cost < least) {
+                best = Some((cost, step));
+            }
+        };
+        for (k, one) in children.iter().enumerate() {
+            let fits = level + 2 + one.item.height.max(item.height) <= levels;
+            if one.item.kind == kind::INNER {
+                // Room for as many below as there will be.
+                let below = levels - level - 1;
+                let most = W.checked_pow(below).unwrap_or(usize::MAX);
+                let count = one.item.cluster.count as usize + item.cluster.count as usize;
+                if count <= most && level + 2 + item.height <= levels {
+                    let cost = one.item.cluster.merging(&item.cluster) + item.cluster.cost();
+                    offer(cost, Step::Enter(one.slot));
+                }
+            }
+            if fits {
+                offer(one.item.cluster.pairing(&item.cluster), Step::Pair(one.slot));
+            }
+            for other in &children[k + 1..] {
+                if level + 2 + one.item.height.max(other.item.height) <= levels
+                    && level + 1 + item.height <= levels
+                {
+                    let cost = one.item.cluster.pairing(&other.item.cluster);
+                    offer(cost, Step::Merge(one.slot, other.slot));
+                }
+            }
+        }
+        best.map(|(_, step)| step)
+    }
+}
