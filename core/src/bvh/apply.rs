@@ -68,12 +68,9 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                     moved.push(instance.index);
                 }
                 Edit::SetRadiance { instance, radiance } => {
-                    let placed = &mut self.placed[instance.index as usize];
-                    let was = core::mem::replace(&mut placed.radiance, radiance);
+                    self.placed[instance.index as usize].radiance = radiance;
                     self.place(instance.index);
-                    if was == 0.0 && radiance > 0.0 {
-                        moved.push(instance.index);
-                    }
+                    moved.push(instance.index);
                 }
                 Edit::SetTriangles { mesh, triangles } => {
                     let extent = deformed.next().unwrap_or_else(|| Extent::of(&triangles));
@@ -149,6 +146,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             node: INVALID,
             slot: 0,
             hung: self.epoch,
+            hung_radiance: radiance,
             mark: 0,
             changed: self.epoch,
         };

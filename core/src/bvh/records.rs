@@ -35,6 +35,8 @@ pub(super) struct InstanceState {
     pub slot: u32,
     /// When it was put where it is in the top level, but for rebuilds.
     pub hung: u64,
+    /// Its radiance then.
+    pub hung_radiance: f32,
     /// The last search that came by.
     pub mark: u32,
     /// When its words changed last.

@@ -16,6 +16,7 @@ mod settle;
 use alloc::vec::Vec;
 
 pub(super) use self::rebuild::{TopCopy, TopTree};
+pub(super) use self::settle::MOST as MOST_EDITS;
 use super::ranges::Ranges;
 use super::{Bvh, Trails};
 use crate::build::{Topology, build_top};
@@ -41,7 +42,7 @@ pub(super) struct Top {
     /// By number: instances below.
     pub counts: Vec<u32>,
     /// By number: edits below since the node was built.
-    pub edits: Vec<u64>,
+    pub edits: Vec<u32>,
     /// Nodes whose children edits have changed; they may be gone.
     pub touched: Vec<u32>,
     /// By number: the last search that came by. Instances have theirs.
@@ -110,6 +111,10 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let range = self.place_nodes(nodes);
         self.top.root = range.start;
         self.top.nodes = range.collect();
+        self.top.edits.clear();
+        for placed in &mut self.placed {
+            placed.hung_radiance = placed.radiance;
+        }
         self.index_top();
     }
 
@@ -182,7 +187,6 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         for &node in order.iter().rev() {
             self.measure(node);
         }
-        self.top.edits.fill(0);
         self.top.touched.clear();
         self.top.levels = None;
     }

@@ -9,6 +9,7 @@ use super::places::{read_indices, read_range, read_ranges, taken};
 use super::words::Words;
 use crate::bvh::blas::Blas;
 use crate::bvh::check::factor;
+use crate::bvh::top::{MOST_EDITS, Top};
 use crate::bvh::{Bvh, EditReason, InstanceState, Mesh};
 use crate::levels::Levels;
 use crate::light::EmissiveTriangle;
@@ -27,12 +28,18 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         bvh.read_instances(words, &header)?;
         bvh.removed_lights = read_ranges(words, header.removed, header.lights, "removed lights")?;
         words.expect(!header.forgotten || header.removed > 0, "removed lights")?;
-        bvh.top.root = header.top_root;
-        bvh.top.nodes = Vec::with_capacity(words.need(header.top_nodes)?);
+        bvh.top = Top {
+            root: header.top_root,
+            nodes: Vec::with_capacity(words.need(header.top_nodes)?),
+            ..Top::default()
+        };
         for _ in 0..header.top_nodes {
             let node = words.one()?;
             words.expect(node < header.nodes || node == INVALID, "node of the top level")?;
             bvh.top.nodes.push(node);
+            let edits = if node == INVALID { 0 } else { words.one()? };
+            words.expect(edits <= MOST_EDITS, "edits below a node of the top level")?;
+            bvh.top.edits.push(edits);
         }
         let refitted = read_indices(words, header.refitted, header.blases, "refitted bottom level")?;
         bvh.read_nodes(words, &header)?;
@@ -126,6 +133,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 node: INVALID,
                 slot: 0,
                 hung: 0,
+                hung_radiance: 0.0,
                 mark: 0,
                 changed: 0,
             };
@@ -145,6 +153,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 };
                 placed.lights = first..end;
                 placed.radiance = f32::from_bits(words.one()?);
+                placed.hung_radiance = f32::from_bits(words.one()?);
                 let entries = words.array::<12>()?.map(f32::from_bits);
                 let column = |k: usize| [entries[3 * k], entries[3 * k + 1], entries[3 * k + 2]];
                 placed.transform = Transform {

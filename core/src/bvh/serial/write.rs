@@ -37,7 +37,12 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         for range in &self.removed_lights {
             words.extend([range.start, range.end]);
         }
-        words.extend(&self.top.nodes);
+        for (&node, &edits) in self.top.nodes.iter().zip(&self.top.edits) {
+            words.push(node);
+            if node != INVALID {
+                words.push(edits);
+            }
+        }
         words.extend(refitted);
         self.write_nodes(&mut words);
         self.write_triangles_to(&mut words);
@@ -79,6 +84,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 mesh, user, listed, ..
             } = *placed;
             words.extend([mesh, user, listed, placed.lights.start, placed.radiance.to_bits()]);
+            words.push(placed.hung_radiance.to_bits());
             let transform = &placed.transform;
             let entries = transform.columns.iter().flatten().chain(&transform.translation);
             words.extend(entries.map(|x| x.to_bits()));

@@ -48,6 +48,10 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if added.is_empty() {
             return;
         }
+        self.epoch += 1;
+        for &index in added {
+            self.placed[index as usize].hung = self.epoch;
+        }
         if added.len() >= there {
             self.build_top();
             return;

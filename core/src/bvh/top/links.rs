@@ -49,8 +49,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.nodes[node as usize].set_child(slot, to, link);
         self.link_up(node, slot);
         if to == kind::MESH {
-            self.epoch += 1;
-            self.placed[link as usize].hung = self.epoch;
+            let placed = &mut self.placed[link as usize];
+            placed.hung_radiance = placed.radiance;
         }
         self.changes.new.written_nodes.push(node..node + 1);
         self.top.levels = None;
@@ -146,7 +146,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             self.measure(node);
             self.refit_node(node);
             let number = self.top.number(node) as usize;
-            self.top.edits[number] += 1;
+            self.top.edits[number] = (self.top.edits[number] + 1).min(super::settle::MOST);
             node = self.parents[node as usize];
         }
     }

@@ -1,4 +1,4 @@
-//! Instances that have moved away from those around them.
+//! Instances that have moved away from those around them, or are much brighter or dimmer than when they were put there.
 
 use alloc::vec::Vec;
 
@@ -7,32 +7,45 @@ use crate::bvh::{Bvh, Trails};
 use crate::node::LightNode;
 use crate::tree::INVALID;
 
-/// An instance is put in elsewhere once its node would cost more than this part of what the node above costs as a whole. In a tree as
-/// built, a node's share is about 1/32.
-const SHARE: f64 = 0.25;
+/// An instance is put in elsewhere once it adds this part to what its node costs.
+const ADDED: f64 = 0.5;
+/// That node's share in what the node above costs as a whole must be this; in a tree as built it is about 1/32.
+const SHARE: f64 = 1.0 / 16.0;
+/// And once its radiance has changed by this factor since it was put where it is.
+const FACTOR: f32 = 2.0;
+/// Most instances that one call puts in elsewhere, and one more for so many instances. Where more are misplaced the rest waits for a
+/// rebuild: an animation of all instances costs what it always did.
+const MOST: usize = 64;
 
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Takes those of `moved` instances, which may repeat, out of the top level that make their nodes wide, and adds them to `out`.
     pub(in crate::bvh) fn take_misplaced(&mut self, mut moved: Vec<u32>, out: &mut Vec<u32>) {
         moved.sort_unstable();
         moved.dedup();
-        moved.retain(|&index| self.is_misplaced(index));
-        for index in moved {
+        let excess = moved.into_iter().map(|index| (self.excess(index), index));
+        let mut misplaced: Vec<(f64, u32)> = excess.filter(|&(excess, _)| excess > 0.0).collect();
+        let most = MOST + self.live.len() / MOST;
+        if misplaced.len() > most {
+            misplaced.select_nth_unstable_by(most, |a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+            misplaced.truncate(most);
+            misplaced.sort_unstable_by_key(|&(_, index)| index);
+        }
+        for (_, index) in misplaced {
             self.remove_leaf(index);
             out.push(index);
         }
     }
 
-    /// Whether an instance lies so far from the others of its node, as they were at the last refit, that another place is worth
-    /// looking for. Looks at a slot of each of the two nodes above.
-    fn is_misplaced(&self, index: u32) -> bool {
+    /// What an instance that is misplaced costs more where it is; 0 of one that is not. Looks at a slot of each of the two nodes above,
+    /// as they were at the last refit.
+    fn excess(&self, index: u32) -> f64 {
         let placed = &self.placed[index as usize];
         if !placed.live || placed.node == INVALID {
-            return false;
+            return 0.0;
         }
         let above = self.parents[placed.node as usize];
         if above == INVALID {
-            return false;
+            return 0.0;
         }
         let around = Cluster::new(
             &self.nodes[above as usize].summary(self.slot_above(placed.node)),
@@ -43,6 +56,13 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             top => Cluster::new(&self.nodes[top as usize].summary(self.slot_above(above)), 0),
         };
         let own = Cluster::new(&self.in_world(index), 1);
-        around.cost() + own.merging(&around) > SHARE * whole.cost()
+        let added = own.merging(&around);
+        let share = around.cost() + added;
+        if added > ADDED * around.cost() && share > SHARE * whole.cost() {
+            return added;
+        }
+        let (was, is) = (placed.hung_radiance, placed.radiance);
+        let changed = is > FACTOR * was || was > FACTOR * is;
+        if changed { added } else { 0.0 }
     }
 }

@@ -102,6 +102,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                     let placed = &mut self.placed[link as usize];
                     if placed.mark == listed {
                         placed.mark = found;
+                        placed.hung_radiance = placed.radiance;
                     } else {
                         placed.node = INVALID;
                         newcomers.push(link);
@@ -147,6 +148,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             if placed.mark != found {
                 continue;
             }
+            let placed = &self.placed[index as usize];
             let blas = self.blas_of(placed);
             if placed.changed.max(blas.changed).max(blas.created) > since {
                 self.changes.new.instances.push(index);

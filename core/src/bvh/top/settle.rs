@@ -1,44 +1,37 @@
-//! Nodes that edits have touched, built anew a few at a time.
+//! Subtrees that edits have touched, built anew.
 //!
-//! An insertion looks at one node of each level, so trees get worse by and by. After an edit the nodes above it are looked at from the
-//! lowest up: one below which so many edits were made since it was built last that they may matter is built anew over at most
-//! [`MOST`] subtrees, what is below these staying as it is. A node of `n` instances takes `n / OFTEN` edits: the lowest two levels are built at
-//! every edit, each level above an eighth as often as that below, for `W` = 8.
+//! An insertion looks at one node of each level, so trees get worse by and by. After an edit the nodes above it are looked at from
+//! the lowest up: one of `n` instances, at most [`MOST`], is built anew after `n / OFTEN` edits below it. So an edit costs
+//! [`OFTEN`] instances' share of a build on each of the levels below [`MOST`], on average, and one build of [`MOST`] at most, whatever the
+//! number of instances is. The levels above keep their nodes: insertion alone keeps them as good as new (measured:
+//! `docs/dynamics.md`). Nodes over a few subtrees taken as they are, in place of instances, were worse than no building at all.
 
 use alloc::vec::Vec;
 
-use super::cost::Cluster;
-use super::insert::Item;
 use crate::build::{BuildParams, Heuristic, Topology, build_top};
 use crate::bvh::{Bvh, Trails};
 use crate::node::{LightNode, kind};
 use crate::trail::max_levels;
 use crate::tree::INVALID;
 
-/// Subtrees that a node is built anew over.
-const MOST: usize = 64;
-/// A node of so many instances is built anew at each edit below it.
-const OFTEN: u32 = 64;
-
-/// What a node is built anew over.
-struct Treelet<S> {
-    /// The nodes that make way: the node itself first.
-    interior: Vec<u32>,
-    items: Vec<(Item, S)>,
-}
+/// Most instances of a subtree that is built within an edit.
+pub(in crate::bvh) const MOST: u32 = 512;
+/// A subtree of so many instances is built anew at each edit below it, a larger one after as many times more.
+const OFTEN: u32 = 16;
 
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Builds anew what edits have touched, in time in proportion to the edits times the depth.
+    /// Builds anew what edits have touched, as often as they were made.
     pub(in crate::bvh) fn settle(&mut self) {
         for start in core::mem::take(&mut self.top.touched) {
             let mut node = start;
-            // It may have gone since: then what took its place was built over it.
+            // It may have gone since: then what took its place was built with it.
             while self.top.number(node) != INVALID {
                 let number = self.top.number(node) as usize;
-                if self.top.heights[number] > 1
-                    && self.top.edits[number] * u64::from(OFTEN)
-                        >= u64::from(self.top.counts[number])
-                {
+                let count = self.top.counts[number];
+                if count > MOST {
+                    break;
+                }
+                if self.top.heights[number] > 1 && self.top.edits[number] >= count.div_ceil(OFTEN) {
                     self.build_anew(node);
                 }
                 node = self.parents[node as usize];
@@ -46,31 +39,24 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Builds `node` anew over a few subtrees below it.
+    /// Builds the subtree below `node` anew, by what the nodes know of the instances.
     fn build_anew(&mut self, node: u32) {
         let number = self.top.number(node) as usize;
         self.top.edits[number] = 0;
-        let treelet = self.treelet(node);
+        let (interior, leaves) = self.below(node);
         let params = BuildParams {
             heuristic: match self.params.heuristic {
+                // Few instances are sorted by Ward's criterion in no time.
                 Heuristic::Morton => Heuristic::Ward,
                 other => other,
             },
             ..self.params
         };
-        let summaries = (0..).zip(&treelet.items).map(|(k, &(_, summary))| (k, summary));
-        let topology: Topology<N> = build_top::<N, W>(summaries, &params);
-        let level = self.level(node);
-        let deepest = (0..).zip(&topology.nodes).flat_map(|(k, own)| {
-            let leaves = (0..W).filter(move |&slot| own.kind(slot) == kind::MESH);
-            let below = topology.levels[k];
-            leaves.map(move |slot| (below, own.link(slot)))
-        });
-        let deepest = deepest.map(|(below, item)| below + treelet.items[item as usize].0.height);
-        if level + 1 + deepest.max().unwrap_or(0) > max_levels(W) {
+        let topology: Topology<N> = build_top::<N, W>(leaves.into_iter(), &params);
+        if self.level(node) + topology.depth > max_levels(W) {
             return;
         }
-        for &old in &treelet.interior[1..] {
+        for &old in &interior[1..] {
             self.free_top_node(old);
         }
         let mut nodes = alloc::vec![node];
@@ -78,17 +64,13 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         for (&own, words) in nodes.iter().zip(&topology.nodes) {
             self.nodes[own as usize] = N::EMPTY;
             for slot in 0..W {
-                let link = words.link(slot) as usize;
+                let link = words.link(slot);
                 match words.kind(slot) {
-                    kind::INNER => self.hang(own, slot, kind::INNER, nodes[link]),
-                    kind::MESH => {
-                        let item = &treelet.items[link].0;
-                        self.hang(own, slot, item.kind, item.link);
-                    }
+                    kind::INNER => self.hang(own, slot, kind::INNER, nodes[link as usize]),
+                    kind::MESH => self.hang(own, slot, kind::MESH, link),
                     _ => {}
                 }
             }
-            self.changes.new.written_nodes.push(own..own + 1);
             self.changes.new.top_nodes.push(own);
         }
         for &own in nodes.iter().rev() {
@@ -98,29 +80,22 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.update_path(node);
     }
 
-    /// The children of `node`, the costliest node among them opened again and again while there are no more than [`MOST`].
-    fn treelet(&self, node: u32) -> Treelet<N::Summary> {
-        let mut out = Treelet {
-            interior: alloc::vec![node],
-            items: self.items(node).collect(),
-        };
-        loop {
-            let room = MOST + 1 - out.items.len();
-            let mut best: Option<(f64, usize)> = None;
-            for (k, (item, _)) in out.items.iter().enumerate() {
-                let cost = item.cluster.cost();
-                if item.kind == kind::INNER
-                    && best.is_none_or(|(most, _)| cost > most)
-                    && self.children_of(item.link) <= room
-                {
-                    best = Some((cost, k));
+    /// The nodes from `node` down, itself first, and the instances below it with what the nodes know of them.
+    fn below(&self, node: u32) -> (Vec<u32>, Vec<(u32, N::Summary)>) {
+        let (mut nodes, mut leaves) = (alloc::vec![node], Vec::new());
+        let mut next = 0;
+        while let Some(&node) = nodes.get(next) {
+            next += 1;
+            let own = &self.nodes[node as usize];
+            for slot in 0..W {
+                match own.kind(slot) {
+                    kind::INNER => nodes.push(own.link(slot)),
+                    kind::MESH => leaves.push((own.link(slot), own.summary(slot))),
+                    _ => {}
                 }
             }
-            let Some((_, k)) = best else { return out };
-            let (opened, _) = out.items.swap_remove(k);
-            out.interior.push(opened.link);
-            out.items.extend(self.items(opened.link));
         }
+        (nodes, leaves)
     }
 
     /// Levels above a node of the top level.
@@ -132,22 +107,5 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             level += 1;
         }
         level
-    }
-
-    /// The children of a node of the top level, with what is known of them.
-    fn items(&self, node: u32) -> impl Iterator<Item = (Item, N::Summary)> + '_ {
-        let own = &self.nodes[node as usize];
-        let used = (0..W).filter(|&slot| own.kind(slot) != kind::EMPTY);
-        used.map(move |slot| {
-            let (height, count) = self.measured(own.kind(slot), own.link(slot));
-            let summary = own.summary(slot);
-            let item = Item {
-                kind: own.kind(slot),
-                link: own.link(slot),
-                cluster: Cluster::new(&summary, count),
-                height,
-            };
-            (item, summary)
-        })
     }
 }
