@@ -1,0 +1,102 @@
+//! Lone edits: what one frame costs in which one of many things changes, by how many there are.
+//!
+//! Every row is a frame of an otherwise still scene, with all that its user pays for: the edit, the refit that it causes, and
+//! beside it what a device must copy. Instances are scattered, and which of them changes is drawn anew in each frame.
+
+mod edits;
+mod frames;
+mod meshes;
+mod rows;
+mod scene;
+
+use std::time::{Duration, Instant};
+
+use serde::Serialize;
+
+pub(in crate::cli::bench) use self::rows::print;
+use self::rows::{Growth, Row, growth};
+use self::scene::Scene;
+use crate::cli::table::news;
+
+/// Least and greatest number of instances, or of triangles of a mesh.
+pub(in crate::cli::bench) const SIZES: [u32; 2] = [1_000, 1_000_000];
+
+/// How long, and how often, a row is measured.
+#[derive(Clone, Copy)]
+struct Patience {
+    time: Duration,
+    least: usize,
+    most: usize,
+}
+
+impl Patience {
+    const FULL: Self = Self {
+        time: Duration::from_millis(1500),
+        least: 20,
+        most: 20_000,
+    };
+    const QUICK: Self = Self {
+        time: Duration::from_millis(250),
+        least: 4,
+        most: 2_000,
+    };
+
+    /// Calls `frame`, which gets the number of frames before it, until there were enough.
+    fn frames(self, mut frame: impl FnMut(usize)) {
+        let began = Instant::now();
+        let mut done = 0;
+        while done < self.least || (done < self.most && began.elapsed() < self.time) {
+            frame(done);
+            done += 1;
+        }
+    }
+}
+
+/// All rows.
+#[derive(Clone, Debug, Serialize)]
+pub(in crate::cli::bench) struct Report {
+    pub rows: Vec<Row>,
+    pub growth: Vec<Growth>,
+    /// What a quick run does not measure.
+    pub left_out: Vec<String>,
+}
+
+/// Measures at each power of ten from the least size to `largest`.
+pub(in crate::cli::bench) fn report(largest: u32, is_quick: bool) -> Report {
+    let patience = if is_quick { Patience::QUICK } else { Patience::FULL };
+    let sizes: Vec<u32> = std::iter::successors(Some(SIZES[0]), |size| size.checked_mul(10))
+        .take_while(|&size| size <= largest)
+        .collect();
+    let mut rows = Vec::new();
+    for &size in &sizes {
+        news!("one of {size} instances");
+        let mut scene = Scene::of_instances(size);
+        rows.extend(edits::rows(&mut scene, patience));
+        rows.extend(frames::rows(&mut scene, patience));
+    }
+    for &size in &sizes {
+        news!("a mesh of {size} triangles");
+        let mut scene = Scene::of_mesh(size);
+        rows.extend(meshes::rows(&mut scene, patience));
+    }
+    let left_out = if is_quick {
+        vec![
+            format!("sizes above {largest}"),
+            "frames in which much moves, and devices (`bench --dynamic` without `--quick`)".to_owned(),
+            format!(
+                "long series: each row has {} ms, or {} frames, where a full run has {} ms and {} frames",
+                Patience::QUICK.time.as_millis(),
+                Patience::QUICK.least,
+                Patience::FULL.time.as_millis(),
+                Patience::FULL.least
+            ),
+        ]
+    } else {
+        Vec::new()
+    };
+    Report {
+        growth: growth(&rows),
+        rows,
+        left_out,
+    }
+}
