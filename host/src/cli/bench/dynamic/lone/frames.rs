@@ -27,7 +27,29 @@ pub(super) fn rows(scene: &mut Scene, patience: Patience) -> Vec<Row> {
         scene.bvh.set_transform(instance, transform).expect("its own");
     };
     let kind = |scene: &Scene, what, case| Kind::of_instances(scene, what, case);
-    measure(scene, rebuild, patience, change, change, "top level", kind)
+    let flickers = flickering(scene, patience);
+    let mut rows = measure(scene, rebuild, patience, change, change, "top level", kind);
+    rows.extend(kind(scene, "end-frame", "one flickers, by default").times(&flickers));
+    rows
+}
+
+/// Ends of frames in which one instance is dimmed and no rebuild is under way, by a rebuilder as it comes: what it starts then is
+/// started for one lamp.
+fn flickering(scene: &mut Scene, patience: Patience) -> Vec<Duration> {
+    let mut rebuilder = Rebuilder::default();
+    let lamp = scene.some();
+    let mut times = Vec::new();
+    patience.frames(|frame| {
+        while rebuilder.is_busy() {
+            rebuilder.begin_frame(&mut scene.bvh).expect("no panic");
+            std::thread::sleep(PAUSE);
+        }
+        let radiance = 1.0 + (frame % 2) as f32;
+        scene.bvh.set_radiance(lamp, radiance).expect("its own");
+        scene.bvh.refit();
+        times.push(timed(|| rebuilder.end_frame(&scene.bvh)));
+    });
+    times
 }
 
 /// By what frame a time was taken.
