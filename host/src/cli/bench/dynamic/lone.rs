@@ -21,6 +21,9 @@ use crate::cli::table::news;
 /// Least and greatest number of instances, or of triangles of a mesh.
 pub(in crate::cli::bench) const SIZES: [u32; 2] = [1_000, 1_000_000];
 
+/// Most that a quick run takes: what would go on for longer is left out.
+const QUICK: Duration = Duration::from_secs(45);
+
 /// How long, and how often, a row is measured.
 #[derive(Clone, Copy)]
 struct Patience {
@@ -68,32 +71,37 @@ pub(in crate::cli::bench) fn report(largest: u32, is_quick: bool) -> Report {
         .take_while(|&size| size <= largest)
         .collect();
     let mut rows = Vec::new();
+    let mut left_out = Vec::new();
+    let began = Instant::now();
+    let mut last = Duration::ZERO;
     for &size in &sizes {
+        // Ten times as many take about ten times as long.
+        if is_quick && size > 100_000 && began.elapsed() + 10 * last > QUICK {
+            left_out.push(format!("sizes from {size} on, for which there is no time left"));
+            break;
+        }
+        let start = Instant::now();
         news!("one of {size} instances");
         let mut scene = Scene::of_instances(size);
         rows.extend(edits::rows(&mut scene, patience));
         rows.extend(frames::rows(&mut scene, patience));
-    }
-    for &size in &sizes {
+        drop(scene);
         news!("a mesh of {size} triangles");
         let mut scene = Scene::of_mesh(size);
         rows.extend(meshes::rows(&mut scene, patience));
+        last = start.elapsed();
     }
-    let left_out = if is_quick {
-        vec![
-            format!("sizes above {largest}"),
-            "frames in which much moves, and devices (`bench --dynamic` without `--quick`)".to_owned(),
-            format!(
-                "long series: each row has {} ms, or {} frames, where a full run has {} ms and {} frames",
-                Patience::QUICK.time.as_millis(),
-                Patience::QUICK.least,
-                Patience::FULL.time.as_millis(),
-                Patience::FULL.least
-            ),
-        ]
-    } else {
-        Vec::new()
-    };
+    if is_quick {
+        left_out
+            .push("frames in which much moves, and devices (`bench --dynamic` without `--quick`)".to_owned());
+        left_out.push(format!(
+            "long series: a row has {} ms or {} frames, where a full run has {} ms or {} frames",
+            Patience::QUICK.time.as_millis(),
+            Patience::QUICK.least,
+            Patience::FULL.time.as_millis(),
+            Patience::FULL.least
+        ));
+    }
     Report {
         growth: growth(&rows),
         rows,
