@@ -4,8 +4,11 @@ use lightbvh::bvh::RefitPlan;
 
 use super::batch::Touched;
 
-/// Nodes of the top level for each level of each path that an edit touches: its own, and those beside it that turn with it.
-const BESIDE: usize = 4;
+/// Nodes of the top level for each level of each path that an edit touches: the node itself, and where it is built anew over 64 subtrees
+/// as many as those take.
+const BESIDE: usize = 1 + 63;
+/// Paths of an instance that moves: from where it was, and to where it goes.
+const PATHS: usize = 2;
 /// The root, whatever changes.
 const ROOT: usize = 1;
 
@@ -14,7 +17,7 @@ const ROOT: usize = 1;
 /// # Panics
 /// If there are more.
 pub fn check(plan: &RefitPlan, touched: &Touched, depth: u32) {
-    let paths = BESIDE * depth as usize * (touched.instances + ROOT);
+    let paths = PATHS * BESIDE * depth as usize * (touched.instances + ROOT);
     // A node of a bottom level holds a triangle, or two nodes at least.
     let bottom = touched.triangles;
     let computed = plan.top.nodes().len();

@@ -86,6 +86,8 @@ fn soak(context: &Context, args: &Args, opened: &[devices::Opened]) -> Result<Re
             bvh.plan();
         });
         work.take(bvh.work());
+        counts.touched += u64::from(work.instances);
+        counts.nodes += u64::from(work.top);
         mirrors.follow(bvh)?;
         let (computed, ()) = Timed::of(|| bvh.refit());
         let (end, ()) = Timed::of(|| rebuilder.end_frame(bvh));

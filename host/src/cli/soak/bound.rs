@@ -15,6 +15,9 @@ const BUILT: Duration = Duration::from_micros(4);
 /// For each node or root that the frame's plan has computed.
 const NODE: Duration = Duration::from_micros(2);
 
+/// Nodes of the top level that an instance touched may have computed, over many frames.
+pub(super) const NODES: f64 = 100.0;
+
 /// What a frame changed.
 #[derive(Clone, Copy, Debug, Default, serde::Serialize)]
 pub(super) struct Work {
@@ -26,17 +29,20 @@ pub(super) struct Work {
     pub built: u32,
     /// Nodes and roots computed.
     pub nodes: u32,
+    /// Nodes of the top level computed.
+    pub top: u32,
 }
 
 impl Work {
     /// The nodes of the frame's plan.
     pub fn take(&mut self, plan: &RefitPlan) {
         self.nodes = plan.computed() as u32;
+        self.top = plan.top.nodes().len() as u32;
     }
 
     /// Most that the begin of the frame may take, its edits, its refit, and its end.
     ///
-    /// The nodes of a plan are held against what was changed by the fuzz target `edits`; here they are taken as they are.
+    /// The nodes of a single plan are taken as they are; those of all plans together are held against [`NODES`].
     pub fn bounds(&self) -> [Duration; 4] {
         let edits = INSTANCE * self.instances + TRIANGLE * self.triangles + BUILT * self.built;
         [

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::Context;
-use super::bound::Work;
+use super::bound::{NODES, Work};
 use super::clock::Timed;
 use super::flat::Means;
 use super::mirrors::Tally;
@@ -32,6 +32,9 @@ pub(super) struct Counts {
     pub waited: u32,
     /// Frames in which all was checked.
     pub checked: u32,
+    /// Instances touched, once for each frame, and nodes of the top level computed.
+    pub touched: u64,
+    pub nodes: u64,
 }
 
 /// A part of a frame that took longer than its bound.
@@ -104,10 +107,20 @@ pub(super) struct Report {
 }
 
 impl Report {
+    /// Nodes of the top level computed for each instance touched.
+    fn nodes_each(&self) -> f64 {
+        self.edits.nodes as f64 / self.edits.touched.max(1) as f64
+    }
+
     /// Whether every frame kept its bound, memory is flat, and no word of a device differs.
     pub fn is_good(&self) -> bool {
         let equal = self.devices.iter().all(|device| device.different == 0);
-        self.invalid.is_none() && self.beyond == 0 && self.memory.flat && self.process.flat && equal
+        self.invalid.is_none()
+            && self.beyond == 0
+            && self.nodes_each() <= NODES
+            && self.memory.flat
+            && self.process.flat
+            && equal
     }
 }
 
@@ -142,6 +155,10 @@ pub(super) fn print(context: &Context, report: &Report) -> Result<(), HostError>
         edits.adopted,
         edits.waited,
         edits.checked
+    )?;
+    say!(
+        "nodes of the top level computed for each instance touched: {:.1}, at most {NODES}",
+        report.nodes_each()
     )?;
     for (what, means) in [("scene", &report.memory), ("process", &report.process)] {
         say!(
