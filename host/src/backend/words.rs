@@ -26,7 +26,7 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
     ///
     /// # Errors
     /// [`BackendError`] from the device.
-    pub fn arrays(&self) -> Result<DeviceArrays, BackendError> {
+    pub fn arrays(&mut self) -> Result<DeviceArrays, BackendError> {
         Ok(DeviceArrays {
             nodes: words(&self.tree.nodes)?,
             roots: words(&self.roots)?,
