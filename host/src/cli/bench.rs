@@ -256,6 +256,7 @@ fn run_dynamic(context: &Context, args: &Args) -> Result<Outcome, HostError> {
         table::print_json(&json!({
             "rows": one.rows,
             "growth": one.growth,
+            "quality": one.quality,
             "left_out": one.left_out,
             "dynamic": much,
         }))?;

@@ -239,6 +239,10 @@ fn bench_tells_how_lone_edits_grow() {
     assert!(moves["exponent"].as_f64() < Some(0.3), "{moves}");
     assert!(!report["left_out"].as_array().expect("a list").is_empty());
     assert!(report["dynamic"].is_null());
+    let quality = &report["quality"];
+    assert!(quality["edited"].as_f64() > Some(0.0), "{quality}");
+    // The bound, a tenth, is of a full run; here fewer edits are made.
+    assert!(quality["ratio"].as_f64() < Some(1.2), "{quality}");
 }
 
 #[test]

@@ -6,6 +6,7 @@
 mod edits;
 mod frames;
 mod meshes;
+mod quality;
 mod rows;
 mod scene;
 
@@ -13,6 +14,7 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
+use self::quality::Quality;
 pub(in crate::cli::bench) use self::rows::print;
 use self::rows::{Growth, Row, growth};
 use self::scene::Scene;
@@ -23,6 +25,9 @@ pub(in crate::cli::bench) const SIZES: [u32; 2] = [1_000, 1_000_000];
 
 /// Most that a quick run takes: what would go on for longer is left out.
 const QUICK: Duration = Duration::from_secs(45);
+
+/// Edits after which variance is taken.
+const EDITS: u32 = 100_000;
 
 /// How long, and how often, a row is measured.
 #[derive(Clone, Copy)]
@@ -60,6 +65,8 @@ impl Patience {
 pub(in crate::cli::bench) struct Report {
     pub rows: Vec<Row>,
     pub growth: Vec<Growth>,
+    /// What edits leave of a tree.
+    pub quality: Quality,
     /// What a quick run does not measure.
     pub left_out: Vec<String>,
 }
@@ -73,6 +80,9 @@ pub(in crate::cli::bench) fn report(largest: u32, is_quick: bool) -> Report {
     let mut rows = Vec::new();
     let mut left_out = Vec::new();
     let began = Instant::now();
+    let edits = if is_quick { EDITS / 10 } else { EDITS };
+    news!("{edits} edits");
+    let quality = quality::measure(edits);
     let mut last = Duration::ZERO;
     for &size in &sizes {
         // Ten times as many take about ten times as long.
@@ -95,6 +105,10 @@ pub(in crate::cli::bench) fn report(largest: u32, is_quick: bool) -> Report {
         left_out
             .push("frames in which much moves, and devices (`bench --dynamic` without `--quick`)".to_owned());
         left_out.push(format!(
+            "{} of {EDITS} edits before variance is taken",
+            EDITS - edits
+        ));
+        left_out.push(format!(
             "long series: a row has {} ms or {} frames, where a full run has {} ms or {} frames",
             Patience::QUICK.time.as_millis(),
             Patience::QUICK.least,
@@ -105,6 +119,7 @@ pub(in crate::cli::bench) fn report(largest: u32, is_quick: bool) -> Report {
     Report {
         growth: growth(&rows),
         rows,
+        quality,
         left_out,
     }
 }

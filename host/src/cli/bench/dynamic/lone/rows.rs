@@ -172,6 +172,17 @@ pub(in crate::cli::bench) fn print(report: &super::Report) -> io::Result<()> {
             ("exponent", |g| format!("{:.2}", g.exponent)),
         ],
     )?;
+    let quality = &report.quality;
+    say!(
+        "\nvariance after {} edits of {} instances, without a rebuild: {:.4}; of a top level built over the same: {:.4}; ratio {:.3}, \
+         median of the points' {:.3}",
+        quality.edits,
+        quality.instances,
+        quality.edited,
+        quality.fresh,
+        quality.ratio,
+        quality.median_ratio
+    )?;
     for left_out in &report.left_out {
         say!("left out: {left_out}")?;
     }

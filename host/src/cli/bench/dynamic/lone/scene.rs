@@ -36,7 +36,7 @@ pub(super) struct Scene {
     /// The triangles as they were at first.
     rest: Vec<EmissiveTriangle>,
     /// Side of the box that all lies in, metres.
-    side: f32,
+    pub side: f32,
     turn: u32,
 }
 
