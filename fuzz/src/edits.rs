@@ -3,6 +3,7 @@
 mod batch;
 mod model;
 mod placing;
+mod work;
 
 use arbitrary::{Result, Unstructured};
 use lightbvh::bvh::{Rebuild, RebuildParams, Rebuilt};
@@ -17,7 +18,7 @@ use crate::{Forms, input};
 const FLYING: usize = 2;
 
 /// A scene whose meshes and instances come, move, shine, bend and go, in batches that may hold refused edits, while trees
-/// are built anew: a refused batch changes nothing and names an edit that is wrong; after every frame the scene is valid
+/// are built anew: a refused batch changes nothing and names an edit that is wrong; a frame's work keeps its bound; after every frame the scene is valid
 /// and its lights are where the edits put them; in the end a scene built from scratch holds the same.
 pub fn edits(data: &[u8], forms: Forms) {
     for form in forms.of(data, 4) {
@@ -47,17 +48,22 @@ fn frames<N: LightNode<W> + std::fmt::Debug, I: ImportanceModel<N, W>, const W: 
     let count = 1 + u.arbitrary::<u8>()? % 6;
     for frame in 0..count {
         let bits: u8 = u.arbitrary()?;
+        let is_still = bits & 5 == 0 || flying.is_empty();
         if bits & 1 != 0 {
             land(&mut scene, &mut flying, bits & 2 != 0);
         }
         // Comparing all that a scene is takes its time.
         let thorough = forms == Forms::All || bits & 0xf0 == 0;
-        batch::edit(u, &mut model, &mut scene, frame == 0, thorough)?;
+        let depth = scene.depth();
+        let touched = batch::edit(u, &mut model, &mut scene, frame == 0, thorough)?;
         if bits & 4 != 0 {
             land(&mut scene, &mut flying, bits & 2 != 0);
         }
         scene.refit();
         check(&model, &scene);
+        if is_still && frame > 0 {
+            work::check(scene.work(), &touched, depth.max(scene.depth()));
+        }
         if bits & 8 != 0 && flying.len() < FLYING {
             let bits: u8 = u.arbitrary()?;
             let params = RebuildParams {

@@ -1,4 +1,4 @@
-//! All tests of this package, one module per concern, in one program: forty-three of them repeat each other's compilation, and
+//! All tests of this package, one module per concern, in one program: forty-four of them repeat each other's compilation, and
 //! took that of the whole workspace a fifth longer.
 
 mod bounds;
@@ -19,6 +19,7 @@ mod instance;
 mod instanced;
 mod known_answers;
 mod known_words;
+mod light_identity;
 mod light_points;
 mod messages;
 mod methods;

@@ -56,14 +56,48 @@ struct Staged {
     added: Vec<(MeshId, Transform, f32)>,
 }
 
-/// Does a batch to the scene, and to the model if it is not refused.
+/// What a batch changes, as far as its work may grow with it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Touched {
+    /// Instances added, moved, dimmed, removed, or of a mesh that bends.
+    pub instances: usize,
+    /// Triangles of meshes added or bent.
+    pub triangles: usize,
+    /// Such meshes.
+    pub meshes: usize,
+}
+
+impl Touched {
+    fn by(edits: &[Edit], model: &Model) -> Self {
+        let mut touched = Self::default();
+        for edit in edits {
+            match edit {
+                Edit::AddMesh { triangles } => {
+                    touched.triangles += triangles.len();
+                    touched.meshes += 1;
+                }
+                Edit::SetTriangles { mesh, triangles } => {
+                    touched.triangles += triangles.len();
+                    touched.meshes += 1;
+                    // Those added or removed by the same batch count themselves.
+                    let users = model.instances.iter().filter(|placed| placed.mesh == *mesh);
+                    touched.instances += users.count();
+                }
+                _ => touched.instances += 1,
+            }
+        }
+        touched
+    }
+}
+
+/// Does a batch to the scene, and to the model if it is not refused; returns what it changed.
 pub fn edit<N: LightNode<W> + std::fmt::Debug, const W: usize>(
     u: &mut Unstructured<'_>,
     model: &mut Model,
     scene: &mut Bvh<N, (), W>,
     first: bool,
     thorough: bool,
-) -> Result<()> {
+) -> Result<Touched> {
     let mut staged = Staged {
         model: model.clone(),
         meshes: Vec::new(),
@@ -88,6 +122,7 @@ pub fn edit<N: LightNode<W> + std::fmt::Debug, const W: usize>(
         .filter(|placed| staged.model.gone_instances.contains(&placed.id))
         .map(|placed| placed.lights.clone())
         .collect();
+    let mut touched = Touched::by(&edits, model);
     match scene.apply(edits) {
         Ok(updated) => {
             assert!(
@@ -107,9 +142,10 @@ pub fn edit<N: LightNode<W> + std::fmt::Debug, const W: usize>(
             assert!(!error.to_string().is_empty());
             let before = before.expect("refused, so not all were sound");
             assert_same(&before, scene, thorough);
+            touched = Touched::default();
         }
     }
-    Ok(())
+    Ok(touched)
 }
 
 /// A refused batch changes nothing.

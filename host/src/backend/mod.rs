@@ -11,6 +11,7 @@ mod follow;
 mod record;
 mod restir;
 mod scene;
+mod words;
 
 pub use batches::{Integrator, all_candidates};
 pub use cpu::CpuBackend;
@@ -21,6 +22,7 @@ pub use restir::{
     Combination, History, LightRemap, RESERVOIR_RECORD, Restir, RestirFrame, RestirOptions, SURFACE_RECORD,
 };
 pub use scene::{Sampler, SceneArrays};
+pub use words::DeviceArrays;
 
 use std::time::{Duration, Instant};
 

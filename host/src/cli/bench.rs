@@ -21,6 +21,7 @@ use crate::backend::{Bvh, CpuBackend, DeviceBackend, Sampler};
 use crate::cli::table::news;
 use crate::error::HostError;
 use crate::workload::build;
+use dynamic::lone;
 use passes::{batches, library_passes, measure, passes};
 use scene::{random_lights, random_queries};
 
@@ -35,9 +36,17 @@ pub(super) struct Args {
     /// Leave out the table of accuracy against speed.
     #[arg(long)]
     no_trade: bool,
-    /// Measure updates of moving lights instead: rigid motion, brightness, a deforming mesh.
+    /// Measure updates of moving lights instead: frames in which one of many changes, and such in which many do; adoption of what
+    /// was rebuilt beside them.
     #[arg(long)]
     dynamic: bool,
+    /// Of the frames of moving lights only those in which one changes, fewer of them and at fewer sizes: under a minute.
+    #[arg(long, requires = "dynamic")]
+    quick: bool,
+    /// Most instances, and most triangles of a mesh, among which one changes, 10^3 to 10^6: each power of ten up to it is measured.
+    /// With `--quick` as far as 45 s go.
+    #[arg(long, requires = "dynamic", default_value_t = lone::SIZES[1])]
+    largest: u32,
     /// Count the nodes and the time of single samples and pmfs in adversarial scenes instead.
     #[arg(long, conflicts_with = "dynamic")]
     worst: bool,
@@ -228,13 +237,34 @@ fn run_dynamic(context: &Context, args: &Args) -> Result<Outcome, HostError> {
             ..given("--instances times --mesh-triangles", all, 1..=10_000_000)
         },
     ])?;
-    let opened = devices::open(context)?;
-    let report = dynamic::report(args.instances, args.mesh_triangles, &opened)?;
-    devices::close(opened)?;
-    if context.json {
-        table::print_json(&json!({ "dynamic": report }))?;
+    let largest = args.largest;
+    range::check(&[given(
+        "--largest",
+        largest,
+        u64::from(lone::SIZES[0])..=u64::from(lone::SIZES[1]),
+    )])?;
+    let much = if args.quick {
+        None
     } else {
-        dynamic::print(&report)?;
+        let opened = devices::open(context)?;
+        let report = dynamic::report(args.instances, args.mesh_triangles, &opened)?;
+        devices::close(opened)?;
+        Some(report)
+    };
+    let one = lone::report(largest, args.quick);
+    if context.json {
+        table::print_json(&json!({
+            "rows": one.rows,
+            "growth": one.growth,
+            "quality": one.quality,
+            "left_out": one.left_out,
+            "dynamic": much,
+        }))?;
+    } else {
+        lone::print(&one)?;
+        if let Some(much) = much {
+            dynamic::print(&much)?;
+        }
     }
     Ok(Outcome::Good)
 }

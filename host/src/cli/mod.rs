@@ -13,6 +13,7 @@ mod numbers;
 mod progress;
 mod range;
 mod render;
+mod soak;
 mod stability;
 mod table;
 mod times;
@@ -68,6 +69,8 @@ enum Command {
     Compare(compare::Args),
     /// Check every extreme that the light BVH must survive, on the CPU and every device, against stated bounds.
     Stability(stability::Args),
+    /// Run many frames of random edits beside rebuilds, each held against its bound, and compare every device with the CPU.
+    Soak(soak::Args),
     /// List the Vulkan devices and whether their arithmetic is exact.
     Info,
     /// Check every invariant of the light BVHs of a scene, over its lights as they stand in the world: bytes are of a tree for each
@@ -126,6 +129,7 @@ pub fn main() -> ExitCode {
         Command::Numbers(args) => numbers::run(&context, args),
         Command::Compare(args) => compare::run(&context, args),
         Command::Stability(args) => stability::run(&context, args),
+        Command::Soak(args) => soak::run(&context, args),
         Command::Info => info::run(&context),
         Command::Validate(args) => validate::run(&context, args),
         Command::Export(args) => export::run(&context, args),

@@ -170,7 +170,8 @@ fn bench_reports_every_case() {
 
 #[test]
 fn bench_follows_moving_lights() {
-    let report = json("bench --json --dynamic --instances 200 --mesh-triangles 20");
+    let report = json("bench --json --dynamic --instances 200 --mesh-triangles 20 --largest 1000");
+    assert_eq!(report["left_out"], serde_json::json!([]));
     let report = &report["dynamic"];
     assert!(report["single_level_refit_ms"]["median"].as_f64() > Some(0.0));
     let rows = report["rows"].as_array().expect("rows");
@@ -197,6 +198,51 @@ fn bench_follows_moving_lights() {
     of("move", 200, 20);
     of("move", 20, 2);
     assert_eq!(of("deform", 1, 4000)["triangles"], 4000);
+}
+
+#[test]
+fn bench_tells_how_lone_edits_grow() {
+    let report = json("bench --json --dynamic --quick --largest 10000");
+    let rows = report["rows"].as_array().expect("rows");
+    let has = |what: &str, over: &str, unit: &str| {
+        let of = |size: u64| {
+            rows.iter().any(|row| {
+                let found = row[over].as_u64().expect("a size");
+                row["what"] == what && row["over"] == over && row["unit"] == unit && found == size
+            })
+        };
+        assert!(of(1_000) && of(10_000), "{what} {over} {unit}");
+    };
+    for what in ["add", "remove", "move", "dim", "deform", "adopt"] {
+        for unit in ["ns", "nodes", "bytes"] {
+            has(what, "instances", unit);
+        }
+    }
+    for what in ["begin-frame", "end-frame"] {
+        has(what, "instances", "ns");
+        has(what, "triangles", "ns");
+    }
+    for unit in ["ns", "nodes", "bytes"] {
+        has("deform", "triangles", unit);
+        has("adopt", "triangles", unit);
+    }
+    for row in rows {
+        let [median, p99, most] = ["median", "p99", "most"].map(|key| row[key].as_f64().expect("a number"));
+        assert!(median <= p99 && p99 <= most && most > 0.0, "{row}");
+    }
+    // Moving one of ten times as many computes a level more at most.
+    let growth = report["growth"].as_array().expect("growth");
+    let moves = growth
+        .iter()
+        .find(|row| row["what"] == "move" && row["unit"] == "nodes")
+        .expect("moves");
+    assert!(moves["exponent"].as_f64() < Some(0.3), "{moves}");
+    assert!(!report["left_out"].as_array().expect("a list").is_empty());
+    assert!(report["dynamic"].is_null());
+    let quality = &report["quality"];
+    assert!(quality["edited"].as_f64() > Some(0.0), "{quality}");
+    // The bound, a tenth, is of a full run; here fewer edits are made.
+    assert!(quality["ratio"].as_f64() < Some(1.2), "{quality}");
 }
 
 #[test]

@@ -7,4 +7,5 @@ mod inspect;
 mod program;
 mod refusals;
 mod render;
+mod soak;
 mod stability;

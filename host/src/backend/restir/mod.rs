@@ -108,7 +108,8 @@ pub struct RestirFrame<'a> {
     pub jitter: u32,
     /// Radiance of what no surface covers, W/(m² sr).
     pub background: [f32; 3],
-    /// What became of the lights of the frame before; `None` where each kept its number.
+    /// What became of the lights of the frame before; `None` where each kept its number. Those of two levels do, as long as the numbers
+    /// of removed ones are taken after the frame was resampled: see [`LightRemap::after`].
     pub remap: Option<&'a LightRemap>,
 }
 

@@ -1,5 +1,8 @@
 //! Lights that changed their numbers between two frames.
 
+use std::ops::Range;
+
+use lightbvh::{Bvh, LightNode};
 use lightbvh_kernels::shading::trace::NONE;
 
 /// Number and instance of a light, as a [`SampledLight`](lightbvh::SampledLight) names it.
@@ -35,6 +38,32 @@ impl LightRemap {
             to_current,
             to_previous,
         }
+    }
+
+    /// Of a light BVH whose lights went and came since the frame before: `then` is what
+    /// [`light_end`](lightbvh::Bvh::light_end) was in that frame, `removed` are all numbers that
+    /// [`take_removed_lights`](lightbvh::Bvh::take_removed_lights) has given since. All others are the lights that they were.
+    ///
+    /// Needed only where numbers were taken between two frames that are resampled, for new lights may have them since. Where they are taken
+    /// after the frame was resampled, no number has become another light's, and a frame needs no remap: samples of lights that are
+    /// no more find none. Takes time in proportion to the lights.
+    pub fn after<N: LightNode<W>, I, const W: usize>(
+        bvh: &Bvh<N, I, W>,
+        then: u32,
+        removed: &[Range<u32>],
+    ) -> Self {
+        let (then, now) = (then as usize, bvh.light_end() as usize);
+        let mut is_new = vec![false; now];
+        for range in removed {
+            is_new[now.min(range.start as usize)..now.min(range.end as usize)].fill(true);
+        }
+        let placed = (0..).zip(bvh.instances());
+        let placed = placed.filter(|&(index, _)| bvh.instance_id(index).is_some());
+        let names = placed.flat_map(|(index, instance)| {
+            (instance.first..instance.first + instance.count).map(move |light| [light, index])
+        });
+        let kept = names.filter(|name| !is_new[name[0] as usize]);
+        Self::new(then, now, kept.map(|name| (name, name)))
     }
 
     /// By number in the frame before.

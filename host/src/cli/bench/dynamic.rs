@@ -1,5 +1,6 @@
 //! `lightbvh bench --dynamic`: what a frame of moving lights costs, and that it follows what changed.
 
+pub(super) mod lone;
 mod report;
 mod world;
 

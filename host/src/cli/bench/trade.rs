@@ -130,7 +130,7 @@ impl By<'_> {
 }
 
 /// Light from a triangle taken as a point at its centroid, up to a constant.
-fn diffuse(triangle: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
+pub(super) fn diffuse(triangle: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
     let normal = normal(triangle.p);
     let [a, b, c] = triangle.p.map(|vertex| vertex.map(f64::from));
     let centroid: [f64; 3] = std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0);

@@ -1,0 +1,42 @@
+//! The arrays of a device as words, for comparing.
+
+use bytemuck::Pod;
+use lightbvh_kernels::bvh::Choice;
+
+use super::{BackendError, DeviceBackend};
+use crate::vulkan::{Buffer, VulkanError};
+
+/// The words of all arrays of a light BVH, as a device holds them.
+#[derive(Clone, Debug)]
+pub struct DeviceArrays {
+    /// Of [`lightbvh::Bvh::nodes`].
+    pub nodes: Vec<u32>,
+    /// Of [`lightbvh::Bvh::roots`].
+    pub roots: Vec<u32>,
+    /// Of [`lightbvh::Bvh::instances`].
+    pub instances: Vec<u32>,
+    /// Of [`lightbvh::Bvh::triangles`].
+    pub triangles: Vec<u32>,
+    /// Of the trails of a [`lightbvh::LightTree`].
+    pub trails: Vec<u32>,
+}
+
+impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
+    /// All arrays as they are.
+    ///
+    /// # Errors
+    /// [`BackendError`] from the device.
+    pub fn arrays(&mut self) -> Result<DeviceArrays, BackendError> {
+        Ok(DeviceArrays {
+            nodes: words(&self.tree.nodes)?,
+            roots: words(&self.roots)?,
+            instances: words(&self.tree.emitters.instances)?,
+            triangles: words(&self.tree.emitters.triangles)?,
+            trails: words(&self.tree.trails)?,
+        })
+    }
+}
+
+fn words<T: Pod>(buffer: &Buffer<T>) -> Result<Vec<u32>, VulkanError> {
+    buffer.read_words()
+}

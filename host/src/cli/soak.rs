@@ -1,0 +1,146 @@
+//! `lightbvh soak`: frames of random edits, beside rebuilds and followed by devices, each held against its bound.
+
+mod bound;
+mod clock;
+mod edits;
+mod flat;
+mod mirrors;
+mod report;
+mod times;
+
+use lightbvh::Rebuilder;
+use lightbvh::bvh::{RebuilderParams, Swap};
+
+use self::clock::Timed;
+use self::edits::World;
+use self::flat::Memory;
+use self::mirrors::Mirrors;
+use self::report::{Beyond, Counts, Report, Violation, print};
+use self::times::Times;
+use super::range::{self, given};
+use super::{Context, Outcome, devices, progress};
+use crate::error::HostError;
+
+/// Every so many frames all invariants are checked and all words compared.
+const CHECKED: u32 = 1_000;
+/// So many frames in a row have rebuilds swapped in by one rule, then as many by the other.
+const RULED: u32 = 500;
+/// Frames between the end of the one that starts a rebuild and the start of the one in which it is due, by the deterministic rule.
+const AFTER: u32 = 3;
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// Number of frames, 100 to 10^8.
+    #[arg(long, default_value_t = 100_000)]
+    frames: u32,
+    /// Chooses all edits.
+    #[arg(long, default_value_t = 0)]
+    seed: u32,
+    /// Number of instances about which their count stays, 10 to 10^6.
+    #[arg(long, default_value_t = 2_000)]
+    instances: u32,
+    /// Triangles of the largest mesh, 10 to 10^6; others have fewer, most of them few.
+    #[arg(long, default_value_t = 20_000)]
+    mesh_triangles: u32,
+}
+
+pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
+    range::check(&[
+        given("--frames", args.frames, 100..=100_000_000),
+        given("--instances", args.instances, 10..=1_000_000),
+        given("--mesh-triangles", args.mesh_triangles, 10..=1_000_000),
+    ])?;
+    let opened = devices::open(context)?;
+    let report = soak(context, args, &opened)?;
+    devices::close(opened)?;
+    print(context, &report)?;
+    Ok(Outcome::good_if(report.is_good()))
+}
+
+fn soak(context: &Context, args: &Args, opened: &[devices::Opened]) -> Result<Report, HostError> {
+    let mut world = World::new(args.seed, args.instances, args.mesh_triangles);
+    let mut mirrors = Mirrors::new(opened, &mut world.bvh)?;
+    let mut times = Times::new(args.frames);
+    let mut memory = Memory::new(args.frames);
+    let mut counts = Counts::default();
+    let mut beyond = Beyond::default();
+    let mut invalid = None;
+    let bar = progress::bar(args.frames.into(), "{bar:40} {pos}/{len} {eta}", context.json);
+    let mut rebuilder = rebuilder(0);
+    for frame in 0..args.frames {
+        if frame % RULED == 0 {
+            // A rebuild under way is dropped with its rebuilder.
+            rebuilder = self::rebuilder(frame / RULED);
+        }
+        let (edits, mut work) = world.edits(&mut counts);
+        let bvh = &mut world.bvh;
+        let (begin, start) = Timed::of(|| rebuilder.begin_frame(bvh));
+        let start = start?;
+        counts.adopted += u32::from(start.swapped);
+        counts.waited += u32::from(!start.waited.is_zero());
+        let (edit, added) = Timed::of(|| {
+            bvh.apply(edits)
+                .expect("edits of what is there, within the domain")
+        });
+        let (refit, ()) = Timed::of(|| {
+            bvh.plan();
+        });
+        work.take(bvh.work());
+        counts.touched += u64::from(work.instances);
+        counts.nodes += u64::from(work.top);
+        mirrors.follow(bvh)?;
+        let (computed, ()) = Timed::of(|| bvh.refit());
+        let (end, ()) = Timed::of(|| rebuilder.end_frame(bvh));
+        // Whoever keeps numbers of lights over frames replaces those first.
+        bvh.take_removed_lights();
+        world.take(&added);
+
+        let phases = [begin, edit, refit.and(computed), end];
+        times.take(frame, &phases);
+        let bounds = work.bounds();
+        for (phase, (time, bound)) in times::PHASES.into_iter().zip(phases.iter().zip(bounds)) {
+            if time.thread > bound {
+                beyond.take(|| Violation::new(frame, phase, time, bound, &work, start.swapped));
+            }
+        }
+        memory.take(frame, world.bvh.memory());
+        if (frame + 1) % CHECKED == 0 || frame + 1 == args.frames {
+            let sound = world.bvh.validate().map_err(|violation| violation.to_string());
+            if let Err(what) = sound.and_then(|_| world.check()) {
+                invalid = Some(format!("frame {frame}: {what}"));
+                break;
+            }
+            mirrors.compare(frame, &world.bvh)?;
+            counts.checked += 1;
+        }
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    Ok(Report {
+        frames: args.frames,
+        seed: args.seed,
+        instances: world.size_now().0,
+        lights: world.size_now().1,
+        edits: counts,
+        rows: times.rows(),
+        beyond: beyond.count,
+        first_beyond: beyond.first,
+        invalid,
+        memory: memory.scene(),
+        process: memory.process(),
+        devices: mirrors.tallies(),
+    })
+}
+
+fn rebuilder(turn: u32) -> Rebuilder {
+    let deterministic = RebuilderParams {
+        after: AFTER,
+        swap: Swap::Deterministic,
+        ..RebuilderParams::default()
+    };
+    Rebuilder::new(if turn % 2 == 0 {
+        RebuilderParams::default()
+    } else {
+        deterministic
+    })
+}

@@ -1,0 +1,200 @@
+//! What a soak found.
+
+use serde::Serialize;
+
+use super::Context;
+use super::bound::{NODES, Work};
+use super::clock::Timed;
+use super::flat::Means;
+use super::mirrors::Tally;
+use super::times::Row;
+use crate::cli::table;
+use crate::cli::table::say;
+use crate::error::HostError;
+
+/// Frames beyond their bound that a report lists; it counts all.
+const LISTED: usize = 20;
+
+/// How often what was done.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub(super) struct Counts {
+    pub added: u32,
+    pub removed: u32,
+    pub moved: u32,
+    pub dimmed: u32,
+    /// Meshes.
+    pub deformed: u32,
+    /// Meshes removed with their instances, and others added.
+    pub exchanged: u32,
+    /// Rebuilds swapped in.
+    pub adopted: u32,
+    /// Frames that waited for one, by the deterministic rule.
+    pub waited: u32,
+    /// Frames in which all was checked.
+    pub checked: u32,
+    /// Instances touched, once for each frame, and nodes of the top level computed.
+    pub touched: u64,
+    pub nodes: u64,
+}
+
+/// A part of a frame that took longer than its bound.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Violation {
+    frame: u32,
+    what: &'static str,
+    thread_ns: u64,
+    wall_ns: u64,
+    bound_ns: u64,
+    changed: Work,
+    /// Whether the frame swapped a rebuild in.
+    adopted: bool,
+}
+
+impl Violation {
+    pub fn new(
+        frame: u32,
+        what: &'static str,
+        time: &Timed,
+        bound: std::time::Duration,
+        work: &Work,
+        adopted: bool,
+    ) -> Self {
+        Self {
+            frame,
+            what,
+            thread_ns: time.thread.as_nanos() as u64,
+            wall_ns: time.wall.as_nanos() as u64,
+            bound_ns: bound.as_nanos() as u64,
+            changed: *work,
+            adopted,
+        }
+    }
+}
+
+/// Parts of frames that took longer than their bound: how many, and the first of them.
+#[derive(Default)]
+pub(super) struct Beyond {
+    pub count: usize,
+    pub first: Vec<Violation>,
+}
+
+impl Beyond {
+    pub fn take(&mut self, violation: impl FnOnce() -> Violation) {
+        self.count += 1;
+        if self.count <= LISTED {
+            self.first.push(violation());
+        }
+    }
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Report {
+    pub frames: u32,
+    pub seed: u32,
+    /// At the end.
+    pub instances: usize,
+    pub lights: usize,
+    pub edits: Counts,
+    pub rows: Vec<Row>,
+    /// Parts of frames that took longer than their bound, by the thread's clock.
+    pub beyond: usize,
+    pub first_beyond: Vec<Violation>,
+    /// The invariant that did not hold, which ended the soak.
+    pub invalid: Option<String>,
+    pub memory: Means,
+    pub process: Means,
+    pub devices: Vec<Tally>,
+}
+
+impl Report {
+    /// Nodes of the top level computed for each instance touched.
+    fn nodes_each(&self) -> f64 {
+        self.edits.nodes as f64 / self.edits.touched.max(1) as f64
+    }
+
+    /// Whether every frame kept its bound, memory is flat, and no word of a device differs.
+    pub fn is_good(&self) -> bool {
+        let equal = self.devices.iter().all(|device| device.different == 0);
+        self.invalid.is_none()
+            && self.beyond == 0
+            && self.nodes_each() <= NODES
+            && self.memory.flat
+            && self.process.flat
+            && equal
+    }
+}
+
+pub(super) fn print(context: &Context, report: &Report) -> Result<(), HostError> {
+    if context.json {
+        table::print_json(report)?;
+        return Ok(());
+    }
+    table::print(
+        &report.rows,
+        &[
+            ("what", |r| r.what.to_owned()),
+            ("clock", |r| r.clock.to_owned()),
+            ("median µs", |r| format!("{:.1}", r.median * 1e-3)),
+            ("99 %", |r| format!("{:.1}", r.p99 * 1e-3)),
+            ("most", |r| format!("{:.1}", r.most * 1e-3)),
+        ],
+    )?;
+    let edits = &report.edits;
+    say!(
+        "\n{} frames, {} instances and {} lights at the end: {} added, {} removed, {} moved, {} dimmed; meshes: {} deformed, {} \
+         exchanged; {} rebuilds swapped in, {} frames waited for one; valid at {} checks",
+        report.frames,
+        report.instances,
+        report.lights,
+        edits.added,
+        edits.removed,
+        edits.moved,
+        edits.dimmed,
+        edits.deformed,
+        edits.exchanged,
+        edits.adopted,
+        edits.waited,
+        edits.checked
+    )?;
+    say!(
+        "nodes of the top level computed for each instance touched: {:.1}, at most {NODES}",
+        report.nodes_each()
+    )?;
+    for (what, means) in [("scene", &report.memory), ("process", &report.process)] {
+        say!(
+            "memory of the {what}: {:.2} MB in the second quarter, {:.2} MB in the last: {}",
+            means.second_quarter * 1e-6,
+            means.last_quarter * 1e-6,
+            if means.flat { "flat" } else { "GROWS" }
+        )?;
+    }
+    for device in &report.devices {
+        say!(
+            "{}: {} words compared, {} different {:?}",
+            device.name,
+            device.compared,
+            device.different,
+            device.arrays
+        )?;
+    }
+    for one in &report.first_beyond {
+        say!(
+            "frame {}: {} took {:.1} µs, bound {:.1} µs, {:?}{}",
+            one.frame,
+            one.what,
+            one.thread_ns as f64 * 1e-3,
+            one.bound_ns as f64 * 1e-3,
+            one.changed,
+            if one.adopted {
+                ", a rebuild was swapped in"
+            } else {
+                ""
+            }
+        )?;
+    }
+    say!("parts of frames beyond their bound: {}", report.beyond)?;
+    if let Some(invalid) = &report.invalid {
+        say!("INVALID: {invalid}")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,49 @@
+//! A short soak: as long a one as a test may be.
+
+use crate::program::{refused, run};
+
+/// Parts of frames that other tests beside this one may bring beyond their bound, by emptied caches: a full soak allows none.
+const DISTURBED: u64 = 8;
+
+#[test]
+fn a_soak_finds_nothing() {
+    let output = run("soak --json --frames 2000 --instances 300 --mesh-triangles 500 --seed 5");
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("one JSON object");
+    assert_eq!(report["invalid"], serde_json::Value::Null);
+    assert_eq!(report["frames"], 2000);
+    let edits = &report["edits"];
+    for what in [
+        "added",
+        "removed",
+        "moved",
+        "dimmed",
+        "deformed",
+        "exchanged",
+        "adopted",
+    ] {
+        assert!(edits[what].as_u64() > Some(50), "{what}: {edits}");
+    }
+    assert_eq!(edits["checked"], 2);
+    for device in report["devices"].as_array().expect("devices") {
+        assert!(device["compared"].as_u64() > Some(10_000), "{device}");
+        assert_eq!(device["different"], 0, "{device}");
+    }
+    let rows = report["rows"].as_array().expect("rows");
+    assert_eq!(rows.len(), 8, "four parts by two clocks");
+    assert!(
+        report["beyond"].as_u64() <= Some(DISTURBED),
+        "{}",
+        report["first_beyond"]
+    );
+    for memory in ["memory", "process"] {
+        assert_eq!(report[memory]["flat"], true, "{memory}: {}", report[memory]);
+    }
+}
+
+#[test]
+fn a_soak_of_nothing_is_refused() {
+    for line in ["--frames 0", "--instances 0", "--mesh-triangles 0"] {
+        let said = refused(&format!("soak {line}"));
+        assert!(said.contains(line), "{said}");
+    }
+}
