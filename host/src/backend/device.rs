@@ -237,7 +237,7 @@ impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
         let mut pass = self.led();
         let mut followed = pass.len();
         let emitters = self.emitters(sampler);
-        let scene = self.scene.bring(device, scene, emitters, &mut pass);
+        let scene = self.scene.bring(device, scene, sampler, emitters, &mut pass);
         let scene = scene.inspect_err(|_| self.scene = HeldScene::default())?;
         let inputs = scene.with_lights(sampler, &self.tree);
         let pixels = params.width as usize * params.height as usize;

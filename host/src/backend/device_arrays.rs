@@ -30,7 +30,8 @@ pub(super) struct DeviceScene {
     materials: Arc<Buffer<Material>>,
     emitters: DeviceEmitters,
     pub camera: Arc<Buffer<Camera>>,
-    thresholds: Arc<Buffer<u32>>,
+    /// Where lights are chosen by power.
+    thresholds: Option<Arc<Buffer<u32>>>,
 }
 
 /// The arrays of the scene that was rendered last.
@@ -46,19 +47,20 @@ pub(super) struct HeldScene {
 }
 
 impl HeldScene {
-    /// A frame's arrays, once `pass` has run, which writes what differs from those of the frame before. They are lit by `emitters` or,
-    /// without, by the lights that the frame lists. Where `pass` does not run, what is held is not known any more: make it new then.
+    /// A frame's arrays for a kernel that chooses lights by `sampler`, once `pass` has run, which writes what differs from those of the frame
+    /// before. They are lit by `emitters` or, without, by the lights that the frame lists. Where `pass` does not run, what is held is not known any more: make it new then.
     pub fn bring<'a>(
         &mut self,
         device: &Device,
         scene: &'a SceneArrays,
+        sampler: Sampler,
         emitters: Option<DeviceEmitters>,
         pass: &mut Pass<'a>,
     ) -> Result<DeviceScene, VulkanError> {
         let listed = scene.emitters();
         Ok(DeviceScene {
             ray_nodes: self.ray_nodes.bring(device, &scene.rays.nodes, pass)?,
-            surfaces: self.surfaces.bring(device, &scene.rays.blocks, pass)?,
+            surfaces: self.surfaces.bring_known(device, &scene.rays.blocks, pass)?,
             materials: self.materials.bring(device, &scene.materials, pass)?,
             emitters: match emitters {
                 Some(emitters) => emitters,
@@ -67,8 +69,13 @@ impl HeldScene {
                     instances: self.instances.bring(device, listed.instances, pass)?,
                 },
             },
-            camera: self.camera.bring(device, std::slice::from_ref(&scene.camera), pass)?,
-            thresholds: self.thresholds.bring(device, &scene.thresholds, pass)?,
+            camera: self
+                .camera
+                .bring(device, std::slice::from_ref(&scene.camera), pass)?,
+            thresholds: match sampler {
+                Sampler::Power => Some(self.thresholds.bring(device, &scene.thresholds, pass)?),
+                _ => None,
+            },
         })
     }
 }
@@ -92,7 +99,7 @@ impl DeviceScene {
         bindings.push(self.camera.bind());
         match sampler {
             Sampler::Uniform => {}
-            Sampler::Power => bindings.push(self.thresholds.bind()),
+            Sampler::Power => bindings.extend(self.thresholds.as_ref().map(|buffer| buffer.bind())),
             Sampler::SingleLevel | Sampler::TwoLevel => {
                 bindings.extend([tree.nodes.bind(), tree.trails.bind()]);
             }

@@ -116,14 +116,33 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
     }
 
     /// Makes the device's arrays those of `bvh`, but for the summaries that are refitted.
-    fn copy_changes<'a>(&mut self, bvh: &'a Bvh<C, W>, frame: &Frame, pass: &mut Pass<'a>) -> Result<(), BackendError> {
+    fn copy_changes<'a>(
+        &mut self,
+        bvh: &'a Bvh<C, W>,
+        frame: &Frame,
+        pass: &mut Pass<'a>,
+    ) -> Result<(), BackendError> {
         let (device, tree, own) = (self.device, bvh.tree(), &mut self.tree);
         let emitters = &mut own.emitters;
         renew(device, &mut own.nodes, tree.nodes, frame, Array::Nodes, pass)?;
-        renew(device, &mut emitters.instances, tree.instances, frame, Array::Instances, pass)?;
+        renew(
+            device,
+            &mut emitters.instances,
+            tree.instances,
+            frame,
+            Array::Instances,
+            pass,
+        )?;
         renew(device, &mut own.trails, tree.trails, frame, Array::Trails, pass)?;
         renew(device, &mut self.roots, bvh.roots(), frame, Array::Roots, pass)?;
-        renew(device, &mut emitters.triangles, bvh.triangles(), frame, Array::Triangles, pass)?;
+        renew(
+            device,
+            &mut emitters.triangles,
+            bvh.triangles(),
+            frame,
+            Array::Triangles,
+            pass,
+        )?;
         self.tree.push = TreeWords::of(&tree);
         Ok(())
     }
@@ -145,7 +164,11 @@ fn renew<'a, T: Pod>(
         return Ok(());
     }
     if !Arc::get_mut(buffer).is_some_and(|own| own.set_len(data.len())) {
-        let room = if data.len() > buffer.room() { roomy(data.len()) } else { buffer.room() };
+        let room = if data.len() > buffer.room() {
+            roomy(data.len())
+        } else {
+            buffer.room()
+        };
         let new = device.buffer(data.len(), room)?;
         pass.carry(buffer, &new);
         *buffer = Arc::new(new);

@@ -25,7 +25,9 @@ const VARIABLE: &str = "LIGHTBVH_PIPELINE_CACHE";
 #[must_use]
 pub fn cache_directory() -> Option<&'static Path> {
     static DIRECTORY: OnceLock<Option<PathBuf>> = OnceLock::new();
-    DIRECTORY.get_or_init(|| directory(|name| std::env::var_os(name))).as_deref()
+    DIRECTORY
+        .get_or_init(|| directory(|name| std::env::var_os(name)))
+        .as_deref()
 }
 
 /// [`cache_directory`] by the variables that `get` knows.
@@ -92,12 +94,20 @@ impl Cache {
         let with_data = data.and_then(|data| create(data).ok().map(|raw| (raw, Some(hash(data)))));
         let made = with_data.or_else(|| Some((create(&[]).ok()?, None)));
         let (raw, hash) = made.unwrap_or_default();
-        Self { raw, path: Some(path), hash }
+        Self {
+            raw,
+            path: Some(path),
+            hash,
+        }
     }
 
     /// Writes what there is, if it is not in the file. A file that cannot be written is none the next time.
     pub fn save(&self, device: &ash::Device) {
-        let Some(path) = self.path.as_ref().filter(|_| self.raw != vk::PipelineCache::null()) else {
+        let Some(path) = self
+            .path
+            .as_ref()
+            .filter(|_| self.raw != vk::PipelineCache::null())
+        else {
             return;
         };
         // SAFETY: the cache belongs to this device.
@@ -205,8 +215,14 @@ mod tests {
         };
         let home = ("HOME", "/home/ada");
         assert_eq!(of(&[home]), Some("/home/ada/.cache/lightbvh".into()));
-        assert_eq!(of(&[home, ("XDG_CACHE_HOME", "/var/c")]), Some("/var/c/lightbvh".into()));
-        assert_eq!(of(&[home, ("XDG_CACHE_HOME", "relative")]), Some("/home/ada/.cache/lightbvh".into()));
+        assert_eq!(
+            of(&[home, ("XDG_CACHE_HOME", "/var/c")]),
+            Some("/var/c/lightbvh".into())
+        );
+        assert_eq!(
+            of(&[home, ("XDG_CACHE_HOME", "relative")]),
+            Some("/home/ada/.cache/lightbvh".into())
+        );
         assert_eq!(of(&[home, (VARIABLE, "kept/here")]), Some("kept/here".into()));
         for off in ["off", "0", ""] {
             assert_eq!(of(&[home, (VARIABLE, off)]), None);

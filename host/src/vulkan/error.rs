@@ -130,7 +130,9 @@ pub enum VulkanError {
         held: usize,
     },
     /// A pass writes the same bytes twice.
-    #[error("a pass for {device} writes bytes {first} to {end} of a buffer twice; write each once, or in two passes")]
+    #[error(
+        "a pass for {device} writes bytes {first} to {end} of a buffer twice; write each once, or in two passes"
+    )]
     OverlappingWrites {
         /// Name of the device.
         device: String,

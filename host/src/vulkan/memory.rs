@@ -72,10 +72,17 @@ impl Memory {
         if let Some(mapped) = self.mapped() {
             let queue = (!is_new).then(|| shared.idle_queue()).transpose()?;
             count(&shared.counters.bytes, data.len() as u64);
-            assert!(at as u64 + data.len() as u64 <= self.bytes, "checked by the callers");
+            assert!(
+                at as u64 + data.len() as u64 <= self.bytes,
+                "checked by the callers"
+            );
             // SAFETY: the memory is mapped for `bytes`, which hold the data (as above). No one else reaches it meanwhile: the device runs
             // nothing that uses it, and the host reads and writes buffers that are not new with the queue held.
-            unsafe { mapped.add(at).copy_from_nonoverlapping(NonNull::from(data).cast(), data.len()) };
+            unsafe {
+                mapped
+                    .add(at)
+                    .copy_from_nonoverlapping(NonNull::from(data).cast(), data.len())
+            };
             drop(queue);
             return Ok(());
         }
@@ -109,10 +116,19 @@ impl Memory {
         let staging = Self::new(&self.shared, part, MemoryLocation::GpuToCpu)?;
         for (index, data) in (0..).zip(data.chunks_mut(part as usize)) {
             let bytes = data.len() as u64;
-            let region = Region { from: index * part, to: 0, bytes };
-            self.shared.submit(copying(bytes), 0, |_| {}, |device, commands, _, _| {
-                copy(device, commands, self.buffer, staging.buffer, &[region]);
-            })?;
+            let region = Region {
+                from: index * part,
+                to: 0,
+                bytes,
+            };
+            self.shared.submit(
+                copying(bytes),
+                0,
+                |_| {},
+                |device, commands, _, _| {
+                    copy(device, commands, self.buffer, staging.buffer, &[region]);
+                },
+            )?;
             count(&self.shared.counters.regions, 1);
             staging.read(data)?;
         }
@@ -137,7 +153,12 @@ impl Memory {
     /// Sets every word of the buffer, on the device.
     pub(crate) fn fill(&self, word: u32) -> Result<(), VulkanError> {
         let work = format!("filling a buffer of {} bytes", self.bytes);
-        let filled = self.shared.submit(work, 0, |_| {}, |device, commands, _, _| fill(device, commands, self, word));
+        let filled = self.shared.submit(
+            work,
+            0,
+            |_| {},
+            |device, commands, _, _| fill(device, commands, self, word),
+        );
         filled.map(drop)
     }
 
@@ -216,7 +237,8 @@ pub(super) fn create(
         Ok(allocation) => {
             // SAFETY: the memory was allocated for this buffer's requirements and is bound once, at the offset that the
             // allocator chose to meet their alignment.
-            let bound = unsafe { device.bind_buffer_memory(buffer, allocation.memory(), allocation.offset()) };
+            let bound =
+                unsafe { device.bind_buffer_memory(buffer, allocation.memory(), allocation.offset()) };
             match bound.during("vkBindBufferMemory", name) {
                 Ok(()) => return Ok((buffer, allocation)),
                 Err(error) => {

@@ -3,6 +3,7 @@
 use super::buffer::{Binding, Buffer};
 use super::error::VulkanError;
 use super::kernel::Kernel;
+use super::memory::Region;
 use super::shared::Shared;
 use bytemuck::Pod;
 use lightbvh_gpu::groups;
@@ -13,7 +14,7 @@ use std::sync::Arc;
 #[derive(Clone, Default)]
 pub struct Pass<'a> {
     pub(crate) fills: Vec<Binding>,
-    pub(crate) carries: Vec<(Binding, Binding, u64)>,
+    pub(super) carries: Vec<(Binding, Binding, Vec<Region>)>,
     pub(crate) writes: Vec<Write<'a>>,
     pub(crate) dispatches: Vec<Dispatch>,
 }
@@ -65,11 +66,42 @@ impl<'a> Pass<'a> {
 
     /// Copies what `from` holds to the start of `to`, as far as both reach; before anything is written.
     pub fn carry<T: Pod>(&mut self, from: &Buffer<T>, to: &Buffer<T>) -> &mut Self {
-        let bytes = from.byte_len().min(to.byte_len()) as u64;
-        if bytes > 0 {
-            self.carries.push((from.bind(), to.bind(), bytes));
-        }
+        let len = from.len().min(to.len());
+        // Both have so many.
+        let _ = self.carry_parts(from, to, &[(0, 0..len)]);
         self
+    }
+
+    /// Copies elements of `from`, from each first one on, to places in `to`, another buffer; before anything is written. The places do not
+    /// overlap.
+    ///
+    /// # Errors
+    /// [`VulkanError::WrongLength`] when they do not fit.
+    pub fn carry_parts<T: Pod>(
+        &mut self,
+        from: &Buffer<T>,
+        to: &Buffer<T>,
+        parts: &[(usize, Range<usize>)],
+    ) -> Result<&mut Self, VulkanError> {
+        let mut regions = Vec::new();
+        for (first, place) in parts.iter().filter(|(_, place)| !place.is_empty()) {
+            let len = place.len();
+            for (end, held) in [(first.saturating_add(len), from.len()), (place.end, to.len())] {
+                if end > held {
+                    return Err(VulkanError::WrongLength { given: end, held });
+                }
+            }
+            let bytes = |elements: usize| (elements * size_of::<T>()) as u64;
+            regions.push(Region {
+                from: bytes(*first),
+                to: bytes(place.start),
+                bytes: bytes(len),
+            });
+        }
+        if !regions.is_empty() {
+            self.carries.push((from.bind(), to.bind(), regions));
+        }
+        Ok(self)
     }
 
     /// Replaces elements of `buffer` from `first` on, before any dispatch. Parts that are written in one pass do not overlap. All that is
@@ -77,7 +109,12 @@ impl<'a> Pass<'a> {
     ///
     /// # Errors
     /// [`VulkanError::WrongLength`] when they do not fit.
-    pub fn write<T: Pod>(&mut self, buffer: &Buffer<T>, first: usize, data: &'a [T]) -> Result<&mut Self, VulkanError> {
+    pub fn write<T: Pod>(
+        &mut self,
+        buffer: &Buffer<T>,
+        first: usize,
+        data: &'a [T],
+    ) -> Result<&mut Self, VulkanError> {
         if first > buffer.len() || data.len() > buffer.len() - first {
             return Err(VulkanError::WrongLength {
                 given: first.saturating_add(data.len()),
@@ -114,7 +151,12 @@ impl<'a> Pass<'a> {
 
     /// The same, with copies of the bytes that it writes.
     pub(crate) fn into_owned(self) -> Pass<'static> {
-        let all: Vec<u8> = self.writes.iter().flat_map(|write| write.data()).copied().collect();
+        let all: Vec<u8> = self
+            .writes
+            .iter()
+            .flat_map(|write| write.data())
+            .copied()
+            .collect();
         let all: Arc<[u8]> = all.into();
         let mut end = 0;
         let own = |write: Write<'_>| {
@@ -146,7 +188,10 @@ impl<'a> Pass<'a> {
 
     /// Whether nothing is to be done.
     pub fn is_empty(&self) -> bool {
-        self.dispatches.is_empty() && self.writes.is_empty() && self.fills.is_empty() && self.carries.is_empty()
+        self.dispatches.is_empty()
+            && self.writes.is_empty()
+            && self.fills.is_empty()
+            && self.carries.is_empty()
     }
 
     /// Whether everything fits together, before anything is recorded. Returns the writes, sorted by buffer and place.
@@ -168,7 +213,9 @@ impl<'a> Pass<'a> {
         sorted.sort_by_key(|write| (Arc::as_ptr(&write.target.memory), write.at));
         for pair in sorted.windows(2) {
             let (one, other) = (pair[0], pair[1]);
-            if Arc::ptr_eq(&one.target.memory, &other.target.memory) && one.at + one.data().len() as u64 > other.at {
+            if Arc::ptr_eq(&one.target.memory, &other.target.memory)
+                && one.at + one.data().len() as u64 > other.at
+            {
                 return Err(VulkanError::OverlappingWrites {
                     device: shared.probe.name.clone(),
                     first: other.at,

@@ -5,8 +5,8 @@
 //! place, wherever the ring ends. It grows by powers of two from [`LEAST`] to [`MOST`] and never shrinks; growing waits for nothing. What
 //! is more than a part ([`PART`]) goes in several submissions.
 
-use gpu_allocator::vulkan::Allocation;
 use ash::vk;
+use gpu_allocator::vulkan::Allocation;
 use std::collections::VecDeque;
 use std::ops::Range;
 
@@ -32,8 +32,15 @@ impl Ring {
     /// A ring over a mapped buffer of `bytes`.
     pub fn new(buffer: vk::Buffer, allocation: Allocation, bytes: u64) -> Self {
         let allocation = Some(allocation);
-        let places = Places { bytes, ..Places::default() };
-        Self { buffer, allocation, places }
+        let places = Places {
+            bytes,
+            ..Places::default()
+        };
+        Self {
+            buffer,
+            allocation,
+            places,
+        }
     }
 
     /// How large a ring must be instead, where this one is too small for submissions of `bytes`.
@@ -87,7 +94,11 @@ impl Places {
         }
         let at = self.head % self.bytes.max(1);
         // A place lies in one piece.
-        let skipped = if at + bytes > self.bytes { self.bytes - at } else { 0 };
+        let skipped = if at + bytes > self.bytes {
+            self.bytes - at
+        } else {
+            0
+        };
         if self.head + skipped + bytes > self.tail + self.bytes {
             return None;
         }
@@ -117,7 +128,10 @@ mod tests {
     use crate::vulkan::queue::IN_FLIGHT;
 
     fn places(bytes: u64) -> Places {
-        Places { bytes, ..Places::default() }
+        Places {
+            bytes,
+            ..Places::default()
+        }
     }
 
     #[test]
@@ -139,7 +153,12 @@ mod tests {
             };
             assert!(place.end <= 1 << 10 && place.len() as u64 == bytes);
             for (_, other) in &live {
-                assert!(place.is_empty() || other.is_empty() || place.end <= other.start || other.end <= place.start);
+                assert!(
+                    place.is_empty()
+                        || other.is_empty()
+                        || place.end <= other.start
+                        || other.end <= place.start
+                );
             }
             ring.submit(number);
             live.push_back((number, place));
@@ -188,7 +207,10 @@ mod tests {
         assert_eq!(ring.outgrown(4), Some(LEAST));
         assert_eq!(ring.outgrown(LEAST / 4 + 4), Some(2 * LEAST));
         assert_eq!(ring.outgrown(PART), Some(MOST));
-        let full = Ring { places: places(MOST), ..Ring::default() };
+        let full = Ring {
+            places: places(MOST),
+            ..Ring::default()
+        };
         assert_eq!(full.outgrown(PART), None);
         assert_eq!(full.outgrown(0), None);
     }

@@ -112,7 +112,9 @@ impl Device {
                 prepare(device, commands, fills, carries);
             }
             last.record(device, commands, ring, start);
-            if !last.copies.is_empty() || first.is_some_and(|(fills, carries)| !fills.is_empty() || !carries.is_empty()) {
+            if !last.copies.is_empty()
+                || first.is_some_and(|(fills, carries)| !fills.is_empty() || !carries.is_empty())
+            {
                 barrier(device, commands);
             }
             if timed {
@@ -126,7 +128,12 @@ impl Device {
                 }
             }
         })?;
-        count(&shared.counters.regions, last.regions() + pass.carries.len() as u64);
+        let carried: u64 = pass
+            .carries
+            .iter()
+            .map(|(_, _, regions)| regions.len() as u64)
+            .sum();
+        count(&shared.counters.regions, last.regions() + carried);
         Ok(Submission {
             scratch,
             number,
@@ -147,7 +154,10 @@ impl Submission {
         shared.wait_for(&mut shared.queue(), self.number)?;
         let wall = self.start.elapsed();
         shared.check_validation()?;
-        let dispatch_ns = self.timed.map(|count| self.scratch.durations(count)).transpose()?;
+        let dispatch_ns = self
+            .timed
+            .map(|count| self.scratch.durations(count))
+            .transpose()?;
         Ok(Timings { wall, dispatch_ns })
     }
 }
@@ -157,7 +167,7 @@ fn prepare(
     device: &ash::Device,
     commands: vk::CommandBuffer,
     fills: &[super::Binding],
-    carries: &[(super::Binding, super::Binding, u64)],
+    carries: &[(super::Binding, super::Binding, Vec<Region>)],
 ) {
     for binding in fills {
         fill(device, commands, &binding.memory, UNWRITTEN);
@@ -165,9 +175,8 @@ fn prepare(
     if !fills.is_empty() && !carries.is_empty() {
         barrier(device, commands);
     }
-    for (from, to, bytes) in carries {
-        let region = Region { from: 0, to: 0, bytes: *bytes };
-        copy(device, commands, from.memory.buffer, to.memory.buffer, &[region]);
+    for (from, to, regions) in carries {
+        copy(device, commands, from.memory.buffer, to.memory.buffer, regions);
     }
     if !fills.is_empty() || !carries.is_empty() {
         barrier(device, commands);
@@ -276,12 +285,7 @@ fn elapsed(from: u64, to: u64, bits: u32) -> u64 {
     to.wrapping_sub(from) & mask
 }
 
-fn record(
-    device: &ash::Device,
-    commands: vk::CommandBuffer,
-    dispatch: &Dispatch,
-    set: vk::DescriptorSet,
-) {
+fn record(device: &ash::Device, commands: vk::CommandBuffer, dispatch: &Dispatch, set: vk::DescriptorSet) {
     let kernel = &dispatch.kernel;
     let Some([x, y, z]) = groups(dispatch.invocations, kernel.interface.workgroup[0]) else {
         return; // Refused by `Dispatch::check`.

@@ -169,10 +169,14 @@ impl Drop for Shared {
         let (ring, rest) = {
             let mut queue = self.queue();
             queue.destroy(&self.raw);
-            (std::mem::take(&mut queue.ring), std::mem::take(&mut queue.retired))
+            (
+                std::mem::take(&mut queue.ring),
+                std::mem::take(&mut queue.retired),
+            )
         };
         self.destroy_retired(Retired::Buffer(ring.buffer, ring.allocation));
-        rest.into_iter().for_each(|(_, object)| self.destroy_retired(object));
+        rest.into_iter()
+            .for_each(|(_, object)| self.destroy_retired(object));
         // SAFETY: taken once, here; every buffer held this structure, so all of them are gone.
         drop(unsafe { ManuallyDrop::take(&mut *self.allocator()) });
         // SAFETY: all objects made from the device are destroyed: buffers (as above), kernels, queue objects, memory.

@@ -93,9 +93,7 @@ impl Shared {
             device
                 .end_command_buffer(slot.commands)
                 .during("vkEndCommandBuffer", name)?;
-            device
-                .reset_fences(&[slot.fence])
-                .during("vkResetFences", name)?;
+            device.reset_fences(&[slot.fence]).during("vkResetFences", name)?;
         }
         // Whatever used it has ended, and its fence says nothing until it is submitted.
         slot.number = 0;
@@ -137,7 +135,8 @@ impl Shared {
             let next = queue.ended + 1;
             let fence = queue.slot(next).fence;
             // SAFETY: the fence belongs to this device and was submitted with the next submission that ends.
-            let status = (self.faults.before(&self.raw)).and_then(|()| unsafe { self.raw.get_fence_status(fence) });
+            let status =
+                (self.faults.before(&self.raw)).and_then(|()| unsafe { self.raw.get_fence_status(fence) });
             match status {
                 Ok(false) => break,
                 Ok(true) => queue.ended = next,
@@ -163,7 +162,9 @@ impl Shared {
             self.poll(queue);
         }
         match queue.unfinished {
-            true => Err(VulkanError::Busy { device: self.probe.name.clone() }),
+            true => Err(VulkanError::Busy {
+                device: self.probe.name.clone(),
+            }),
             false => Ok(()),
         }
     }

@@ -60,7 +60,10 @@ pub(super) fn assert_follows(what: &str, bvh: &LightBvh, backend: &mut OnDevice<
     let asked = queries(300);
     let mut cpu = CpuBackend::<Standard, 8>::new(bvh.clone());
     let found = backend.sample(&asked).expect("samples").value;
-    assert!(found == cpu.sample(&asked).expect("samples").value, "{what}: samples");
+    assert!(
+        found == cpu.sample(&asked).expect("samples").value,
+        "{what}: samples"
+    );
     let found = backend.nodes().expect("nodes");
     let words = size_of_val(&bvh.nodes()[0]) / 4;
     let expected: &[u32] = bytemuck::cast_slice(bvh.nodes());
@@ -172,7 +175,7 @@ fn frames_that_grow_copy_what_is_new_and_carry_the_rest() {
             bvh.refit();
             let what = format!("{} frame {time}: {counts:?}", device.name());
             assert_eq!(counts.waits, 0, "{what}");
-            if time % 4 > 0 {
+            if time % 2 > 0 {
                 continue; // The next frame submits it.
             }
             assert_follows(&what, &bvh, &mut backend);
@@ -189,7 +192,12 @@ fn frames_larger_than_what_is_kept_are_submitted_at_once() {
         bvh.plan();
         let counts = counted(device, || backend.follow_ahead(&bvh).expect("a frame"));
         assert!(counts.bytes > 1 << 20, "{}: {counts:?}", device.name());
-        assert_eq!((counts.submissions, counts.waits), (1, 0), "{}: {counts:?}", device.name());
+        assert_eq!(
+            (counts.submissions, counts.waits),
+            (1, 0),
+            "{}: {counts:?}",
+            device.name()
+        );
         bvh.refit();
         assert_follows(device.name(), &bvh, &mut backend);
     });
@@ -240,12 +248,22 @@ fn neighbours_are_one_region_and_overlaps_are_refused() {
         pass.write(&buffer, 75, &[1, 2]).expect("within");
         let refused = device.run(&pass).expect_err("written twice");
         assert!(
-            matches!(refused, VulkanError::OverlappingWrites { first: 300, end: 320, .. }),
+            matches!(
+                refused,
+                VulkanError::OverlappingWrites {
+                    first: 300,
+                    end: 320,
+                    ..
+                }
+            ),
             "{refused}"
         );
         assert!(matches!(
             pass.write(&buffer, 99, &[1, 2]).map(drop),
-            Err(VulkanError::WrongLength { given: 101, held: 100 })
+            Err(VulkanError::WrongLength {
+                given: 101,
+                held: 100
+            })
         ));
     });
 }
@@ -266,6 +284,11 @@ fn submissions_run_on_while_the_host_goes_on() {
             // Both handles are dropped while it may still run.
             device.submit(&pass).expect("a submission");
         }
-        assert_eq!(buffer.read().expect("a read"), [199, 200, 201], "{}", device.name());
+        assert_eq!(
+            buffer.read().expect("a read"),
+            [199, 200, 201],
+            "{}",
+            device.name()
+        );
     });
 }

@@ -38,7 +38,10 @@ fn a_lost_device_leaves_the_light_bvh_whole_and_another_takes_over() {
                 let mut backend = OnDevice::new(&lost, &bvh).expect("an upload");
                 backend.sample(&queries(1)).expect("a sample");
                 lost.lose_after(calls);
-                ids.push(bvh.add_instance(meshes[0], lightbvh::Transform::IDENTITY).expect("a place"));
+                ids.push(
+                    bvh.add_instance(meshes[0], lightbvh::Transform::IDENTITY)
+                        .expect("a place"),
+                );
                 step(&mut bvh, &ids, 4, 1);
                 let planned = bvh.plan().clone();
                 let before = bvh.clone();
@@ -54,11 +57,17 @@ fn a_lost_device_leaves_the_light_bvh_whole_and_another_takes_over() {
                 };
                 // It stays lost, and says so.
                 let again = backend.sample(&queries(1)).expect_err("lost");
-                assert!(matches!(again, BackendError::Vulkan(VulkanError::DeviceLost { .. })), "{what}: {again}");
+                assert!(
+                    matches!(again, BackendError::Vulkan(VulkanError::DeviceLost { .. })),
+                    "{what}: {again}"
+                );
 
                 // Nothing of the light BVH has changed: plan, words, and what they are refitted to.
                 assert!(bvh.planned().computed() == planned.computed(), "{what}");
-                assert!(bvh.nodes() == before.nodes() && bvh.instances() == before.instances(), "{what}");
+                assert!(
+                    bvh.nodes() == before.nodes() && bvh.instances() == before.instances(),
+                    "{what}"
+                );
                 let second = open(info, options);
                 let mut heir = OnDevice::new(&second, &bvh).expect("an upload of everything");
                 let mut refitted = bvh.clone();
@@ -73,7 +82,10 @@ fn a_lost_device_leaves_the_light_bvh_whole_and_another_takes_over() {
                 assert_follows(&what, &bvh, &mut heir);
                 drop((backend, heir));
                 let closed = lost.close();
-                assert!(!matches!(closed, Err(VulkanError::Validation { .. })), "{what}: {closed:?}");
+                assert!(
+                    !matches!(closed, Err(VulkanError::Validation { .. })),
+                    "{what}: {closed:?}"
+                );
                 second.close().expect("a clean tear-down");
             }
         }
@@ -95,7 +107,12 @@ fn a_question_that_fails_loses_nothing_of_the_frame() {
         backend.follow_ahead(&bvh).expect("a frame");
         let other = open(info, Options::default());
         let foreign = other.kernel("sample").expect("a kernel");
-        assert!(backend.query_by::<lightbvh::SampledLight>(&foreign, &queries(3)).is_err(), "a kernel of another device");
+        assert!(
+            backend
+                .query_by::<lightbvh::SampledLight>(&foreign, &queries(3))
+                .is_err(),
+            "a kernel of another device"
+        );
         bvh.refit();
         assert_follows(device.name(), &bvh, &mut backend);
         let mut cpu = CpuBackend::<Standard, 8>::new(bvh.clone());

@@ -60,7 +60,9 @@ fn render<C: Choice<W>, const W: usize>(
     let mut pass = backend.led();
     let followed = pass.len();
     let emitters = backend.emitters(options.source);
-    let scene = backend.scene.bring(device, frame.scene, emitters, &mut pass)?;
+    let scene = backend
+        .scene
+        .bring(device, frame.scene, options.source, emitters, &mut pass)?;
     let gbuffer = device.buffer::<Surface>(pixels, 0)?;
     let mut reservoirs = device.buffer::<PixelReservoir>(pixels, 0)?;
     pass.clear(&gbuffer).clear(&reservoirs);
@@ -159,7 +161,11 @@ struct Passes<'a> {
 
 impl<'a> Passes<'a> {
     /// A buffer with a copy of `data`.
-    fn upload<T: bytemuck::Pod>(&mut self, device: &Device, data: &'a [T]) -> Result<Buffer<T>, BackendError> {
+    fn upload<T: bytemuck::Pod>(
+        &mut self,
+        device: &Device,
+        data: &'a [T],
+    ) -> Result<Buffer<T>, BackendError> {
         let buffer = device.buffer(data.len(), 0)?;
         self.pass.write(&buffer, 0, data)?;
         Ok(buffer)

@@ -85,7 +85,8 @@ fn moving(opened: &Opened, instances: u32, moved: u32) -> Result<Vec<DeviceRow>,
     let mut backend: DeviceBackend<'_> = DeviceBackend::new(&opened.device, &bvh)?;
     let mut samples = Vec::new();
     for frame in 0..(WARM + FRAMES) as u32 {
-        bvh.apply(moves(&ids, moved, frame)).expect("edits within the domain");
+        bvh.apply(moves(&ids, moved, frame))
+            .expect("edits within the domain");
         bvh.plan();
         let before = opened.device.counts();
         let start = Instant::now();
