@@ -16,12 +16,12 @@ use lightbvh_kernels::render::{RenderParams, RenderPush};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
 use super::batches::{all_candidates, in_batches};
-use super::device_arrays::{DeviceEmitters, DeviceScene, DeviceTree, device_time, kernel_name, own};
+use super::device_arrays::{DeviceEmitters, DeviceTree, HeldScene, device_time, kernel_name};
 use super::restir::device::resample;
 use super::{
     Backend, BackendError, Bvh, Integrator, Restir, RestirFrame, Sampler, SceneArrays, Timed, node_record,
 };
-use crate::vulkan::{Binding, Buffer, Device, Kernel, Pass};
+use crate::vulkan::{Binding, Buffer, Device, Kernel, Pass, Submission};
 use crate::words::Record;
 
 /// Queries per dispatch: 28 MiB of them, within the smallest storage buffer range seen (128 MiB).
@@ -35,12 +35,18 @@ const SURFACES_PER_PASS: usize = 1 << 18;
 pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     pub(super) device: &'d Device,
     pub(super) tree: DeviceTree<C::Node>,
-    pub(super) roots: Buffer<BlasRoot>,
+    pub(super) roots: Arc<Buffer<BlasRoot>>,
+    /// What refits are listed in.
+    pub(super) list: Buffer<u32>,
     /// The refit of everything, and of how many triangles the meshes are then.
     pub(super) refit: Refit,
     pub(super) counts: MeshCounts,
     /// By which edits are followed.
     pub(super) mirror: Mirror,
+    /// What was followed and is not yet submitted.
+    pub(super) pending: Option<Pass<'static>>,
+    /// The scene rendered last.
+    pub(super) scene: HeldScene,
 }
 
 impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
@@ -49,8 +55,8 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     /// # Errors
     /// [`BackendError`] when it does not fit, or the device fails.
     pub fn new(device: &'d Device, bvh: &Bvh<C, W>) -> Result<Self, BackendError> {
-        let new = Self::as_built(device, bvh)?;
-        new.refit_by(&new.refit)?;
+        let mut new = Self::as_built(device, bvh)?;
+        new.refit_all(Pass::new())?;
         Ok(new)
     }
 
@@ -66,10 +72,13 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
         Ok(Self {
             device,
             tree: DeviceTree::upload::<C, W>(device, &bvh.tree(), bvh.triangles())?,
-            roots: device.upload(bvh.roots())?,
+            roots: Arc::new(device.upload(bvh.roots())?),
+            list: device.buffer(0, refit.list.len())?,
             refit,
             counts: bvh.mesh_counts(),
             mirror,
+            pending: None,
+            scene: HeldScene::default(),
         })
     }
 
@@ -78,7 +87,10 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     /// # Errors
     /// [`BackendError`] from the device.
     pub fn write_nodes(&mut self, nodes: &[C::Node]) -> Result<(), BackendError> {
-        Ok(self.tree.nodes.write(nodes)?)
+        let mut pass = self.led();
+        pass.write(&self.tree.nodes, 0, nodes)?;
+        self.submit(&pass)?;
+        Ok(())
     }
 
     /// The lights that `sampler` chooses among, where they are the light BVH's.
@@ -87,38 +99,32 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     }
 
     /// The kernel of this choice.
-    fn kernel(&self, name: &str) -> Result<Arc<Kernel>, BackendError> {
+    pub(super) fn kernel(&self, name: &str) -> Result<Arc<Kernel>, BackendError> {
         Ok(self.device.kernel(&format!("{name}{}", C::SUFFIX))?)
     }
 
-    /// Runs the dispatches of a refit.
-    pub(super) fn refit_by(&self, refit: &Refit) -> Result<Duration, BackendError> {
-        if refit.dispatches.is_empty() {
-            return Ok(Duration::ZERO);
-        }
-        let list = self.device.upload(&refit.list)?;
-        let mut steps = Vec::new();
-        for dispatch in &refit.dispatches {
-            let kernel = self.kernel(dispatch.pass.name())?;
-            let buffers = self.buffers(&kernel, &list);
-            steps.push((kernel, buffers, dispatch));
-        }
-        let mut pass = Pass::new();
-        for (kernel, buffers, dispatch) in &steps {
-            pass.dispatch(kernel, buffers, bytes_of(&dispatch.push()), dispatch.count);
-        }
-        Ok(device_time(&self.device.run(&pass)?))
+    /// Refits everything after what `pass` does, without a wait.
+    fn refit_all(&mut self, pass: Pass<'_>) -> Result<Submission, BackendError> {
+        // The list is large and seldom changes hands.
+        let refit = std::mem::take(&mut self.refit);
+        let submitted = {
+            let mut pass: Pass<'_> = pass;
+            let listed = self.refit_by(&refit, &mut pass);
+            listed.and_then(|()| self.submit(&pass))
+        };
+        self.refit = refit;
+        submitted
     }
 
     /// What a kernel of a refit takes, by the names of its bindings.
-    fn buffers<'a>(&'a self, kernel: &Kernel, list: &'a Buffer<u32>) -> Vec<Binding<'a>> {
+    pub(super) fn buffers(&self, kernel: &Kernel) -> Vec<Binding> {
         let bind = |name| match Array::named(name) {
             Some(Array::Nodes) => self.tree.nodes.bind(),
             Some(Array::Triangles) => self.tree.emitters.triangles.bind(),
             Some(Array::Instances) => self.tree.emitters.instances.bind(),
             Some(Array::Roots) => self.roots.bind(),
             Some(Array::Trails) => self.tree.trails.bind(),
-            None => list.bind(),
+            None => self.list.bind(),
         };
         let known = lightbvh_gpu::Kernel::named(kernel.name()).map_or(&[][..], |known| known.bindings);
         known.iter().map(|binding| bind(binding.name)).collect()
@@ -126,17 +132,18 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
 
     /// Answers queries pass by pass.
     fn query<T: bytemuck::Pod>(
-        &self,
+        &mut self,
         kernel: &str,
         queries: &[Query],
     ) -> Result<Timed<Vec<T>>, BackendError> {
-        self.query_by(&*self.kernel(kernel)?, queries)
+        self.query_by(&self.kernel(kernel)?, queries)
     }
 
-    /// Answers queries pass by pass, by a kernel that takes what `sample` takes.
-    pub(crate) fn query_by<T: bytemuck::Pod>(
-        &self,
-        kernel: &Kernel,
+    /// Answers queries pass by pass, by a kernel that takes what `sample` takes. A pass is one submission, with what was followed before it.
+    #[doc(hidden)]
+    pub fn query_by<T: bytemuck::Pod>(
+        &mut self,
+        kernel: &Arc<Kernel>,
         queries: &[Query],
     ) -> Result<Timed<Vec<T>>, BackendError> {
         let mut all = Timed {
@@ -144,18 +151,22 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
             time: Duration::ZERO,
         };
         for part in queries.chunks(QUERIES_PER_PASS) {
-            let input = self.device.upload(part)?;
-            let output = self.device.output::<T>(part.len())?;
+            let input = self.device.buffer(part.len(), 0)?;
+            let output = self.device.buffer::<T>(part.len(), 0)?;
             let push = QueryPush {
                 count: part.len() as u32,
                 tree: self.tree.push,
             };
             let mut bindings = self.tree.bindings().to_vec();
             bindings.extend([input.bind(), output.bind()]);
-            let mut pass = Pass::new();
+            let mut pass = self.led();
+            let followed = pass.len();
+            pass.clear(&output);
+            pass.write(&input, 0, part)?;
             pass.dispatch(kernel, &bindings, bytes_of(&push), push.count);
-            all.time += device_time(&self.device.run(&pass)?);
+            let submitted = self.submit(&pass)?;
             all.value.extend(output.read()?);
+            all.time += device_time(&submitted.wait()?.after(followed));
         }
         Ok(all)
     }
@@ -168,8 +179,15 @@ impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
 
     fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, BackendError> {
         self.counts.check(lights)?;
-        own(&mut self.tree.emitters.triangles)?.write(lights.triangles())?;
-        let time = self.refit_by(&self.refit)?;
+        self.flush()?;
+        let triangles = lights.triangles();
+        let held = &mut self.tree.emitters.triangles;
+        if Arc::get_mut(held).is_none() {
+            *held = Arc::new(self.device.buffer(triangles.len(), held.room())?);
+        }
+        let mut pass = Pass::new();
+        pass.write(held, 0, triangles)?;
+        let time = device_time(&self.refit_all(pass)?.wait()?);
         Ok(Timed {
             value: self.tree.nodes.read_words()?,
             time,
@@ -177,6 +195,7 @@ impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
     }
 
     fn nodes(&mut self) -> Result<Vec<u32>, BackendError> {
+        self.flush()?;
         Ok(self.tree.nodes.read_words()?)
     }
 
@@ -215,17 +234,24 @@ impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
         };
         let per_pass = per_pass.max(WORKGROUP as usize);
         let kernel = device.kernel(&kernel_name::<C, W>(pass, sampler))?;
-        let scene = DeviceScene::upload(device, scene, self.emitters(sampler))?;
+        let mut pass = self.led();
+        let mut followed = pass.len();
+        let emitters = self.emitters(sampler);
+        let scene = self.scene.bring(device, scene, sampler, emitters, &mut pass);
+        let scene = scene.inspect_err(|_| self.scene = HeldScene::default())?;
         let inputs = scene.with_lights(sampler, &self.tree);
         let pixels = params.width as usize * params.height as usize;
-        in_batches(params, integrator, |&params| {
+        // The first part comes with the scene.
+        let mut first_pass = Some(pass);
+        let image = in_batches(params, integrator, |&params| {
             let mut all = Timed {
                 value: Vec::with_capacity(pixels),
                 time: Duration::ZERO,
             };
+            let mut parts = Vec::new();
             for first in (0..pixels).step_by(per_pass) {
                 let count = usize::min(per_pass, pixels - first) as u32;
-                let output = device.output::<[f32; 3]>(count as usize)?;
+                let output = device.buffer::<[f32; 3]>(count as usize, 0)?;
                 let bindings = [inputs.as_slice(), &[output.bind()]].concat();
                 let first = first as u32;
                 let push = match integrator {
@@ -245,13 +271,22 @@ impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
                     })
                     .to_vec(),
                 };
-                let mut pass = Pass::new();
+                let mut pass = first_pass.take().unwrap_or_default();
+                pass.clear(&output);
                 pass.dispatch(&kernel, &bindings, &push, count);
-                all.time += device_time(&device.run(&pass)?);
+                parts.push((self.submit(&pass)?, output, std::mem::take(&mut followed)));
+            }
+            for (submitted, output, followed) in parts {
                 all.value.extend(output.read()?);
+                all.time += device_time(&submitted.wait()?.after(followed));
             }
             Ok(all)
-        })
+        });
+        if image.is_err() {
+            // What the device holds is not known.
+            self.scene = HeldScene::default();
+        }
+        image
     }
 
     fn restir(

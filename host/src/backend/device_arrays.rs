@@ -11,8 +11,9 @@ use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::trace::{RayNode, TriangleBlock};
 
+use super::held::Held;
 use super::{Sampler, SceneArrays};
-use crate::vulkan::{Binding, Buffer, Device, Timings, VulkanError};
+use crate::vulkan::{Binding, Buffer, Device, Pass, Timings, VulkanError};
 
 /// Lights on the device: triangles in the spaces of their meshes, and where the meshes stand. Who shares them reads them as they
 /// were when it took them.
@@ -22,60 +23,66 @@ pub(super) struct DeviceEmitters {
     pub instances: Arc<Buffer<Instance>>,
 }
 
-impl DeviceEmitters {
-    pub fn upload(
+/// A frame's arrays on the device. Who keeps them reads them as they were.
+pub(super) struct DeviceScene {
+    ray_nodes: Arc<Buffer<RayNode>>,
+    surfaces: Arc<Buffer<TriangleBlock>>,
+    materials: Arc<Buffer<Material>>,
+    emitters: DeviceEmitters,
+    pub camera: Arc<Buffer<Camera>>,
+    /// Where lights are chosen by power.
+    thresholds: Option<Arc<Buffer<u32>>>,
+}
+
+/// The arrays of the scene that was rendered last.
+#[derive(Default)]
+pub(super) struct HeldScene {
+    ray_nodes: Held<RayNode>,
+    surfaces: Held<TriangleBlock>,
+    materials: Held<Material>,
+    triangles: Held<EmissiveTriangle>,
+    instances: Held<Instance>,
+    camera: Held<Camera>,
+    thresholds: Held<u32>,
+}
+
+impl HeldScene {
+    /// A frame's arrays for a kernel that chooses lights by `sampler`, once `pass` has run, which writes what differs from those of the frame
+    /// before. They are lit by `emitters` or, without, by the lights that the frame lists. Where `pass` does not run, what is held is not known any more: make it new then.
+    pub fn bring<'a>(
+        &mut self,
         device: &Device,
-        triangles: &[EmissiveTriangle],
-        instances: &[Instance],
-    ) -> Result<Self, VulkanError> {
-        Ok(Self {
-            triangles: Arc::new(device.upload(triangles)?),
-            instances: Arc::new(device.upload(instances)?),
+        scene: &'a SceneArrays,
+        sampler: Sampler,
+        emitters: Option<DeviceEmitters>,
+        pass: &mut Pass<'a>,
+    ) -> Result<DeviceScene, VulkanError> {
+        let listed = scene.emitters();
+        Ok(DeviceScene {
+            ray_nodes: self.ray_nodes.bring(device, &scene.rays.nodes, pass)?,
+            surfaces: self.surfaces.bring_known(device, &scene.rays.blocks, pass)?,
+            materials: self.materials.bring(device, &scene.materials, pass)?,
+            emitters: match emitters {
+                Some(emitters) => emitters,
+                None => DeviceEmitters {
+                    triangles: self.triangles.bring(device, listed.triangles, pass)?,
+                    instances: self.instances.bring(device, listed.instances, pass)?,
+                },
+            },
+            camera: self
+                .camera
+                .bring(device, std::slice::from_ref(&scene.camera), pass)?,
+            thresholds: match sampler {
+                Sampler::Power => Some(self.thresholds.bring(device, &scene.thresholds, pass)?),
+                _ => None,
+            },
         })
     }
-}
-
-/// The buffer to be written: a copy on the device where something else reads it as it is.
-pub(super) fn own<T: Pod>(buffer: &mut Arc<Buffer<T>>) -> Result<&mut Buffer<T>, VulkanError> {
-    if Arc::get_mut(buffer).is_none() {
-        *buffer = Arc::new(buffer.duplicate()?);
-    }
-    Ok(Arc::get_mut(buffer).expect("no one else has the copy"))
-}
-
-/// A frame's arrays on the device.
-pub(super) struct DeviceScene {
-    pub ray_nodes: Buffer<RayNode>,
-    pub surfaces: Buffer<TriangleBlock>,
-    pub materials: Buffer<Material>,
-    pub emitters: DeviceEmitters,
-    pub camera: Buffer<Camera>,
-    pub thresholds: Buffer<u32>,
 }
 
 impl DeviceScene {
-    /// Uploads a frame, lit by `emitters` or, without, by the lights that it lists.
-    pub fn upload(
-        device: &Device,
-        scene: &SceneArrays,
-        emitters: Option<DeviceEmitters>,
-    ) -> Result<Self, VulkanError> {
-        let listed = scene.emitters();
-        Ok(Self {
-            ray_nodes: device.upload(&scene.rays.nodes)?,
-            surfaces: device.upload(&scene.rays.blocks)?,
-            materials: device.upload(&scene.materials)?,
-            emitters: match emitters {
-                Some(emitters) => emitters,
-                None => DeviceEmitters::upload(device, listed.triangles, listed.instances)?,
-            },
-            camera: device.upload(&[scene.camera])?,
-            thresholds: device.upload(&scene.thresholds)?,
-        })
-    }
-
     /// The buffers that a [`Scene`](lightbvh_kernels::shading::pixel::Scene) is made of.
-    pub fn view(&self) -> [Binding<'_>; 5] {
+    pub fn view(&self) -> [Binding; 5] {
         [
             self.ray_nodes.bind(),
             self.surfaces.bind(),
@@ -87,12 +94,12 @@ impl DeviceScene {
 
     /// What a kernel that chooses lights by `sampler` takes from the scene on: the scene, who looks, and what lights are
     /// chosen by.
-    pub fn with_lights<'a, N: Pod>(&'a self, sampler: Sampler, tree: &'a DeviceTree<N>) -> Vec<Binding<'a>> {
+    pub fn with_lights<N: Pod>(&self, sampler: Sampler, tree: &DeviceTree<N>) -> Vec<Binding> {
         let mut bindings = self.view().to_vec();
         bindings.push(self.camera.bind());
         match sampler {
             Sampler::Uniform => {}
-            Sampler::Power => bindings.push(self.thresholds.bind()),
+            Sampler::Power => bindings.extend(self.thresholds.as_ref().map(|buffer| buffer.bind())),
             Sampler::SingleLevel | Sampler::TwoLevel => {
                 bindings.extend([tree.nodes.bind(), tree.trails.bind()]);
             }
@@ -103,9 +110,9 @@ impl DeviceScene {
 
 /// The arrays of a light BVH on the device.
 pub(super) struct DeviceTree<N> {
-    pub nodes: Buffer<N>,
+    pub nodes: Arc<Buffer<N>>,
     pub emitters: DeviceEmitters,
-    pub trails: Buffer<u32>,
+    pub trails: Arc<Buffer<u32>>,
     pub push: TreeWords,
 }
 
@@ -116,15 +123,18 @@ impl<N: Pod> DeviceTree<N> {
         triangles: &[EmissiveTriangle],
     ) -> Result<Self, VulkanError> {
         Ok(Self {
-            nodes: device.upload(tree.nodes)?,
-            emitters: DeviceEmitters::upload(device, triangles, tree.instances)?,
-            trails: device.upload(tree.trails)?,
+            nodes: Arc::new(device.upload(tree.nodes)?),
+            emitters: DeviceEmitters {
+                triangles: Arc::new(device.upload(triangles)?),
+                instances: Arc::new(device.upload(tree.instances)?),
+            },
+            trails: Arc::new(device.upload(tree.trails)?),
             push: TreeWords::of(tree),
         })
     }
 
     /// What the passes of queries take.
-    pub fn bindings(&self) -> [Binding<'_>; 3] {
+    pub fn bindings(&self) -> [Binding; 3] {
         [
             self.nodes.bind(),
             self.emitters.instances.bind(),

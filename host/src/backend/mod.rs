@@ -8,6 +8,7 @@ mod device;
 mod device_arrays;
 mod error;
 mod follow;
+mod held;
 mod record;
 mod restir;
 mod scene;

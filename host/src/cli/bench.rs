@@ -1,6 +1,7 @@
 //! `lightbvh bench`: time per item and bytes per light, beside a plain copy of the same bytes; and what speed costs in
 //! accuracy; or what frames of moving lights cost.
 
+mod devices;
 mod dynamic;
 mod passes;
 pub(super) mod scene;
@@ -16,7 +17,7 @@ use serde_json::json;
 
 use super::range::{self, Given, given};
 use super::times::median;
-use super::{Context, Outcome, devices, table};
+use super::{Context, Outcome, devices as cli_devices, table};
 use crate::backend::{Bvh, CpuBackend, DeviceBackend, Sampler};
 use crate::cli::table::news;
 use crate::error::HostError;
@@ -50,6 +51,9 @@ pub(super) struct Args {
     /// Count the nodes and the time of single samples and pmfs in adversarial scenes instead.
     #[arg(long, conflicts_with = "dynamic")]
     worst: bool,
+    /// Measure what frames of moving lights cost each device instead: times, bytes, regions, submissions, waits.
+    #[arg(long, conflicts_with_all = ["dynamic", "worst"])]
+    devices: bool,
     /// Instances of the moving scene, 1 to 10^6.
     #[arg(long, default_value_t = 10_000)]
     instances: u32,
@@ -88,11 +92,14 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     if args.dynamic {
         return run_dynamic(context, args);
     }
+    if args.devices {
+        return run_devices(context, args);
+    }
     range::check(&[
         given("--lights", args.lights, 1..=1 << 24),
         given("--queries", args.queries, 1..=100_000_000),
     ])?;
-    let opened = devices::open(context)?;
+    let opened = cli_devices::open(context)?;
     let lights = random_lights(args.lights);
     let queries = random_queries(args.queries);
     let one = rayon::ThreadPoolBuilder::new()
@@ -161,7 +168,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             push(What::PMF, o.device.name(), 0, &times.pmf, args.queries);
         }
     }
-    devices::close(opened)?;
+    cli_devices::close(opened)?;
     let trade = if args.no_trade { Vec::new() } else { trade::rows() };
     print(context, &cases, &trade)?;
     Ok(Outcome::Good)
@@ -246,9 +253,9 @@ fn run_dynamic(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     let much = if args.quick {
         None
     } else {
-        let opened = devices::open(context)?;
+        let opened = cli_devices::open(context)?;
         let report = dynamic::report(args.instances, args.mesh_triangles, &opened)?;
-        devices::close(opened)?;
+        cli_devices::close(opened)?;
         Some(report)
     };
     let one = lone::report(largest, args.quick);
@@ -265,6 +272,19 @@ fn run_dynamic(context: &Context, args: &Args) -> Result<Outcome, HostError> {
         if let Some(much) = much {
             dynamic::print(&much)?;
         }
+    }
+    Ok(Outcome::Good)
+}
+
+fn run_devices(context: &Context, args: &Args) -> Result<Outcome, HostError> {
+    range::check(&[given("--instances", args.instances, 1..=1_000_000)])?;
+    let opened = cli_devices::open(context)?;
+    let rows = devices::rows(&opened, args.instances)?;
+    cli_devices::close(opened)?;
+    if context.json {
+        table::print_json(&json!({ "rows": rows }))?;
+    } else {
+        devices::print(&rows)?;
     }
     Ok(Outcome::Good)
 }

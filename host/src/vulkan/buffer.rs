@@ -14,16 +14,18 @@ pub use crate::words::UNWRITTEN;
 
 /// An array of `T` in device memory. Lives as long as it is held, and keeps its device open.
 pub struct Buffer<T> {
-    memory: Memory,
+    memory: Arc<Memory>,
     len: usize,
     element: PhantomData<fn() -> T>,
 }
 
-/// A buffer as an argument of a dispatch.
-#[derive(Clone, Copy)]
-pub struct Binding<'a> {
-    pub(crate) memory: &'a Memory,
+/// A buffer as an argument of a dispatch, or where bytes are written to.
+#[derive(Clone)]
+pub struct Binding {
+    pub(crate) memory: Arc<Memory>,
     pub(crate) element_bytes: usize,
+    /// Bytes that are in use, from the start.
+    pub(crate) bytes: u64,
 }
 
 impl Device {
@@ -32,8 +34,8 @@ impl Device {
     /// # Errors
     /// [`VulkanError::BufferTooLarge`], [`VulkanError::OutOfMemory`], or those of [`Buffer::write`].
     pub fn upload<T: Pod>(&self, data: &[T]) -> Result<Buffer<T>, VulkanError> {
-        let mut buffer = Buffer::new(&self.shared, data.len())?;
-        buffer.write(data)?;
+        let buffer = self.buffer(data.len(), data.len())?;
+        buffer.memory.write_at(0, bytemuck::cast_slice(data), true)?;
         Ok(buffer)
     }
 
@@ -42,9 +44,18 @@ impl Device {
     /// # Errors
     /// As [`Device::upload`].
     pub fn output<T: Pod>(&self, len: usize) -> Result<Buffer<T>, VulkanError> {
-        let mut buffer = Buffer::new(&self.shared, len)?;
-        buffer.mark_unwritten()?;
+        let buffer = self.buffer(len, len)?;
+        buffer.memory.fill_new(UNWRITTEN)?;
         Ok(buffer)
+    }
+
+    /// A buffer of `len` elements with room for `room`, no fewer. What it holds is not known until it is written, by a
+    /// [`Pass`](super::Pass) or otherwise.
+    ///
+    /// # Errors
+    /// [`VulkanError::BufferTooLarge`], [`VulkanError::OutOfMemory`] or [`VulkanError::Call`].
+    pub fn buffer<T: Pod>(&self, len: usize, room: usize) -> Result<Buffer<T>, VulkanError> {
+        Buffer::new(&self.shared, len, room.max(len))
     }
 }
 
@@ -57,14 +68,14 @@ impl<T: Pod> Buffer<T> {
         size_of::<T>()
     };
 
-    fn new(shared: &Arc<Shared>, len: usize) -> Result<Self, VulkanError> {
-        let bytes = (len as u64).saturating_mul(Self::ELEMENT_BYTES as u64);
+    fn new(shared: &Arc<Shared>, len: usize, room: usize) -> Result<Self, VulkanError> {
+        let bytes = (room as u64).saturating_mul(Self::ELEMENT_BYTES as u64);
         let location = match shared.probe.unified_memory && !shared.options.force_staging {
             true => MemoryLocation::GpuToCpu,
             false => MemoryLocation::GpuOnly,
         };
         // Vulkan has no buffers of zero bytes; one word stands in, smaller than any element but a word itself.
-        let memory = Memory::new(shared, bytes.max(4), location)?;
+        let memory = Arc::new(Memory::new(shared, bytes.max(4), location)?);
         Ok(Self {
             memory,
             len,
@@ -82,16 +93,29 @@ impl<T: Pod> Buffer<T> {
         self.len == 0
     }
 
+    /// Elements that there is room for.
+    pub fn room(&self) -> usize {
+        self.memory.bytes as usize / Self::ELEMENT_BYTES
+    }
+
+    /// Takes so many elements of the room for the array's, and returns whether there are so many. Those that are new are not known until they are written.
+    pub fn set_len(&mut self, len: usize) -> bool {
+        let fits = len <= self.room();
+        self.len = if fits { len } else { self.len };
+        fits
+    }
+
     /// Bytes of all elements.
     pub fn byte_len(&self) -> usize {
         self.len * Self::ELEMENT_BYTES
     }
 
     /// The buffer as an argument of a dispatch.
-    pub fn bind(&self) -> Binding<'_> {
+    pub fn bind(&self) -> Binding {
         Binding {
-            memory: &self.memory,
+            memory: Arc::clone(&self.memory),
             element_bytes: Self::ELEMENT_BYTES,
+            bytes: self.byte_len() as u64,
         }
     }
 
@@ -106,40 +130,12 @@ impl<T: Pod> Buffer<T> {
                 held: self.len,
             });
         }
-        self.memory.write(bytemuck::cast_slice(data))
-    }
-
-    /// Replaces the elements from `first` on.
-    ///
-    /// # Errors
-    /// [`VulkanError::WrongLength`] when they do not fit, [`VulkanError::Busy`], or those of a copy to the device.
-    pub fn write_from(&mut self, first: usize, data: &[T]) -> Result<(), VulkanError> {
-        if first > self.len || data.len() > self.len - first {
-            return Err(VulkanError::WrongLength {
-                given: first.saturating_add(data.len()),
-                held: self.len,
-            });
-        }
-        if data.is_empty() {
-            return Ok(());
-        }
-        self.memory
-            .write_at(first * Self::ELEMENT_BYTES, bytemuck::cast_slice(data))
+        self.memory.write_at(0, bytemuck::cast_slice(data), false)
     }
 
     /// Whether it was made on `device`.
     pub fn is_on(&self, device: &Device) -> bool {
         self.memory.shared.id == device.shared.id
-    }
-
-    /// A buffer of the same elements, copied by the device.
-    ///
-    /// # Errors
-    /// As [`Device::upload`].
-    pub fn duplicate(&self) -> Result<Self, VulkanError> {
-        let copy = Self::new(&self.memory.shared, self.len)?;
-        self.memory.copy_to(&copy.memory, 0, 0, self.memory.bytes)?;
-        Ok(copy)
     }
 
     /// Sets every word to [`UNWRITTEN`] again.

@@ -1,5 +1,6 @@
 //! Devices: list them, pick one, open it, close it.
 
+use super::counts::Counts;
 use super::error::{CallContext, VulkanError};
 use super::fma;
 use super::instance::Instance;
@@ -103,6 +104,19 @@ impl Device {
     /// Device name as the driver gives it.
     pub fn name(&self) -> &str {
         &self.shared.probe.name
+    }
+
+    /// What it was asked to do since it was opened.
+    pub fn counts(&self) -> Counts {
+        self.shared.counters.now()
+    }
+
+    /// The device is lost in the call after `calls` more that may find it so: submissions, waits, looks at what has ended, times. For tests;
+    /// there is none of it without debug assertions.
+    #[cfg(debug_assertions)]
+    #[doc(hidden)]
+    pub fn lose_after(&self, calls: u32) {
+        self.shared.faults.lose_after(calls);
     }
 
     /// Closes the device and waits until all of it is gone, so that the validation layer has seen the tear-down too.

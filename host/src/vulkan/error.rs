@@ -129,6 +129,18 @@ pub enum VulkanError {
         /// Elements of the buffer.
         held: usize,
     },
+    /// A pass writes the same bytes twice.
+    #[error(
+        "a pass for {device} writes bytes {first} to {end} of a buffer twice; write each once, or in two passes"
+    )]
+    OverlappingWrites {
+        /// Name of the device.
+        device: String,
+        /// The first of them.
+        first: u64,
+        /// Where what was written first ends.
+        end: u64,
+    },
     /// No module of that name is built in.
     #[error("no kernel `{name}` in this program; there are: {known}")]
     UnknownKernel {

@@ -1,15 +1,15 @@
 //! Device memory behind a buffer, and the copies in and out of it.
 
+use super::counts::count;
 use super::error::{CallContext, VulkanError};
 use super::queue::Retired;
+use super::ring::PART;
 use super::shared::Shared;
 use ash::vk;
 use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
+use std::ptr::NonNull;
 use std::sync::Arc;
-
-/// Copies to and from memory that the host cannot reach go through a staging buffer of at most this size.
-const STAGING_BYTES: u64 = 32 << 20;
 
 /// A Vulkan buffer with its memory.
 pub(crate) struct Memory {
@@ -20,6 +20,14 @@ pub(crate) struct Memory {
     location: MemoryLocation,
 }
 
+/// A region that the device copies, bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Region {
+    pub from: u64,
+    pub to: u64,
+    pub bytes: u64,
+}
+
 impl Memory {
     /// `bytes` of storage; more than 0, a multiple of 4.
     pub(crate) fn new(
@@ -27,7 +35,6 @@ impl Memory {
         bytes: u64,
         location: MemoryLocation,
     ) -> Result<Self, VulkanError> {
-        let (device, name) = (&shared.raw, shared.probe.name.as_str());
         let limits = &shared.probe.limits;
         for (limit_name, limit) in [
             ("maxStorageBufferRange", limits.max_storage_buffer_range),
@@ -35,7 +42,7 @@ impl Memory {
         ] {
             if bytes > limit {
                 return Err(VulkanError::BufferTooLarge {
-                    device: name.into(),
+                    device: shared.probe.name.clone(),
                     bytes,
                     limit_name,
                     limit,
@@ -45,141 +52,120 @@ impl Memory {
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER
             | vk::BufferUsageFlags::TRANSFER_SRC
             | vk::BufferUsageFlags::TRANSFER_DST;
-        let info = vk::BufferCreateInfo::default().size(bytes).usage(usage);
-        // SAFETY: the device is alive; the size is neither zero nor over the limits.
-        let buffer = unsafe { device.create_buffer(&info, None) }.during("vkCreateBuffer", name)?;
-        // From here on dropping cleans up.
-        let mut memory = Self {
+        let (buffer, allocation) = create(shared, bytes, usage, location)?;
+        Ok(Self {
             shared: Arc::clone(shared),
             buffer,
             bytes,
-            allocation: None,
+            allocation: Some(allocation),
             location,
-        };
-        // SAFETY: the buffer belongs to this device.
-        let requirements = unsafe { device.get_buffer_memory_requirements(buffer) };
-        let mut allocator = shared.allocator();
-        let allocation = allocator
-            .allocate(&AllocationCreateDesc {
-                name: "storage",
-                requirements,
-                location,
-                linear: true,
-                allocation_scheme: AllocationScheme::GpuAllocatorManaged,
-            })
-            .map_err(|error| VulkanError::OutOfMemory {
-                device: name.into(),
-                bytes,
-                reserved: allocator.capacity(),
-                reason: error.to_string(),
-            })?;
-        drop(allocator);
-        let allocation = memory.allocation.insert(allocation);
-        // SAFETY: the memory was allocated for this buffer's requirements and is bound once, at the offset that the
-        // allocator chose to meet their alignment.
-        unsafe { device.bind_buffer_memory(buffer, allocation.memory(), allocation.offset()) }
-            .during("vkBindBufferMemory", name)?;
-        Ok(memory)
+        })
     }
 
-    /// Copies `data` to the start of the buffer; not longer than it.
-    pub(crate) fn write(&mut self, data: &[u8]) -> Result<(), VulkanError> {
-        self.write_at(0, data)
-    }
-
-    /// Copies to `at` bytes from the start of the buffer; not more than it holds from there.
-    pub(crate) fn write_at(&mut self, at: usize, data: &[u8]) -> Result<(), VulkanError> {
-        let shared = Arc::clone(&self.shared);
-        let idle = shared.idle_queue()?;
-        if let Some(mapped) = self.mapped_mut() {
-            mapped[at..at + data.len()].copy_from_slice(data);
+    /// Copies `data` to `at` bytes from the start of the buffer; not more than it holds from there. In memory that the host reaches it waits
+    /// for what is under way, unless the buffer `is_new`: then nothing uses it.
+    pub(crate) fn write_at(&self, at: usize, data: &[u8], is_new: bool) -> Result<(), VulkanError> {
+        let shared = &self.shared;
+        if data.is_empty() {
             return Ok(());
         }
-        drop(idle);
-        let Some(mut staging) = self.staging(data.len(), MemoryLocation::CpuToGpu)? else {
-            return Ok(());
-        };
-        for (offset, chunk) in chunks(data.len()) {
-            staging.write(&data[offset..offset + chunk])?;
-            staging.copy_to(self, 0, (at + offset) as u64, chunk as u64)?;
-        }
-        Ok(())
-    }
-
-    /// Copies from the start of the buffer; not more than it holds.
-    pub(crate) fn read(&self, data: &mut [u8]) -> Result<(), VulkanError> {
-        let idle = self.shared.idle_queue()?;
         if let Some(mapped) = self.mapped() {
-            data.copy_from_slice(&mapped[..data.len()]);
+            let queue = (!is_new).then(|| shared.idle_queue()).transpose()?;
+            count(&shared.counters.bytes, data.len() as u64);
+            assert!(
+                at as u64 + data.len() as u64 <= self.bytes,
+                "checked by the callers"
+            );
+            // SAFETY: the memory is mapped for `bytes`, which hold the data (as above). No one else reaches it meanwhile: the device runs
+            // nothing that uses it, and the host reads and writes buffers that are not new with the queue held.
+            unsafe {
+                mapped
+                    .add(at)
+                    .copy_from_nonoverlapping(NonNull::from(data).cast(), data.len())
+            };
+            drop(queue);
             return Ok(());
         }
-        drop(idle);
-        let Some(staging) = self.staging(data.len(), MemoryLocation::GpuToCpu)? else {
-            return Ok(());
-        };
-        for (offset, chunk) in chunks(data.len()) {
-            self.copy_to(&staging, offset as u64, 0, chunk as u64)?;
-            staging.read(&mut data[offset..offset + chunk])?;
+        for (part, data) in (0..).zip(data.chunks(PART as usize)) {
+            let to = at as u64 + part * PART;
+            let bytes = data.len() as u64;
+            let stage = |place: &mut [u8]| place.copy_from_slice(data);
+            shared.submit(copying(bytes), bytes, stage, |device, commands, ring, from| {
+                let region = Region { from, to, bytes };
+                copy(device, commands, ring, self.buffer, &[region]);
+            })?;
+            count(&shared.counters.regions, 1);
         }
         Ok(())
     }
 
-    /// Sets every word of the buffer.
-    pub(crate) fn fill(&mut self, word: u32) -> Result<(), VulkanError> {
-        let shared = Arc::clone(&self.shared);
-        let idle = shared.idle_queue()?;
-        if let Some(mapped) = self.mapped_mut() {
-            for bytes in mapped.chunks_exact_mut(4) {
-                bytes.copy_from_slice(&word.to_ne_bytes());
-            }
+    /// Copies from the start of the buffer; not more than it holds. Waits for what is under way.
+    pub(crate) fn read(&self, data: &mut [u8]) -> Result<(), VulkanError> {
+        if data.is_empty() {
             return Ok(());
         }
-        drop(idle);
-        let (buffer, bytes) = (self.buffer, self.bytes);
-        let work = || format!("filling a buffer of {bytes} bytes");
-        let done = shared.submit(work, |device, commands| {
-            // SAFETY: the buffer belongs to this device, was made for transfers and is `bytes` long, a multiple of 4;
-            // it outlives the submission (`drop`).
-            unsafe { device.cmd_fill_buffer(commands, buffer, 0, bytes, word) };
-        });
-        done.map(drop)
+        if let Some(mapped) = self.mapped() {
+            let queue = self.shared.idle_queue()?;
+            assert!(data.len() as u64 <= self.bytes, "checked by the callers");
+            // SAFETY: the memory is mapped for `bytes`, which are no fewer (as above). Nothing writes it meanwhile, as in `write_at`.
+            unsafe { mapped.copy_to_nonoverlapping(NonNull::from(&mut *data).cast(), data.len()) };
+            drop(queue);
+            return Ok(());
+        }
+        let part = PART.min(data.len() as u64);
+        let staging = Self::new(&self.shared, part, MemoryLocation::GpuToCpu)?;
+        for (index, data) in (0..).zip(data.chunks_mut(part as usize)) {
+            let bytes = data.len() as u64;
+            let region = Region {
+                from: index * part,
+                to: 0,
+                bytes,
+            };
+            self.shared.submit(
+                copying(bytes),
+                0,
+                |_| {},
+                |device, commands, _, _| {
+                    copy(device, commands, self.buffer, staging.buffer, &[region]);
+                },
+            )?;
+            count(&self.shared.counters.regions, 1);
+            staging.read(data)?;
+        }
+        Ok(())
     }
 
-    /// Copies between two buffers of the device.
-    pub(crate) fn copy_to(&self, target: &Self, from: u64, to: u64, bytes: u64) -> Result<(), VulkanError> {
-        let regions = [vk::BufferCopy {
-            src_offset: from,
-            dst_offset: to,
-            size: bytes,
-        }];
-        let (source, target) = (self.buffer, target.buffer);
-        let work = || format!("copying {bytes} bytes");
-        let done = self.shared.submit(work, |device, commands| {
-            // SAFETY: both buffers belong to this device, were made for transfers, hold the regions (`chunks`, `Buffer::duplicate`), and
-            // outlive the submission (`drop`).
-            unsafe { device.cmd_copy_buffer(commands, source, target, &regions) };
-        });
-        done.map(drop)
+    /// Sets every word of a new buffer, that nothing uses.
+    pub(crate) fn fill_new(&self, word: u32) -> Result<(), VulkanError> {
+        match self.mapped() {
+            Some(mapped) => {
+                let words = mapped.cast::<u32>();
+                for at in 0..self.bytes as usize / 4 {
+                    // SAFETY: the memory is mapped for `bytes` and aligned to more than a word; nothing else reaches a new buffer.
+                    unsafe { words.add(at).write(word) };
+                }
+                Ok(())
+            }
+            None => self.fill(word),
+        }
     }
 
-    /// A buffer for copies of `bytes`, in memory the host reaches; none for no bytes.
-    fn staging(&self, bytes: usize, location: MemoryLocation) -> Result<Option<Self>, VulkanError> {
-        let bytes = (bytes as u64).min(STAGING_BYTES);
-        (bytes > 0)
-            .then(|| Self::new(&self.shared, bytes, location))
-            .transpose()
+    /// Sets every word of the buffer, on the device.
+    pub(crate) fn fill(&self, word: u32) -> Result<(), VulkanError> {
+        let work = format!("filling a buffer of {} bytes", self.bytes);
+        let filled = self.shared.submit(
+            work,
+            0,
+            |_| {},
+            |device, commands, _, _| fill(device, commands, self, word),
+        );
+        filled.map(drop)
     }
 
-    /// The memory as bytes where host and device may both reach it.
-    fn mapped(&self) -> Option<&[u8]> {
-        let mapped = self.allocation.as_ref()?.mapped_slice()?;
-        (self.location != MemoryLocation::GpuOnly).then(|| &mapped[..self.bytes as usize])
-    }
-
-    fn mapped_mut(&mut self) -> Option<&mut [u8]> {
-        let (location, bytes) = (self.location, self.bytes as usize);
-        let mapped = self.allocation.as_mut()?.mapped_slice_mut()?;
-        (location != MemoryLocation::GpuOnly).then(|| &mut mapped[..bytes])
+    /// The memory where host and device may both reach it, mapped for as long as it lives.
+    fn mapped(&self) -> Option<NonNull<u8>> {
+        let mapped = self.allocation.as_ref()?.mapped_ptr()?.cast();
+        (self.location != MemoryLocation::GpuOnly).then_some(mapped)
     }
 }
 
@@ -190,10 +176,86 @@ impl Drop for Memory {
     }
 }
 
-/// Offset and length of each staging copy.
-fn chunks(bytes: usize) -> impl Iterator<Item = (usize, usize)> {
-    let step = STAGING_BYTES as usize;
-    (0..bytes)
-        .step_by(step)
-        .map(move |offset| (offset, step.min(bytes - offset)))
+fn copying(bytes: u64) -> String {
+    format!("copying {bytes} bytes")
+}
+
+/// Records one copy of many regions between two buffers that hold them; regions of the target do not overlap.
+pub(super) fn copy(
+    device: &ash::Device,
+    commands: vk::CommandBuffer,
+    source: vk::Buffer,
+    target: vk::Buffer,
+    regions: &[Region],
+) {
+    let regions: Vec<vk::BufferCopy> = regions
+        .iter()
+        .map(|region| vk::BufferCopy {
+            src_offset: region.from,
+            dst_offset: region.to,
+            size: region.bytes,
+        })
+        .collect();
+    if regions.is_empty() {
+        return;
+    }
+    // SAFETY: the command buffer is recording; both buffers belong to this device, were made for transfers, hold the regions (the callers
+    // see to it), and live until the submission has ended (`retire`).
+    unsafe { device.cmd_copy_buffer(commands, source, target, &regions) };
+}
+
+/// Records that every word of a buffer is set.
+pub(super) fn fill(device: &ash::Device, commands: vk::CommandBuffer, memory: &Memory, word: u32) {
+    // SAFETY: the command buffer is recording; the buffer belongs to this device, was made for transfers, is `bytes` long, a multiple of 4,
+    // and lives until the submission has ended (`retire`).
+    unsafe { device.cmd_fill_buffer(commands, memory.buffer, 0, memory.bytes, word) };
+}
+
+/// A buffer of `bytes`, more than none, with memory of its own.
+pub(super) fn create(
+    shared: &Shared,
+    bytes: u64,
+    usage: vk::BufferUsageFlags,
+    location: MemoryLocation,
+) -> Result<(vk::Buffer, Allocation), VulkanError> {
+    let (device, name) = (&shared.raw, shared.probe.name.as_str());
+    let info = vk::BufferCreateInfo::default().size(bytes).usage(usage);
+    // SAFETY: the device is alive; the size is not zero.
+    let buffer = unsafe { device.create_buffer(&info, None) }.during("vkCreateBuffer", name)?;
+    count(&shared.counters.buffers, 1);
+    // SAFETY: the buffer belongs to this device.
+    let requirements = unsafe { device.get_buffer_memory_requirements(buffer) };
+    let mut allocator = shared.allocator();
+    let allocated = allocator.allocate(&AllocationCreateDesc {
+        name: "storage",
+        requirements,
+        location,
+        linear: true,
+        allocation_scheme: AllocationScheme::GpuAllocatorManaged,
+    });
+    let bound = match allocated {
+        Ok(allocation) => {
+            // SAFETY: the memory was allocated for this buffer's requirements and is bound once, at the offset that the
+            // allocator chose to meet their alignment.
+            let bound =
+                unsafe { device.bind_buffer_memory(buffer, allocation.memory(), allocation.offset()) };
+            match bound.during("vkBindBufferMemory", name) {
+                Ok(()) => return Ok((buffer, allocation)),
+                Err(error) => {
+                    // An error would be an inconsistency of the allocator itself; there is nothing to undo.
+                    let _ = allocator.free(allocation);
+                    error
+                }
+            }
+        }
+        Err(error) => VulkanError::OutOfMemory {
+            device: name.into(),
+            bytes,
+            reserved: allocator.capacity(),
+            reason: error.to_string(),
+        },
+    };
+    // SAFETY: it was made above, and nothing uses it.
+    unsafe { device.destroy_buffer(buffer, None) };
+    Err(bound)
 }

@@ -23,8 +23,11 @@
 #![warn(clippy::undocumented_unsafe_blocks)]
 
 mod buffer;
+mod cache;
+mod counts;
 mod device;
 mod error;
+mod fault;
 mod fma;
 mod instance;
 mod kernel;
@@ -34,13 +37,17 @@ mod pass;
 mod pipeline;
 mod probe;
 mod queue;
+mod ring;
 mod run;
 mod self_test;
 mod shared;
 mod submit;
+mod upload;
 mod validation;
 
 pub use buffer::{Binding, Buffer, UNWRITTEN};
+pub use cache::cache_directory;
+pub use counts::Counts;
 pub use device::{Device, DeviceInfo, DeviceList};
 pub use error::VulkanError;
 pub use kernel::Kernel;
@@ -48,5 +55,5 @@ pub use lightbvh_gpu::spirv::{Interface, ModuleError};
 pub use options::Options;
 pub use pass::Pass;
 pub use probe::{Driver, Features, FloatControls, Limits, Probe};
-pub use run::Timings;
+pub use run::{Submission, Timings};
 pub use self_test::{Exactness, Finding};

@@ -94,7 +94,7 @@ impl Kernel {
             layout: vk::PipelineLayout::null(),
             pipeline: vk::Pipeline::null(),
         };
-        match kernel.create(&shared.raw, &shared.probe.name, &words) {
+        match kernel.create(shared, &words) {
             Ok(()) => Ok(kernel),
             Err(error) => {
                 kernel.destroy(&shared.raw);
@@ -103,7 +103,8 @@ impl Kernel {
         }
     }
 
-    fn create(&mut self, device: &ash::Device, device_name: &str, words: &[u32]) -> Result<(), VulkanError> {
+    fn create(&mut self, shared: &Shared, words: &[u32]) -> Result<(), VulkanError> {
+        let (device, device_name) = (&shared.raw, shared.probe.name.as_str());
         let bindings: Vec<_> = (0..self.interface.buffers.len() as u32)
             .map(|binding| {
                 vk::DescriptorSetLayoutBinding::default()
@@ -147,7 +148,7 @@ impl Kernel {
             .layout(self.layout)
             .stage(stage)];
         // SAFETY: as above; the layout covers every binding and push constant that the module declares.
-        let created = unsafe { device.create_compute_pipelines(vk::PipelineCache::null(), &info, None) };
+        let created = unsafe { device.create_compute_pipelines(shared.cache.raw, &info, None) };
         // SAFETY: pipelines do not need their module once they are made; nothing else uses it.
         unsafe { device.destroy_shader_module(module, None) };
         match created {

@@ -1,5 +1,6 @@
 //! What a device says about itself: driver, float controls, limits.
 
+use super::cache::Identity;
 use super::fma;
 use super::instance::Instance;
 use ash::vk;
@@ -111,6 +112,7 @@ pub struct Limits {
 pub(crate) struct Candidate {
     pub(crate) physical: vk::PhysicalDevice,
     pub(crate) queue_family: u32,
+    pub(crate) identity: Identity,
     pub(crate) probe: Probe,
 }
 
@@ -200,6 +202,11 @@ impl Candidate {
         Ok(Self {
             physical,
             queue_family,
+            identity: Identity {
+                vendor: basic.vendor_id,
+                device: basic.device_id,
+                uuid: basic.pipeline_cache_uuid,
+            },
             probe,
         })
     }

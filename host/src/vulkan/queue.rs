@@ -1,8 +1,13 @@
-//! The queue of a device, and what waits for it.
+//! The queue of a device: what is under way on it, and what waits for it.
 
 use super::error::{CallContext, VulkanError};
+use super::ring::Ring;
 use ash::vk;
 use gpu_allocator::vulkan::Allocation;
+use std::collections::VecDeque;
+
+/// Submissions under way at most: one more waits until the first of them has ended.
+pub(super) const IN_FLIGHT: usize = 3;
 
 /// An object whose owner has gone.
 pub(crate) enum Retired {
@@ -11,43 +16,81 @@ pub(crate) enum Retired {
     Queries(vk::QueryPool),
 }
 
-/// The compute queue with its one command buffer and fence.
+/// What a submission is recorded into.
+#[derive(Default)]
+pub(super) struct Slot {
+    pub pool: vk::CommandPool,
+    pub commands: vk::CommandBuffer,
+    pub fence: vk::Fence,
+    /// Number of the submission that used it last; 0 for none.
+    pub number: u64,
+    /// What that one does, for the error of a time limit.
+    pub work: String,
+}
+
+/// The compute queue. Submissions are numbered from 1 and end in order.
 pub(crate) struct Queue {
     pub(super) raw: vk::Queue,
-    pub(super) pool: vk::CommandPool,
-    pub(super) commands: vk::CommandBuffer,
-    pub(super) fence: vk::Fence,
-    /// A submission ran into its time limit and its fence has not been seen signalled since.
+    pub(super) slots: Vec<Slot>,
+    /// The submission made last.
+    pub(super) last: u64,
+    /// It and all before it have ended.
+    pub(super) ended: u64,
+    /// A wait ran into its time limit, and not everything has ended since.
     pub(super) unfinished: bool,
-    /// What that submission may still use and nobody holds any more.
-    pub(super) retired: Vec<Retired>,
+    /// What nobody holds any more, and the last submission that may use it.
+    pub(super) retired: VecDeque<(u64, Retired)>,
+    /// Through which the host's bytes go.
+    pub(super) ring: Ring,
 }
 
 impl Queue {
     pub(crate) fn new(device: &ash::Device, family: u32, name: &str) -> Result<Self, VulkanError> {
         // SAFETY: the device was created with one queue of this family.
         let raw = unsafe { device.get_device_queue(family, 0) };
-        let info = vk::CommandPoolCreateInfo::default().queue_family_index(family);
-        // SAFETY: the device is alive.
-        let pool = unsafe { device.create_command_pool(&info, None) }.during("vkCreateCommandPool", name)?;
         let mut queue = Self {
             raw,
-            pool,
-            commands: vk::CommandBuffer::null(),
-            fence: vk::Fence::null(),
+            slots: Vec::new(),
+            last: 0,
+            ended: 0,
             unfinished: false,
-            retired: Vec::new(),
+            retired: VecDeque::new(),
+            ring: Ring::default(),
         };
-        match queue.fill(device, name) {
-            Ok(()) => Ok(queue),
-            Err(error) => {
+        for _ in 0..IN_FLIGHT {
+            queue.slots.push(Slot::default());
+            let filled = queue.slots.last_mut().map(|slot| slot.fill(device, family, name));
+            if let Some(Err(error)) = filled {
                 queue.destroy(device);
-                Err(error)
+                return Err(error);
+            }
+        }
+        Ok(queue)
+    }
+
+    /// Destroys the queue's objects but for its ring; null ones are skipped by Vulkan.
+    pub(crate) fn destroy(&self, device: &ash::Device) {
+        for slot in &self.slots {
+            // SAFETY: both belong to this device, nothing submitted is running (the callers see to it), and the queue is
+            // not used afterwards. The command buffer goes with its pool.
+            unsafe {
+                device.destroy_fence(slot.fence, None);
+                device.destroy_command_pool(slot.pool, None);
             }
         }
     }
 
-    fn fill(&mut self, device: &ash::Device, name: &str) -> Result<(), VulkanError> {
+    /// The slot that submission `number` is recorded into.
+    pub(super) fn slot(&mut self, number: u64) -> &mut Slot {
+        &mut self.slots[number as usize % IN_FLIGHT]
+    }
+}
+
+impl Slot {
+    fn fill(&mut self, device: &ash::Device, family: u32, name: &str) -> Result<(), VulkanError> {
+        let info = vk::CommandPoolCreateInfo::default().queue_family_index(family);
+        // SAFETY: the device is alive.
+        self.pool = unsafe { device.create_command_pool(&info, None) }.during("vkCreateCommandPool", name)?;
         let info = vk::CommandBufferAllocateInfo::default()
             .command_pool(self.pool)
             .level(vk::CommandBufferLevel::PRIMARY)
@@ -59,29 +102,6 @@ impl Queue {
         // SAFETY: the device is alive.
         self.fence = unsafe { device.create_fence(&vk::FenceCreateInfo::default(), None) }
             .during("vkCreateFence", name)?;
-        Ok(())
-    }
-
-    /// Destroys the queue's objects; null ones are skipped by Vulkan.
-    pub(crate) fn destroy(&self, device: &ash::Device) {
-        // SAFETY: both belong to this device, nothing submitted is running (the callers see to it), and the queue is
-        // not used afterwards. The command buffer goes with its pool.
-        unsafe {
-            device.destroy_fence(self.fence, None);
-            device.destroy_command_pool(self.pool, None);
-        }
-    }
-
-    /// Nothing is running afterwards, or [`VulkanError::Busy`].
-    pub(crate) fn settle(&mut self, device: &ash::Device, name: &str) -> Result<(), VulkanError> {
-        if self.unfinished {
-            // SAFETY: the fence belongs to this device.
-            match unsafe { device.get_fence_status(self.fence) } {
-                Ok(false) => return Err(VulkanError::Busy { device: name.into() }),
-                // Signalled, or the device is lost: in both cases it runs nothing any more.
-                Ok(true) | Err(_) => self.unfinished = false,
-            }
-        }
         Ok(())
     }
 }

@@ -1,13 +1,18 @@
 //! Running a pass: one command buffer, one submission, a time for each dispatch.
 
+use super::counts::count;
 use super::device::Device;
 use super::error::{CallContext, VulkanError};
+use super::memory::{Region, copy, fill};
 use super::pass::{Dispatch, Pass};
 use super::queue::Retired;
 use super::shared::Shared;
+use super::upload::Part;
+use crate::words::UNWRITTEN;
 use ash::vk;
 use lightbvh_gpu::groups;
-use std::time::Duration;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// How long a pass took.
 #[derive(Clone, Debug)]
@@ -18,65 +23,169 @@ pub struct Timings {
     pub dispatch_ns: Option<Vec<f64>>,
 }
 
+impl Timings {
+    /// Without the times of the first `dispatches`.
+    pub(crate) fn after(mut self, dispatches: usize) -> Self {
+        if let Some(ns) = &mut self.dispatch_ns {
+            ns.drain(..dispatches.min(ns.len()));
+        }
+        self
+    }
+}
+
+/// A pass under way. Dropping it waits for nothing.
+pub struct Submission {
+    scratch: Scratch,
+    number: u64,
+    start: Instant,
+    /// Dispatches whose times are kept, where they are.
+    timed: Option<usize>,
+}
+
 /// Vulkan objects of one run.
-struct Scratch<'a> {
-    shared: &'a Shared,
+struct Scratch {
+    shared: Arc<Shared>,
     sets: vk::DescriptorPool,
     queries: vk::QueryPool,
 }
 
 impl Device {
-    /// Runs all dispatches of a pass in order and waits for the last.
+    /// Runs all of a pass in order and waits for the last.
     ///
     /// # Errors
-    /// [`VulkanError::BadDispatch`] or [`VulkanError::ForeignObject`] before anything is submitted;
+    /// Those of [`Device::submit`] and [`Submission::wait`].
+    pub fn run(&self, pass: &Pass<'_>) -> Result<Timings, VulkanError> {
+        self.submit(pass)?.wait()
+    }
+
+    /// Submits a pass, all of it in one submission unless it writes more than 16 MiB, and waits for nothing but a place: three submissions are
+    /// under way at most. Passes run in the order of their submission, each seeing what those before it wrote.
+    ///
+    /// # Errors
+    /// [`VulkanError::BadDispatch`], [`VulkanError::ForeignObject`] or [`VulkanError::OverlappingWrites`] before anything is submitted;
     /// [`VulkanError::Timeout`], [`VulkanError::Busy`], [`VulkanError::DeviceLost`], [`VulkanError::Validation`] or
     /// [`VulkanError::Call`].
-    pub fn run(&self, pass: &Pass<'_>) -> Result<Timings, VulkanError> {
-        let shared = &*self.shared;
-        for dispatch in &pass.dispatches {
-            dispatch.check(shared)?;
-        }
+    pub fn submit(&self, pass: &Pass<'_>) -> Result<Submission, VulkanError> {
+        let shared = &self.shared;
+        let writes = pass.check(shared)?;
         let mut scratch = Scratch {
-            shared,
+            shared: Arc::clone(shared),
             sets: vk::DescriptorPool::null(),
             queries: vk::QueryPool::null(),
         };
         let sets = scratch.bind(&pass.dispatches)?;
-        let timed = shared.probe.limits.timestamp_valid_bits > 0 && !pass.is_empty();
+        let has_clock = shared.probe.limits.timestamp_valid_bits > 0;
+        let timed = has_clock && !pass.dispatches.is_empty();
         if timed {
             scratch.make_queries(pass.len() as u32 + 1)?;
         }
         let queries = scratch.queries;
-        let wall = shared.submit(
-            || {
-                pass.dispatches
-                    .iter()
-                    .map(|dispatch| dispatch.kernel.name())
-                    .collect::<Vec<_>>()
-                    .join(", ")
-            },
-            |device, commands| {
+        let start = Instant::now();
+        let mut parts = Part::split(&writes);
+        let Some(last) = parts.pop() else {
+            unreachable!("there is always a last part")
+        };
+        // What is filled and carried comes first.
+        let mut first = Some((&pass.fills, &pass.carries));
+        for part in &parts {
+            let first = first.take();
+            let stage = |place: &mut [u8]| part.stage(place);
+            shared.submit(part.name(), part.bytes, stage, |device, commands, ring, start| {
+                if let Some((fills, carries)) = first {
+                    prepare(device, commands, fills, carries);
+                }
+                part.record(device, commands, ring, start);
+            })?;
+            count(&shared.counters.regions, part.regions());
+        }
+        let work = match pass.dispatches.as_slice() {
+            [] => last.name(),
+            dispatches => {
+                let names: Vec<&str> = dispatches.iter().map(|dispatch| dispatch.kernel.name()).collect();
+                names.join(", ")
+            }
+        };
+        let first = first.take();
+        let stage = |place: &mut [u8]| last.stage(place);
+        let number = shared.submit(work, last.bytes, stage, |device, commands, ring, start| {
+            if let Some((fills, carries)) = first {
+                prepare(device, commands, fills, carries);
+            }
+            last.record(device, commands, ring, start);
+            if !last.copies.is_empty()
+                || first.is_some_and(|(fills, carries)| !fills.is_empty() || !carries.is_empty())
+            {
+                barrier(device, commands);
+            }
+            if timed {
+                stamp_first(device, commands, queries, pass.len() as u32 + 1);
+            }
+            for (index, (dispatch, set)) in (1..).zip(pass.dispatches.iter().zip(&sets)) {
+                record(device, commands, dispatch, *set);
+                barrier(device, commands);
                 if timed {
-                    stamp_first(device, commands, queries, pass.len() as u32 + 1);
+                    stamp(device, commands, queries, index);
                 }
-                for (index, (dispatch, set)) in (1..).zip(pass.dispatches.iter().zip(&sets)) {
-                    record(device, commands, dispatch, *set);
-                    barrier(device, commands);
-                    if timed {
-                        stamp(device, commands, queries, index);
-                    }
-                }
-            },
-        )?;
-        let dispatch_ns = timed.then(|| scratch.durations(pass.len())).transpose()?;
+            }
+        })?;
+        let carried: u64 = pass
+            .carries
+            .iter()
+            .map(|(_, _, regions)| regions.len() as u64)
+            .sum();
+        count(&shared.counters.regions, last.regions() + carried);
+        Ok(Submission {
+            scratch,
+            number,
+            start,
+            timed: has_clock.then_some(pass.len()),
+        })
+    }
+}
+
+impl Submission {
+    /// Waits for the end.
+    ///
+    /// # Errors
+    /// [`VulkanError::Timeout`], [`VulkanError::Busy`], [`VulkanError::DeviceLost`], [`VulkanError::Validation`] or
+    /// [`VulkanError::Call`].
+    pub fn wait(self) -> Result<Timings, VulkanError> {
+        let shared = &*self.scratch.shared;
+        shared.wait_for(&mut shared.queue(), self.number)?;
+        let wall = self.start.elapsed();
+        shared.check_validation()?;
+        let dispatch_ns = self
+            .timed
+            .map(|count| self.scratch.durations(count))
+            .transpose()?;
         Ok(Timings { wall, dispatch_ns })
     }
 }
 
-impl Scratch<'_> {
+/// Records what comes before the host's bytes.
+fn prepare(
+    device: &ash::Device,
+    commands: vk::CommandBuffer,
+    fills: &[super::Binding],
+    carries: &[(super::Binding, super::Binding, Vec<Region>)],
+) {
+    for binding in fills {
+        fill(device, commands, &binding.memory, UNWRITTEN);
+    }
+    if !fills.is_empty() && !carries.is_empty() {
+        barrier(device, commands);
+    }
+    for (from, to, regions) in carries {
+        copy(device, commands, from.memory.buffer, to.memory.buffer, regions);
+    }
+    if !fills.is_empty() || !carries.is_empty() {
+        barrier(device, commands);
+    }
+}
+
+impl Scratch {
     /// A descriptor set for each dispatch, with its buffers in it.
-    fn bind(&mut self, dispatches: &[Dispatch<'_>]) -> Result<Vec<vk::DescriptorSet>, VulkanError> {
+    fn bind(&mut self, dispatches: &[Dispatch]) -> Result<Vec<vk::DescriptorSet>, VulkanError> {
         if dispatches.is_empty() {
             return Ok(Vec::new());
         }
@@ -109,7 +218,7 @@ impl Scratch<'_> {
                 .map(|binding| vk::DescriptorBufferInfo {
                     buffer: binding.memory.buffer,
                     offset: 0,
-                    range: binding.memory.bytes,
+                    range: binding.bytes.max(4),
                 })
                 .collect();
             let writes: Vec<_> = (0u32..)
@@ -141,15 +250,18 @@ impl Scratch<'_> {
 
     /// Nanoseconds from each timestamp to the next.
     fn durations(&self, dispatches: usize) -> Result<Vec<f64>, VulkanError> {
+        if dispatches == 0 {
+            return Ok(Vec::new());
+        }
         let mut ticks = vec![0u64; dispatches + 1];
         let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
-        // SAFETY: the pool belongs to this device and all its queries were written by the submission that has ended.
-        unsafe {
-            self.shared
-                .raw
-                .get_query_pool_results(self.queries, 0, &mut ticks, flags)
-        }
-        .during("vkGetQueryPoolResults", &self.shared.probe.name)?;
+        let raw = &self.shared.raw;
+        self.shared
+            .faults
+            .before(raw)
+            // SAFETY: the pool belongs to this device and all its queries were written by the submission that has ended.
+            .and_then(|()| unsafe { raw.get_query_pool_results(self.queries, 0, &mut ticks, flags) })
+            .during("vkGetQueryPoolResults", &self.shared.probe.name)?;
         let limits = &self.shared.probe.limits;
         let period = f64::from(limits.timestamp_period);
         let bits = limits.timestamp_valid_bits;
@@ -160,7 +272,7 @@ impl Scratch<'_> {
     }
 }
 
-impl Drop for Scratch<'_> {
+impl Drop for Scratch {
     fn drop(&mut self) {
         self.shared.retire(Retired::Sets(self.sets));
         self.shared.retire(Retired::Queries(self.queries));
@@ -173,13 +285,8 @@ fn elapsed(from: u64, to: u64, bits: u32) -> u64 {
     to.wrapping_sub(from) & mask
 }
 
-fn record(
-    device: &ash::Device,
-    commands: vk::CommandBuffer,
-    dispatch: &Dispatch<'_>,
-    set: vk::DescriptorSet,
-) {
-    let kernel = dispatch.kernel;
+fn record(device: &ash::Device, commands: vk::CommandBuffer, dispatch: &Dispatch, set: vk::DescriptorSet) {
+    let kernel = &dispatch.kernel;
     let Some([x, y, z]) = groups(dispatch.invocations, kernel.interface.workgroup[0]) else {
         return; // Refused by `Dispatch::check`.
     };
@@ -201,18 +308,23 @@ fn record(
     }
 }
 
-/// What the dispatches so far wrote is there for those that follow.
+/// What was written so far is there for what follows, and what was read may be written.
 fn barrier(device: &ash::Device, commands: vk::CommandBuffer) {
-    let stage = vk::PipelineStageFlags::COMPUTE_SHADER;
+    let stages = vk::PipelineStageFlags::COMPUTE_SHADER | vk::PipelineStageFlags::TRANSFER;
     let memory = [vk::MemoryBarrier::default()
-        .src_access_mask(vk::AccessFlags::SHADER_WRITE)
-        .dst_access_mask(vk::AccessFlags::SHADER_READ | vk::AccessFlags::SHADER_WRITE)];
+        .src_access_mask(vk::AccessFlags::SHADER_WRITE | vk::AccessFlags::TRANSFER_WRITE)
+        .dst_access_mask(
+            vk::AccessFlags::SHADER_READ
+                | vk::AccessFlags::SHADER_WRITE
+                | vk::AccessFlags::TRANSFER_READ
+                | vk::AccessFlags::TRANSFER_WRITE,
+        )];
     // SAFETY: the command buffer is recording, outside any render pass.
     unsafe {
         device.cmd_pipeline_barrier(
             commands,
-            stage,
-            stage,
+            stages,
+            stages,
             vk::DependencyFlags::empty(),
             &memory,
             &[],

@@ -1,6 +1,9 @@
 //! What a device, its buffers and its kernels hold in common, destroyed when the last of them goes.
 
+use super::cache::Cache;
+use super::counts::Counters;
 use super::error::VulkanError;
+use super::fault::Faults;
 use super::instance::Instance;
 use super::kernel::Kernels;
 use super::options::Options;
@@ -23,6 +26,9 @@ pub(crate) struct Shared {
     pub(crate) probe: Probe,
     pub(crate) options: Options,
     pub(crate) raw: ash::Device,
+    pub(super) cache: Cache,
+    pub(super) counters: Counters,
+    pub(super) faults: Faults,
     queue: Mutex<Queue>,
     kernels: Mutex<Kernels>,
     allocator: Mutex<ManuallyDrop<Allocator>>,
@@ -41,6 +47,7 @@ impl Shared {
         let Candidate {
             physical,
             queue_family,
+            identity,
             probe,
         } = candidate;
         let parts = Queue::new(&raw, queue_family, &probe.name).and_then(|queue| {
@@ -69,6 +76,9 @@ impl Shared {
                 id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
                 probe,
                 options,
+                counters: Counters::default(),
+                faults: Faults::default(),
+                cache: Cache::open(&raw, &identity, options.pipeline_cache),
                 raw,
                 queue: Mutex::new(queue),
                 kernels: Mutex::new(Kernels::default()),
@@ -89,14 +99,6 @@ impl Shared {
         self.queue.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
-    /// The queue with nothing running on it, for as long as it is held: then the host may touch mapped memory.
-    pub(crate) fn idle_queue(&self) -> Result<MutexGuard<'_, Queue>, VulkanError> {
-        let mut queue = self.queue();
-        queue.settle(&self.raw, &self.probe.name)?;
-        self.destroy_retired(queue.retired.drain(..));
-        Ok(queue)
-    }
-
     pub(crate) fn kernels(&self) -> MutexGuard<'_, Kernels> {
         self.kernels
             .lock()
@@ -111,33 +113,29 @@ impl Shared {
 
     /// Whether work that ran into its time limit is still running: nothing it may use can be destroyed then.
     pub(crate) fn is_busy(&self) -> bool {
-        self.idle_queue().is_err()
+        self.settle(&mut self.queue()).is_err()
     }
 
-    /// Destroys an object now, or, if work that ran into its time limit may still use it, once that has ended.
+    /// Destroys an object once no submission made so far can use it any more.
     pub(crate) fn retire(&self, object: Retired) {
         let mut queue = self.queue();
-        queue.retired.push(object);
-        if queue.settle(&self.raw, &self.probe.name).is_ok() {
-            self.destroy_retired(queue.retired.drain(..));
-        }
+        let last = queue.last;
+        queue.retired.push_back((last, object));
+        self.poll(&mut queue);
     }
 
-    /// Nothing may be running.
-    fn destroy_retired(&self, objects: impl Iterator<Item = Retired>) {
-        for object in objects {
-            // SAFETY: the objects belong to this device or are null, their owners gave them up, and nothing that uses
-            // them is running: submissions borrow them until they end, and one that ran into its time limit has ended
-            // before this is called.
-            unsafe {
-                match object {
-                    Retired::Sets(pool) => self.raw.destroy_descriptor_pool(pool, None),
-                    Retired::Queries(pool) => self.raw.destroy_query_pool(pool, None),
-                    Retired::Buffer(buffer, allocation) => {
-                        self.raw.destroy_buffer(buffer, None);
-                        // An error would be an inconsistency of the allocator itself; there is nothing to undo.
-                        let _ = allocation.map(|allocation| self.allocator().free(allocation));
-                    }
+    /// Nothing that uses it may be running.
+    pub(super) fn destroy_retired(&self, object: Retired) {
+        // SAFETY: the object belongs to this device or is null, its owner gave it up, and nothing that uses
+        // it is running: the submissions that may have ended before this is called (`tidy`).
+        unsafe {
+            match object {
+                Retired::Sets(pool) => self.raw.destroy_descriptor_pool(pool, None),
+                Retired::Queries(pool) => self.raw.destroy_query_pool(pool, None),
+                Retired::Buffer(buffer, allocation) => {
+                    self.raw.destroy_buffer(buffer, None);
+                    // An error would be an inconsistency of the allocator itself; there is nothing to undo.
+                    let _ = allocation.map(|allocation| self.allocator().free(allocation));
                 }
             }
         }
@@ -158,15 +156,27 @@ impl Shared {
 
 impl Drop for Shared {
     fn drop(&mut self) {
-        if self.is_busy() {
+        if self.idle_queue().is_err() && self.is_busy() {
             // The device may still write to its memory. Leaking all of it is the only safe end.
             return;
         }
         // SAFETY: the device is alive, and no other thread can use it: this is its last owner. A lost device is an
         // error here, and is safe to destroy all the same.
         let _ = unsafe { self.raw.device_wait_idle() };
+        self.cache.save(&self.raw);
+        self.cache.destroy(&self.raw);
         self.kernels().destroy(&self.raw);
-        self.queue().destroy(&self.raw);
+        let (ring, rest) = {
+            let mut queue = self.queue();
+            queue.destroy(&self.raw);
+            (
+                std::mem::take(&mut queue.ring),
+                std::mem::take(&mut queue.retired),
+            )
+        };
+        self.destroy_retired(Retired::Buffer(ring.buffer, ring.allocation));
+        rest.into_iter()
+            .for_each(|(_, object)| self.destroy_retired(object));
         // SAFETY: taken once, here; every buffer held this structure, so all of them are gone.
         drop(unsafe { ManuallyDrop::take(&mut *self.allocator()) });
         // SAFETY: all objects made from the device are destroyed: buffers (as above), kernels, queue objects, memory.

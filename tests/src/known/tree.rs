@@ -238,10 +238,10 @@ pub fn answer_on<C: Choice<W>, const W: usize>(device: &Device, file: &File) -> 
         [sampled.bind(), pmfs.bind()],
     );
     let push = tree.query_push(&tree.samples);
-    let bindings = [&nodes_and[..], &[asked.bind(), results[0]]].concat();
+    let bindings = [&nodes_and[..], &[asked.bind(), results[0].clone()]].concat();
     pass.dispatch(&sample, &bindings, bytes_of(&push), push.count);
     let push = tree.query_push(&tree.pmfs);
-    let bindings = [&nodes_and[..], &[asked_pmf.bind(), results[1]]].concat();
+    let bindings = [&nodes_and[..], &[asked_pmf.bind(), results[1].clone()]].concat();
     pass.dispatch(&pmf, &bindings, bytes_of(&push), push.count);
     device.run(&pass).expect("a run");
     answers(

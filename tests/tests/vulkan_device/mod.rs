@@ -1,7 +1,10 @@
 //! The host's Vulkan side, on every device of the machine and under the validation layer.
 
+mod cache;
 mod errors;
+mod frames;
 mod list;
+mod lost;
 
 use bytemuck::{Pod, Zeroable};
 use lightbvh_host::vulkan::{Device, Options, Pass, UNWRITTEN};

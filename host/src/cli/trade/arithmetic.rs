@@ -1,5 +1,7 @@
 //! Exact operations against native ones, on the CPU and on each device: time of a sample, and words that differ.
 
+use std::cell::RefCell;
+
 use lightbvh::BuildParams;
 use lightbvh::SampledLight;
 use lightbvh_gpu::contractible;
@@ -101,7 +103,7 @@ pub(super) fn measure(
     let native: Bvh<Native, WIDTH> = build(&lights, Sampler::TwoLevel, &params);
     let devices = opened
         .iter()
-        .map(|o| DeviceBackend::<Standard, WIDTH>::new(&o.device, &exact))
+        .map(|o| DeviceBackend::<Standard, WIDTH>::new(&o.device, &exact).map(RefCell::new))
         .collect::<Result<Vec<_>, _>>()?;
     let mut sides = vec![
         on_cpu::<Standard>(Operations::Exact, &exact),
@@ -156,7 +158,7 @@ fn on_cpu<'a, C: Choice<WIDTH>>(operations: Operations, bvh: &Bvh<C, WIDTH>) -> 
 
 fn on_device<'a>(
     opened: &'a Opened,
-    backend: &'a DeviceBackend<'_, Standard, WIDTH>,
+    backend: &'a RefCell<DeviceBackend<'_, Standard, WIDTH>>,
     operations: Operations,
 ) -> Result<Side<'a>, HostError> {
     let device = &opened.device;
@@ -174,8 +176,8 @@ fn on_device<'a>(
         device: device.name().to_owned(),
         operations,
         shader_fma: operations == Operations::Native && device.probe().features.shader_fma_32,
-        sample: Box::new(move |asked| Ok(backend.query_by(&sample, asked)?)),
-        pmf: Box::new(move |asked| Ok(backend.query_by(&pmf, asked)?)),
+        sample: Box::new(move |asked| Ok(backend.borrow_mut().query_by(&sample, asked)?)),
+        pmf: Box::new(move |asked| Ok(backend.borrow_mut().query_by(&pmf, asked)?)),
     })
 }
 
