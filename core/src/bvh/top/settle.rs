@@ -36,8 +36,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             while self.top.number(node) != INVALID {
                 let number = self.top.number(node) as usize;
                 if self.top.heights[number] > 1
-                    && self.top.edits[number] * u64::from(OFTEN)
-                        >= u64::from(self.top.counts[number])
+                    && self.top.edits[number] * u64::from(OFTEN) >= u64::from(self.top.counts[number])
                 {
                     self.build_anew(node);
                 }
