@@ -4,14 +4,14 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::{Bvh, Trails};
-use crate::build::{Topology, drift};
+use crate::build::Topology;
 use crate::levels::Levels;
 use crate::light::EmissiveTriangle;
 use crate::node::{LightNode, kind};
 use crate::refit::{self, BlasRoot};
 use crate::summary::Summary;
 use crate::sweep;
-use crate::trail::trail_words;
+use crate::trail::{BitTrail, trail_words};
 use crate::transform::Extent;
 use crate::tree::INVALID;
 
@@ -27,8 +27,6 @@ pub(super) struct Blas {
     pub levels: Levels,
     pub depth: u32,
     pub extent: Extent,
-    /// Its cost when it was built; see [`drift`].
-    pub cost: f64,
     /// When its topology was made.
     pub created: u64,
     /// When what is known of it as a whole changed last.
@@ -52,7 +50,6 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             levels: Levels::default(),
             depth: 0,
             extent: Extent::of(triangles),
-            cost: 0.0,
             created: 0,
             changed: 0,
         };
@@ -90,7 +87,21 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Writes the triangles of a bottom level and marks it for refit.
     pub(super) fn write_triangles(&mut self, index: u32, triangles: &[EmissiveTriangle]) {
-        let range = self.blases[index as usize].triangles.clone();
+        self.put_triangles(index, 0, triangles);
+        self.changes.new.mark_blas(index);
+    }
+
+    /// Writes those of its triangles that begin with its `first`-th, and marks them for refit.
+    pub(super) fn write_triangle_range(&mut self, index: u32, first: u32, triangles: &[EmissiveTriangle]) {
+        if !triangles.is_empty() {
+            let range = self.put_triangles(index, first, triangles);
+            self.changes.new.parts.push(range);
+        }
+    }
+
+    fn put_triangles(&mut self, index: u32, first: u32, triangles: &[EmissiveTriangle]) -> Range<u32> {
+        let start = self.blases[index as usize].triangles.start + first;
+        let range = start..start + triangles.len() as u32;
         let end = self.triangle_ranges.end() as usize;
         if self.triangles.len() < end {
             let dark = EmissiveTriangle {
@@ -105,8 +116,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         for (to, from) in own.iter_mut().zip(triangles) {
             *to = EmissiveTriangle { mesh: index, ..*from };
         }
-        self.changes.new.written_triangles.push(range);
-        self.changes.new.mark_blas(index);
+        self.changes.new.written_triangles.push(range.clone());
+        range
     }
 
     /// Puts the nodes of `topology` in place of those that bottom level `index` had.
@@ -136,8 +147,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             &[nodes.start],
         );
         self.roots[index as usize] = refit::root(&self.nodes, nodes.start);
-        let placed = &self.nodes[nodes.start as usize..nodes.end as usize];
-        self.blases[index as usize].cost = drift(placed, &self.root_of(index).bounds());
+        self.judge_range(nodes, true);
         self.changes.new.mark_built(index);
     }
 
@@ -181,6 +191,19 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             .new
             .written_trails
             .push(self.blases[index as usize].triangles.clone());
+    }
+
+    /// The trail of a triangle, where trails are kept.
+    pub(super) fn trail_of(&self, triangle: u32) -> BitTrail {
+        let at = triangle as usize * self.trail_words as usize;
+        BitTrail {
+            low: self.trails[at],
+            high: if self.trail_words == 2 {
+                self.trails[at + 1]
+            } else {
+                0
+            },
+        }
     }
 
     /// Makes trails as wide as trees of `depth` levels need, for all triangles.

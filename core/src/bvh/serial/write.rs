@@ -1,5 +1,6 @@
 //! From a light BVH to words.
 
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 use super::header::{Header, LENGTH};
@@ -10,11 +11,12 @@ use crate::tree::INVALID;
 impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     pub(super) fn written(&self) -> Vec<u32> {
         // Those that a refit has changed since they were built, or will.
-        let mut refitted = self.changes.deformed();
-        let changed = (0..)
-            .zip(&self.blases)
-            .filter(|(_, own)| own.changed > own.created);
-        refitted.extend(changed.map(|(blas, _)| blas));
+        let mut refitted = BTreeSet::new();
+        for pending in [&self.changes.new, &self.changes.unrefitted] {
+            refitted.extend(&pending.blases);
+            refitted.extend(self.parts(pending).into_keys());
+        }
+        refitted.extend(self.refitted_since(0));
         let header = Header {
             params: self.params,
             single: self.single,
@@ -43,7 +45,11 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 words.push(edits);
             }
         }
-        words.extend(refitted);
+        words.extend(&refitted);
+        for blas in refitted {
+            let nodes = self.blases[blas as usize].nodes.clone();
+            words.extend(nodes.map(|node| self.quality[node as usize].built.to_bits()));
+        }
         self.write_nodes(&mut words);
         self.write_triangles_to(&mut words);
         words[LENGTH] = words.len() as u32;
@@ -56,15 +62,12 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 words.push(INVALID);
                 continue;
             }
-            let cost = blas.cost.to_bits();
             words.extend([
                 blas.mesh,
                 blas.nodes.start,
                 blas.nodes.end,
                 blas.triangles.start,
                 blas.triangles.end,
-                cost as u32,
-                (cost >> 32) as u32,
             ]);
         }
         words.extend(
