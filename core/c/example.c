@@ -68,6 +68,7 @@ int main(void)
     must(lightbvh_remove_instance(bvh, lamps[42]));
     larger.p[1][0] = 0.0625f;
     must(lightbvh_set_triangles(bvh, mesh, &larger, 1));
+    must(lightbvh_set_triangle_range(bvh, mesh, 0, &larger, 1));
     must(lightbvh_refit(bvh));
     must(lightbvh_rebuild(bvh));
     must(lightbvh_light_count(bvh, &count));

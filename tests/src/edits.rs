@@ -115,7 +115,7 @@ pub fn edits<N: LightNode<W>, const W: usize>(
     let mut batch = Vec::new();
     for _ in 0..random.below(6) {
         let (instance, mesh_id) = (pick(random, &model.instances), pick(random, &model.meshes));
-        match (random.below(8), instance, mesh_id) {
+        match (random.below(9), instance, mesh_id) {
             (0, ..) => batch.push(Edit::AddMesh {
                 triangles: mesh(random),
             }),
@@ -147,6 +147,22 @@ pub fn edits<N: LightNode<W>, const W: usize>(
                 }
                 model.meshes.insert(mesh, triangles.clone());
                 batch.push(Edit::SetTriangles { mesh, triangles });
+            }
+            (8, _, Some(mesh)) => {
+                let all = model.meshes.get_mut(&mesh).expect("it is there");
+                let first = random.below(all.len() as u32);
+                let some = &mut all[first as usize..];
+                let count = 1 + random.below(some.len().min(3) as u32) as usize;
+                for triangle in &mut some[..count] {
+                    let by = random.between(-0.5, 0.5);
+                    triangle.p = triangle.p.map(|p| [p[0], p[1] + by, p[2]]);
+                }
+                let triangles = some[..count].to_vec();
+                batch.push(Edit::SetTriangleRange {
+                    mesh,
+                    first,
+                    triangles,
+                });
             }
             (7, Some(instance), Some(mesh)) => {
                 if random.below(2) == 0 {

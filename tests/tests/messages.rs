@@ -139,6 +139,15 @@ fn edits() {
             found: 2
         }
     );
+    let (first, triangles) = (2, vec![LAMP; 2]);
+    refused(
+        Edit::SetTriangleRange {
+            mesh,
+            first,
+            triangles,
+        },
+        &["triangles 2 to 4 of a mesh of 3", "within it"],
+    );
     refused(
         add(here, 2.0f32.powi(61)),
         &["factor on radiance", "2^-60 to 2^60"],

@@ -113,6 +113,9 @@ lightbvh_status lightbvh_set_radiance(lightbvh *bvh, lightbvh_instance instance,
 /* New vertices or radiance of a mesh, in all its instances: as many triangles as before. */
 lightbvh_status lightbvh_set_triangles(lightbvh *bvh, lightbvh_mesh mesh, const lightbvh_triangle *triangles,
                                        size_t count);
+/* The same for `count` triangles from index `first` of the mesh on: lightbvh_refit then computes what leads to them alone. */
+lightbvh_status lightbvh_set_triangle_range(lightbvh *bvh, lightbvh_mesh mesh, uint32_t first,
+                                            const lightbvh_triangle *triangles, size_t count);
 lightbvh_status lightbvh_remove_instance(lightbvh *bvh, lightbvh_instance instance);
 /* Removes a mesh that has no instances. */
 lightbvh_status lightbvh_remove_mesh(lightbvh *bvh, lightbvh_mesh mesh);

@@ -175,6 +175,28 @@ pub unsafe extern "C" fn lightbvh_set_triangles(
     }
 }
 
+/// New vertices or radiance of some triangles of a mesh.
+///
+/// # Safety
+/// As [`lightbvh_add_mesh`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lightbvh_set_triangle_range(
+    bvh: *mut Handle,
+    mesh: CMesh,
+    first: u32,
+    triangles: *const EmissiveTriangle,
+    count: usize,
+) -> Status {
+    // SAFETY: the caller's promise, here and below.
+    unsafe {
+        Handle::change(bvh, |bvh| {
+            let triangles = raw::array(triangles, count, "triangles")?;
+            bvh.set_triangle_range(mesh.id()?, first, triangles.to_vec())
+                .map_err(refused)
+        })
+    }
+}
+
 /// An instance taken out of the world.
 ///
 /// # Safety

@@ -11,7 +11,7 @@ mod raw;
 pub use edit::{
     CTransform, lightbvh_add_instance, lightbvh_add_instances, lightbvh_add_mesh, lightbvh_rebuild,
     lightbvh_refit, lightbvh_remove_instance, lightbvh_remove_mesh, lightbvh_set_radiance,
-    lightbvh_set_transform, lightbvh_set_triangles,
+    lightbvh_set_transform, lightbvh_set_triangle_range, lightbvh_set_triangles,
 };
 pub use error::{Status, lightbvh_last_error};
 pub use handle::{Handle, lightbvh_create, lightbvh_free};

@@ -54,6 +54,8 @@ fn null_and_unaligned_pointers_are_refused() {
             lightbvh_add_mesh(bvh, &LAMP, usize::MAX, &mut mesh),
             lightbvh_add_mesh(bvh, &LAMP, 1, null_mut()),
             lightbvh_set_transform(bvh, words([0, 0, 0, 2]), null()),
+            lightbvh_set_triangle_range(bvh, words([0; 4]), 0, null(), 1),
+            lightbvh_set_triangle_range(null_mut(), words([0; 4]), 0, &LAMP, 1),
             lightbvh_refit(null_mut()),
             lightbvh_rebuild(null_mut()),
             lightbvh_sample_light(null(), &POINT, 0, &mut sample),
@@ -69,7 +71,7 @@ fn null_and_unaligned_pointers_are_refused() {
             lightbvh_point_of(bvh, 0, 0, 0.5, 0.5, null_mut()),
             lightbvh_light_count(bvh, null_mut()),
         ];
-        assert_eq!(refused, [Status::BadPointer; 20]);
+        assert_eq!(refused, [Status::BadPointer; 22]);
         // A mesh whose id could not be returned was not made.
         assert_eq!(lightbvh_light_count(bvh, &mut count), Status::Ok);
         assert_eq!(count, 0);

@@ -9,7 +9,7 @@ use crate::build::{Topology, build_each};
 use crate::instance::Instance;
 use crate::light::EmissiveTriangle;
 use crate::node::LightNode;
-use crate::transform::{Extent, Transform};
+use crate::transform::Transform;
 use crate::tree::INVALID;
 
 /// What a batch of edits made.
@@ -27,8 +27,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// probabilities are exact and no light that is gone is returned, but there may be none where one was removed, and lights that
     /// were added may have the uniform share alone.
     ///
-    /// Time is in proportion to the edits, to the triangles in them, and to the instances of each mesh that is deformed, as often as it
-    /// is; where instances are added, to all instances, once, and a mirror copies the records of all (measured: `docs/figures.md`, How calls
+    /// Time is in proportion to the edits, to the triangles in them, and to the instances of each mesh that is deformed as a whole or
+    /// reaches farther than before, as often as it is; where instances are added, to all instances, once, and a mirror copies the records of all (measured: `docs/figures.md`, How calls
     /// grow). Each such batch puts a node on top of the top level, until a rebuild is installed; where it would get deeper than
     /// trails are long ([`max_levels`](crate::trail::max_levels)), the top level is built anew within the call. Lamps that come
     /// and go often are cheaper kept, with a radiance of 0 while they are off.
@@ -36,7 +36,10 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// # Errors
     /// [`EditError`] naming the first edit that cannot be done; the scene is as before then.
     pub fn apply(&mut self, mut edits: Vec<Edit>) -> Result<Added, EditError> {
-        let mut deformed = self.check(&mut edits)?.into_iter();
+        for (mesh, extent) in self.check(&mut edits)? {
+            let blas = self.meshes[mesh.index as usize].blas;
+            self.blases[blas as usize].extent = extent;
+        }
         let new_meshes = edits.iter().filter_map(|edit| match edit {
             Edit::AddMesh { triangles } => Some(&**triangles),
             _ => None,
@@ -73,9 +76,16 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                     moved.push(instance.index);
                 }
                 Edit::SetTriangles { mesh, triangles } => {
-                    let extent = deformed.next().unwrap_or_else(|| Extent::of(&triangles));
                     let blas = self.meshes[mesh.index as usize].blas;
-                    self.deform(blas, &triangles, extent);
+                    self.write_triangles(blas, &triangles);
+                }
+                Edit::SetTriangleRange {
+                    mesh,
+                    first,
+                    triangles,
+                } => {
+                    let blas = self.meshes[mesh.index as usize].blas;
+                    self.write_triangle_range(blas, first, &triangles);
                 }
                 Edit::RemoveInstance(id) => self.take_instance(id.index),
                 Edit::RemoveMesh(id) => self.take_mesh(id.index),
@@ -202,12 +212,6 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     fn list(&mut self, entry: u32) {
         self.instances[entry as usize].listed = self.live[entry as usize];
         self.changes.new.written_instances.push(entry);
-    }
-
-    /// Gives a bottom level as many other triangles.
-    pub(super) fn deform(&mut self, blas: u32, triangles: &[EmissiveTriangle], extent: Extent) {
-        self.blases[blas as usize].extent = extent;
-        self.write_triangles(blas, triangles);
     }
 
     /// Brings the words of an instance in line with its transform and radiance.

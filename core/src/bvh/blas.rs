@@ -11,7 +11,7 @@ use crate::node::{LightNode, kind};
 use crate::refit::{self, BlasRoot};
 use crate::summary::Summary;
 use crate::sweep;
-use crate::trail::trail_words;
+use crate::trail::{BitTrail, trail_words};
 use crate::transform::Extent;
 use crate::tree::INVALID;
 
@@ -90,7 +90,21 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Writes the triangles of a bottom level and marks it for refit.
     pub(super) fn write_triangles(&mut self, index: u32, triangles: &[EmissiveTriangle]) {
-        let range = self.blases[index as usize].triangles.clone();
+        self.put_triangles(index, 0, triangles);
+        self.changes.new.mark_blas(index);
+    }
+
+    /// Writes those of its triangles that begin with its `first`-th, and marks them for refit.
+    pub(super) fn write_triangle_range(&mut self, index: u32, first: u32, triangles: &[EmissiveTriangle]) {
+        if !triangles.is_empty() {
+            let range = self.put_triangles(index, first, triangles);
+            self.changes.new.parts.push(range);
+        }
+    }
+
+    fn put_triangles(&mut self, index: u32, first: u32, triangles: &[EmissiveTriangle]) -> Range<u32> {
+        let start = self.blases[index as usize].triangles.start + first;
+        let range = start..start + triangles.len() as u32;
         let end = self.triangle_ranges.end() as usize;
         if self.triangles.len() < end {
             let dark = EmissiveTriangle {
@@ -105,8 +119,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         for (to, from) in own.iter_mut().zip(triangles) {
             *to = EmissiveTriangle { mesh: index, ..*from };
         }
-        self.changes.new.written_triangles.push(range);
-        self.changes.new.mark_blas(index);
+        self.changes.new.written_triangles.push(range.clone());
+        range
     }
 
     /// Puts the nodes of `topology` in place of those that bottom level `index` had.
@@ -181,6 +195,19 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             .new
             .written_trails
             .push(self.blases[index as usize].triangles.clone());
+    }
+
+    /// The trail of a triangle, where trails are kept.
+    pub(super) fn trail_of(&self, triangle: u32) -> BitTrail {
+        let at = triangle as usize * self.trail_words as usize;
+        BitTrail {
+            low: self.trails[at],
+            high: if self.trail_words == 2 {
+                self.trails[at + 1]
+            } else {
+                0
+            },
+        }
     }
 
     /// Makes trails as wide as trees of `depth` levels need, for all triangles.

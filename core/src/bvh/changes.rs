@@ -40,11 +40,6 @@ impl Changes {
         }
     }
 
-    /// The bottom levels whose nodes a refit here would compute.
-    pub fn deformed(&self) -> BTreeSet<u32> {
-        self.new.blases.union(&self.unrefitted.blases).copied().collect()
-    }
-
     /// All lists.
     pub fn all(&mut self) -> [&mut Pending; 3] {
         [&mut self.new, &mut self.unrefitted, &mut self.unplanned]
@@ -63,6 +58,8 @@ impl Changes {
 pub(super) struct Pending {
     /// Bottom levels whose triangles changed.
     pub blases: BTreeSet<u32>,
+    /// Triangles that changed without the rest of their bottom level; may overlap, and may be of bottom levels that are no more.
+    pub parts: Vec<Range<u32>>,
     /// Bottom levels that are new, their bounds known.
     pub built: BTreeSet<u32>,
     /// Indices of instances; may repeat.
@@ -94,6 +91,7 @@ impl Pending {
 
     pub fn is_empty(&self) -> bool {
         self.blases.is_empty()
+            && self.parts.is_empty()
             && self.built.is_empty()
             && self.instances.is_empty()
             && self.top_nodes.is_empty()
@@ -111,6 +109,7 @@ impl Pending {
             return;
         }
         self.blases.extend(other.blases);
+        self.parts.extend(other.parts);
         self.built.extend(other.built);
         self.instances.extend(other.instances);
         self.top_nodes.extend(other.top_nodes);
@@ -136,6 +135,7 @@ impl Pending {
             list.dedup();
         }
         for list in [
+            &mut self.parts,
             &mut self.written_nodes,
             &mut self.written_triangles,
             &mut self.written_trails,
@@ -147,7 +147,8 @@ impl Pending {
 
     /// Entries of the lists that may repeat.
     fn len(&self) -> usize {
-        self.instances.len()
+        self.parts.len()
+            + self.instances.len()
             + self.top_nodes.len()
             + self.written_instances.len()
             + self.written_nodes.len()
@@ -162,7 +163,7 @@ impl Pending {
 }
 
 /// Ranges in order, those that touch made one.
-fn merged(mut ranges: Vec<Range<u32>>) -> Vec<Range<u32>> {
+pub(super) fn merged(mut ranges: Vec<Range<u32>>) -> Vec<Range<u32>> {
     ranges.sort_unstable_by_key(|range| (range.start, range.end));
     let mut out: Vec<Range<u32>> = Vec::with_capacity(ranges.len());
     for range in ranges {

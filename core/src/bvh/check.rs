@@ -15,6 +15,8 @@ use crate::transform::{Extent, Transform};
 #[cfg(feature = "rayon")]
 const PIECE: usize = 4096;
 
+type Extents = BTreeMap<MeshId, Extent>;
+
 /// What the edits before this one in the batch have done.
 #[derive(Default)]
 struct Batch {
@@ -22,8 +24,8 @@ struct Batch {
     removed_meshes: BTreeSet<MeshId>,
     /// Change of a mesh's number of instances.
     uses: BTreeMap<MeshId, i64>,
-    /// Extents of deformed meshes, and transforms of moved instances and of added ones, which have no id yet.
-    extents: BTreeMap<MeshId, Extent>,
+    /// Extents of meshes that were deformed or looked at, and transforms of moved instances and of added ones, which have no id yet.
+    extents: Extents,
     transforms: BTreeMap<InstanceId, Transform>,
     added: BTreeMap<MeshId, Vec<Transform>>,
     /// Whether a later edit may ask for those.
@@ -35,48 +37,57 @@ struct Batch {
     space: Option<(Ranges, Ranges)>,
     /// Meshes added: number of triangles, and extent.
     meshes: Vec<(usize, Extent)>,
-    /// Of the batch's deformed meshes, in the order of their edits.
-    deformed: Vec<Extent>,
+    /// The triangles of deformed meshes, where extents are to be exact.
+    copies: Option<BTreeMap<MeshId, Vec<EmissiveTriangle>>>,
 }
 
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Brings all triangles of the batch into the domain, or says which edit cannot be done. Returns the new extents of the
-    /// deformed meshes, in the order of their edits.
-    pub(super) fn check(&self, edits: &mut [Edit]) -> Result<Vec<Extent>, EditError> {
-        match self.check_all(edits, None) {
-            // Perhaps there is room among what is free.
-            Err(error) if error.reason == EditReason::TooMany => {
-                self.check_all(edits, Some((self.lights.clone(), self.triangle_ranges.clone())))
+    /// Brings all triangles of the batch into the domain, or says which edit cannot be done. Returns the extents of meshes that are
+    /// others, or known better, after it.
+    pub(super) fn check(&self, edits: &mut [Edit]) -> Result<Extents, EditError> {
+        let (mut is_crowded, mut is_exact) = (false, false);
+        loop {
+            match self.check_all(edits, is_crowded, is_exact) {
+                // Perhaps there is room among what is free.
+                Err(error) if !is_crowded && error.reason == EditReason::TooMany => is_crowded = true,
+                // Perhaps the mesh does not reach as far as is known without looking at all of it.
+                Err(error) if !is_exact && self.may_be_nearer(edits, &error.reason) => is_exact = true,
+                checked => return checked,
             }
-            checked => checked,
         }
     }
 
-    fn check_all(
-        &self,
-        edits: &mut [Edit],
-        space: Option<(Ranges, Ranges)>,
-    ) -> Result<Vec<Extent>, EditError> {
+    /// Whether an instance is refused for an extent that is perhaps not the least.
+    fn may_be_nearer(&self, edits: &[Edit], reason: &EditReason) -> bool {
+        let in_part = |edit: &Edit| matches!(edit, Edit::SetTriangleRange { .. });
+        matches!(reason, EditReason::Transform(_))
+            && (edits.iter().any(in_part) || self.blases.iter().any(|blas| !blas.extent.is_exact))
+    }
+
+    fn check_all(&self, edits: &mut [Edit], is_crowded: bool, is_exact: bool) -> Result<Extents, EditError> {
+        let deforms = |edit: &Edit| matches!(edit, Edit::SetTriangles { .. } | Edit::SetTriangleRange { .. });
         let mut batch = Batch {
             lights: self.lights.end() as usize,
             triangles: self.triangle_ranges.end() as usize,
-            space,
-            deforms: edits.iter().any(|edit| matches!(edit, Edit::SetTriangles { .. })),
+            space: is_crowded.then(|| (self.lights.clone(), self.triangle_ranges.clone())),
+            deforms: edits.iter().any(deforms),
+            copies: is_exact.then(BTreeMap::new),
             ..Batch::default()
         };
         for (index, edit) in edits.iter_mut().enumerate() {
             self.check_one(&mut batch, edit)
                 .map_err(|reason| EditError { edit: index, reason })?;
         }
-        Ok(batch.deformed)
+        Ok(batch.extents)
     }
 
     fn check_one(&self, batch: &mut Batch, edit: &mut Edit) -> Result<(), EditReason> {
-        if self.single && !matches!(edit, Edit::SetTriangles { .. }) {
+        if self.single && !matches!(edit, Edit::SetTriangles { .. } | Edit::SetTriangleRange { .. }) {
             return Err(EditReason::SingleLevel);
         }
         match edit {
             Edit::AddMesh { triangles } => {
+                not_empty(triangles)?;
                 checked(triangles)?;
                 batch.take_triangles(triangles.len());
                 batch.meshes.push((triangles.len(), Extent::of(triangles)));
@@ -117,25 +128,36 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                     let found = triangles.len();
                     return Err(EditReason::Count { expected, found });
                 }
+                not_empty(triangles)?;
                 checked(triangles)?;
-                let extent = Extent::of(triangles);
-                for &index in &self.meshes[mesh.index as usize].users {
-                    let placed = &self.placed[index as usize];
-                    let id = InstanceId {
-                        tree: self.id.0,
-                        index,
-                        generation: placed.generation,
-                    };
-                    if !batch.removed_instances.contains(&id) {
-                        let transform = batch.transforms.get(&id).unwrap_or(&placed.transform);
-                        transform.check(&extent).map_err(EditReason::Transform)?;
-                    }
+                if let Some(copies) = &mut batch.copies {
+                    copies.insert(*mesh, triangles.clone());
                 }
-                for transform in batch.added.get(mesh).into_iter().flatten() {
-                    transform.check(&extent).map_err(EditReason::Transform)?;
+                self.check_users(batch, *mesh, Extent::of(triangles))?;
+            }
+            Edit::SetTriangleRange {
+                mesh,
+                first,
+                triangles,
+            } => {
+                let all = self.known_mesh(batch, *mesh)?;
+                let end = (*first as usize).checked_add(triangles.len());
+                if end.is_none_or(|end| end > all) {
+                    return Err(EditReason::Range {
+                        first: *first,
+                        count: triangles.len(),
+                        triangles: all,
+                    });
                 }
-                batch.extents.insert(*mesh, extent);
-                batch.deformed.push(extent);
+                checked(triangles)?;
+                let known = self.extent(batch, *mesh);
+                let extent = self.extent_with(batch, *mesh, *first, triangles);
+                // All instances are within reach of what is known.
+                if extent.coordinate > known.coordinate || batch.copies.is_some() {
+                    self.check_users(batch, *mesh, extent)?;
+                } else {
+                    batch.extents.insert(*mesh, extent);
+                }
             }
             &mut Edit::RemoveInstance(id) => {
                 let mesh = self.known_instance(batch, id)?;
@@ -195,11 +217,60 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             .len()
     }
 
-    fn extent(&self, batch: &Batch, id: MeshId) -> Extent {
-        match batch.extents.get(&id) {
-            Some(extent) => *extent,
-            None => self.blases[self.meshes[id.index as usize].blas as usize].extent,
+    /// What is known of a mesh's extent, or once for a batch all of it.
+    fn extent(&self, batch: &mut Batch, id: MeshId) -> Extent {
+        if let Some(&extent) = batch.extents.get(&id) {
+            return extent;
         }
+        let known = self.blases[self.meshes[id.index as usize].blas as usize].extent;
+        if batch.copies.is_none() || known.is_exact {
+            return known;
+        }
+        let exact = Extent::of(self.mesh_triangles(id).unwrap_or_default());
+        batch.extents.insert(id, exact);
+        exact
+    }
+
+    /// The extent of a mesh with some of its triangles changed.
+    fn extent_with(
+        &self,
+        batch: &mut Batch,
+        id: MeshId,
+        first: u32,
+        triangles: &[EmissiveTriangle],
+    ) -> Extent {
+        let own = self.mesh_triangles(id).unwrap_or_default();
+        let range = first as usize..first as usize + triangles.len();
+        if let Some(copies) = &mut batch.copies {
+            let copy = copies.entry(id).or_insert_with(|| own.to_vec());
+            copy[range].copy_from_slice(triangles);
+            return Extent::of(copy);
+        }
+        let mut old = Extent::of(&own[range]);
+        // Others may be there since.
+        old.is_exact = !batch.extents.contains_key(&id);
+        self.extent(batch, id).with(&old, &Extent::of(triangles))
+    }
+
+    /// Whether all instances of a mesh, those of the batch included, may have that extent, which it gets.
+    fn check_users(&self, batch: &mut Batch, mesh: MeshId, extent: Extent) -> Result<(), EditReason> {
+        for &index in &self.meshes[mesh.index as usize].users {
+            let placed = &self.placed[index as usize];
+            let id = InstanceId {
+                tree: self.id.0,
+                index,
+                generation: placed.generation,
+            };
+            if !batch.removed_instances.contains(&id) {
+                let transform = batch.transforms.get(&id).unwrap_or(&placed.transform);
+                transform.check(&extent).map_err(EditReason::Transform)?;
+            }
+        }
+        for transform in batch.added.get(&mesh).into_iter().flatten() {
+            transform.check(&extent).map_err(EditReason::Transform)?;
+        }
+        batch.extents.insert(mesh, extent);
+        Ok(())
     }
 }
 
@@ -228,10 +299,14 @@ fn end_after(ranges: &mut Ranges, count: usize) -> usize {
     ranges.end() as usize
 }
 
-fn checked(triangles: &mut [EmissiveTriangle]) -> Result<(), EditReason> {
-    if triangles.is_empty() {
-        return Err(EditReason::EmptyMesh);
+fn not_empty(triangles: &[EmissiveTriangle]) -> Result<(), EditReason> {
+    match triangles {
+        [] => Err(EditReason::EmptyMesh),
+        _ => Ok(()),
     }
+}
+
+fn checked(triangles: &mut [EmissiveTriangle]) -> Result<(), EditReason> {
     #[cfg(feature = "rayon")]
     let wrong = {
         use rayon::prelude::*;

@@ -129,6 +129,16 @@ pub enum Edit {
         /// As many triangles as before.
         triangles: Vec<EmissiveTriangle>,
     },
+    /// New vertices or new emission of some triangles of a mesh, in all its instances. The others are not looked at: see
+    /// [`set_triangle_range`](crate::Bvh::set_triangle_range).
+    SetTriangleRange {
+        /// Which mesh.
+        mesh: MeshId,
+        /// Index in the mesh of the first of them, counting from 0.
+        first: u32,
+        /// What the triangles from there on become; may be none.
+        triangles: Vec<EmissiveTriangle>,
+    },
     /// An instance taken out of the world.
     RemoveInstance(InstanceId),
     /// A mesh without instances taken out of the scene.
@@ -178,6 +188,15 @@ pub enum EditReason {
         /// What the edit has.
         found: usize,
     },
+    /// Triangles to be changed are not all in the mesh.
+    Range {
+        /// Index of the first of them.
+        first: u32,
+        /// Their number.
+        count: usize,
+        /// What the mesh has.
+        triangles: usize,
+    },
     /// A mesh to be removed still has instances.
     InUse {
         /// Their number.
@@ -226,6 +245,15 @@ impl fmt::Display for EditReason {
             Self::Count { expected, found } => write!(
                 f,
                 "{found} triangles for a mesh of {expected}; add a mesh of its own instead"
+            ),
+            Self::Range {
+                first,
+                count,
+                triangles,
+            } => write!(
+                f,
+                "triangles {first} to {} of a mesh of {triangles}; name a range within it",
+                u64::from(*first) + *count as u64
             ),
             Self::InUse { instances } => {
                 write!(f, "the mesh still has {instances} instances; remove them first")

@@ -86,7 +86,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             changes.push((mesh.blas, triangles, extent));
         }
         for (blas, triangles, extent) in changes {
-            self.deform(blas, triangles, extent);
+            self.blases[blas as usize].extent = extent;
+            self.write_triangles(blas, triangles);
         }
         self.refit();
         Ok(())

@@ -15,6 +15,7 @@
 //! |---|---|
 //! | any affine motion, brightness | the instance's leaf and the nodes above it; far from its neighbours it is taken out and put in elsewhere |
 //! | vertices or emission of a mesh | its bottom level, and the leaves of its instances |
+//! | of some of its triangles | the paths to them in the bottom level, and the leaves of its instances |
 //! | removed instance | its leaf and the nodes above it; the place is filled from below |
 //! | added instance | one node of each level on the way to where it costs least, and their links |
 
@@ -38,6 +39,7 @@ mod static_mesh;
 #[cfg(test)]
 mod tests;
 mod top;
+mod touched;
 mod trails;
 mod validate;
 
@@ -129,6 +131,8 @@ pub struct Bvh<N, I, const W: usize, T = WithTrails> {
     epoch: u64,
     /// Whether it is one mesh alone, walked from the root of its bottom level.
     single: bool,
+    /// Nodes of bottom levels that a search came by.
+    marks: touched::Marks,
     importance: PhantomData<I>,
     asked: PhantomData<T>,
 }
@@ -188,6 +192,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             bottom_depth: 0,
             epoch: 0,
             single: false,
+            marks: touched::Marks::default(),
             importance: PhantomData,
             asked: PhantomData,
         };
@@ -305,6 +310,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             + size_of_val(&*self.live)
             + levels.map(|levels| size_of_val(levels.nodes())).sum::<usize>()
             + self.top.memory()
+            + self.marks.bytes()
     }
 
     fn blas_of(&self, placed: &InstanceState) -> &Blas {

@@ -33,6 +33,8 @@ pub struct RefitPlan {
     /// The same nodes by bottom level, each range in depth-first order: swept from its last node to its first, it reads memory in
     /// one direction.
     pub trees: Vec<Range<u32>>,
+    /// Nodes of bottom levels of which only some triangles changed: those of `bottom` that are in none of `trees`.
+    pub parts: Levels,
     /// Bottom levels whose root changed: another node, or another summary. A mirror takes the node from [`Bvh::roots`].
     pub roots: Vec<u32>,
     /// Nodes of the top level with instances that changed, and those above them.
@@ -99,7 +101,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.bound_changes();
         pending.join(new);
         // Any of them is computed, so the epoch is one later below.
-        for &blas in &pending.blases {
+        let parts = self.parts(&pending);
+        for &blas in pending.blases.iter().chain(parts.keys()) {
             self.blases[blas as usize].changed = self.epoch + 1;
         }
         let work = if is_listed {
@@ -109,6 +112,9 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         };
         self.epoch += u64::from(work.computed() > 0);
         sweep::trees(&mut self.nodes, &self.triangles, &work.trees);
+        for range in work.parts.ranges() {
+            sweep::bottom(&mut self.nodes, &self.triangles, &work.parts.nodes()[range]);
+        }
         for &blas in &work.roots {
             let root = self.roots[blas as usize].node;
             self.roots[blas as usize] = refit::root(&self.nodes, root);
@@ -169,14 +175,19 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             ..RefitPlan::default()
         };
         let mut instances = pending.instances.clone();
-        let mut lists = Vec::new();
+        let (touched, parts) = self.touched(&mut pending);
+        let mut lists: Vec<&Levels> = parts.iter().collect();
+        work.parts = Levels::join(&lists);
         for &blas in &pending.blases {
             let own = &self.blases[blas as usize];
             work.trees.push(own.nodes.clone());
             lists.push(&own.levels);
         }
         work.bottom = Levels::join(&lists);
-        for &blas in pending.blases.union(&pending.built) {
+        let mut changed = pending.blases;
+        changed.extend(pending.built);
+        changed.extend(touched);
+        for blas in changed {
             work.roots.push(blas);
             let mesh = self.blases[blas as usize].mesh;
             instances.extend(&self.meshes[mesh as usize].users);

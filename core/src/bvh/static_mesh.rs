@@ -14,6 +14,7 @@ use crate::node::LightNode;
 use crate::point::{Receiver, ShadingPoint};
 #[cfg(feature = "std")]
 use crate::rebuilder::{FrameStart, RebuildError, Rebuilder};
+use crate::transform::Extent;
 use crate::traverse::{Random64, SampledLight};
 use crate::tree::LightTree;
 
@@ -53,6 +54,11 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.epoch += 1;
         for blas in &mut self.blases {
             blas.levels = Levels::default();
+            // No triangle will tell it better.
+            if !blas.extent.is_exact {
+                let own = blas.triangles.start as usize..blas.triangles.end as usize;
+                blas.extent = Extent::of(&self.triangles[own]);
+            }
             blas.created = self.epoch;
             blas.changed = self.epoch;
         }
@@ -71,7 +77,12 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
     /// [`EditError`] naming the first edit that cannot be done, [`EditReason::StaticMeshes`] for meshes that are added or deformed;
     /// nothing is changed then.
     pub fn apply(&mut self, edits: Vec<Edit>) -> Result<Added, EditError> {
-        let of_triangles = |edit: &Edit| matches!(edit, Edit::AddMesh { .. } | Edit::SetTriangles { .. });
+        let of_triangles = |edit: &Edit| {
+            matches!(
+                edit,
+                Edit::AddMesh { .. } | Edit::SetTriangles { .. } | Edit::SetTriangleRange { .. }
+            )
+        };
         match edits.iter().position(of_triangles) {
             Some(edit) => Err(EditError {
                 edit,

@@ -10,7 +10,7 @@ use self::walk::{bad, listed};
 use super::{Bvh, Trails};
 use crate::node::{LightNode, kind};
 use crate::refit;
-use crate::trail::{BitTrail, place};
+use crate::trail::place;
 use crate::tree::INVALID;
 use crate::validate::{Violation, What, contained, equal, same_words};
 
@@ -291,18 +291,6 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             }
         }
         Ok(())
-    }
-
-    fn trail_of(&self, triangle: u32) -> BitTrail {
-        let at = triangle as usize * self.trail_words as usize;
-        BitTrail {
-            low: self.trails[at],
-            high: if self.trail_words == 2 {
-                self.trails[at + 1]
-            } else {
-                0
-            },
-        }
     }
 }
 

@@ -6,6 +6,13 @@ use super::*;
 use crate::exact::{self, hash, pow2, unit_f32};
 use crate::light::EmissiveTriangle;
 
+fn extent(coordinate: f64) -> Extent {
+    Extent {
+        coordinate,
+        is_exact: true,
+    }
+}
+
 fn map(columns: [[f32; 3]; 3], translation: [f32; 3]) -> Transform {
     Transform { columns, translation }
 }
@@ -182,7 +189,7 @@ fn entries_and_reach_are_limited() {
                 let [a, b, c] = &mut transform.columns;
                 [a, b, c, &mut transform.translation][column][row] = value;
                 // Of no size, so that nothing is too far.
-                match transform.check(&Extent { coordinate: 0.0 }) {
+                match transform.check(&extent(0.0)) {
                     Ok(()) => assert_eq!(exact::abs(value), most),
                     Err(TransformError::Entry {
                         row: r,
@@ -205,10 +212,8 @@ fn entries_and_reach_are_limited() {
             column[row] = -0.5 * quarter;
         }
         transform.translation[row] = quarter;
-        assert_eq!(transform.check(&Extent { coordinate: 2.0 }), Ok(()));
-        let error = transform
-            .check(&Extent { coordinate: 2.001 })
-            .expect_err("farther");
+        assert_eq!(transform.check(&extent(2.0)), Ok(()));
+        let error = transform.check(&extent(2.001)).expect_err("farther");
         let TransformError::TooFar { metres } = error else {
             panic!("{error}");
         };

@@ -175,7 +175,7 @@ fn bit(reason: &EditReason) -> u8 {
         EditReason::Light { .. } => wrong::LIGHT,
         EditReason::Transform(_) => wrong::TRANSFORM,
         EditReason::Radiance { .. } => wrong::RADIANCE,
-        EditReason::Count { .. } => wrong::COUNT,
+        EditReason::Count { .. } | EditReason::Range { .. } => wrong::COUNT,
         EditReason::InUse { .. } => wrong::IN_USE,
         _ => 0,
     }
@@ -232,7 +232,7 @@ fn one(u: &mut Unstructured<'_>, staged: &mut Staged, first: bool) -> Result<(Ed
     let instances: Vec<InstanceId> = staged.model.instances.iter().map(|placed| placed.id).collect();
     let mesh_id = pick(which, &meshes, &staged.model.gone_meshes);
     let instance = pick(which, &instances, &staged.model.gone_instances);
-    Ok(match (kind % 12, mesh_id, instance) {
+    Ok(match (kind % 13, mesh_id, instance) {
         (1..=3, Some(id), _) if !first => staged.add_instance(id, transform(u)?, factor(u)?),
         (4..=6, _, Some(id)) => staged.move_to(id, transform(u)?),
         (7, _, Some(id)) => staged.shine(id, factor(u)?),
@@ -241,6 +241,10 @@ fn one(u: &mut Unstructured<'_>, staged: &mut Staged, first: bool) -> Result<(Ed
             let count = found.map(|mesh| mesh.triangles.len()).filter(|_| kind < 240);
             let triangles = mesh(u, count)?;
             staged.deform(id, triangles)
+        }
+        (12, Some(id), _) => {
+            let (first, count): (u8, u8) = u.arbitrary()?;
+            staged.deform_some(id, u32::from(first % 8), mesh(u, Some(usize::from(count % 4)))?)
         }
         (10, _, Some(id)) => staged.remove_instance(id),
         (11, Some(id), _) => staged.remove_mesh(id),

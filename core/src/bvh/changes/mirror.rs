@@ -128,7 +128,7 @@ fn edits<N: LightNode<W>, I, const W: usize>(bvh: &mut Bvh<N, I, W>, random: &mu
         |random: &mut Random| Transform::at([random.coordinate(), random.coordinate(), random.coordinate()]);
     let mesh = bvh.mesh_id(random.below(12));
     // What it refuses, it leaves as it was.
-    let _ = match random.below(12) {
+    let _ = match random.below(13) {
         0 => {
             let deep = random.below(8) == 0;
             let count = if deep { 96 } else { 1 + random.below(40) };
@@ -151,6 +151,12 @@ fn edits<N: LightNode<W>, I, const W: usize>(bvh: &mut Bvh<N, I, W>, random: &mu
         8 => mesh.map_or(Ok(()), |mesh| {
             let count = bvh.mesh_len(mesh) as u32;
             bvh.set_triangles(mesh, triangles(random, count, false))
+        }),
+        12 => mesh.map_or(Ok(()), |mesh| {
+            // At times all of them, at times beyond the end.
+            let first = random.below(bvh.mesh_len(mesh) as u32);
+            let count = random.below(4);
+            bvh.set_triangle_range(mesh, first, triangles(random, count, false))
         }),
         9 => mesh.map_or(Ok(()), |mesh| bvh.remove_mesh(mesh)),
         _ => (0..random.below(6))

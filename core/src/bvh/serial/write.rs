@@ -1,5 +1,6 @@
 //! From a light BVH to words.
 
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 use super::header::{Header, LENGTH};
@@ -10,7 +11,11 @@ use crate::tree::INVALID;
 impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     pub(super) fn written(&self) -> Vec<u32> {
         // Those that a refit has changed since they were built, or will.
-        let mut refitted = self.changes.deformed();
+        let mut refitted = BTreeSet::new();
+        for pending in [&self.changes.new, &self.changes.unrefitted] {
+            refitted.extend(&pending.blases);
+            refitted.extend(self.parts(pending).into_keys());
+        }
         let changed = (0..)
             .zip(&self.blases)
             .filter(|(_, own)| own.changed > own.created);

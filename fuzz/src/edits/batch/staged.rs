@@ -76,16 +76,7 @@ impl Staged {
             (known(same), wrong::COUNT),
             (sound, wrong::LIGHT),
         ];
-        // Those of this very batch too.
-        let placed = self
-            .model
-            .instances
-            .iter()
-            .map(|placed| (placed.mesh, placed.transform));
-        let added = self.added.iter().map(|&(mesh, transform, _)| (mesh, transform));
-        for (_, transform) in placed.chain(added).filter(|&(mesh, _)| mesh == id) {
-            conditions.push((within(&transform, &all), wrong::TRANSFORM));
-        }
+        self.push_places(id, &all, &mut conditions);
         if let Some(mesh) = self.model.meshes.iter_mut().find(|mesh| mesh.id == id) {
             mesh.triangles = all;
         }
@@ -93,6 +84,47 @@ impl Staged {
             Edit::SetTriangles { mesh: id, triangles },
             first_wrong(&conditions),
         )
+    }
+
+    pub fn deform_some(
+        &mut self,
+        id: MeshId,
+        first: u32,
+        triangles: Vec<EmissiveTriangle>,
+    ) -> (Edit, Verdict) {
+        let (sound, some) = accepted(&triangles);
+        let old = self.model.meshes.iter_mut().find(|mesh| mesh.id == id);
+        let end = first as usize + triangles.len();
+        let inside = old.as_ref().is_some_and(|mesh| end <= mesh.triangles.len());
+        let mut conditions = vec![
+            (known(old.is_some()), wrong::MESH),
+            (known(inside), wrong::COUNT),
+            (sound, wrong::LIGHT),
+        ];
+        if let Some(mesh) = old.filter(|_| inside && sound == Some(true)) {
+            mesh.triangles[first as usize..end].copy_from_slice(&some);
+            let all = mesh.triangles.clone();
+            self.push_places(id, &all, &mut conditions);
+        }
+        let edit = Edit::SetTriangleRange {
+            mesh: id,
+            first,
+            triangles,
+        };
+        (edit, first_wrong(&conditions))
+    }
+
+    /// All places of a mesh must have room for it, those of this very batch too.
+    fn push_places(&self, id: MeshId, all: &[EmissiveTriangle], conditions: &mut Vec<(Option<bool>, u8)>) {
+        let placed = self
+            .model
+            .instances
+            .iter()
+            .map(|placed| (placed.mesh, placed.transform));
+        let added = self.added.iter().map(|&(mesh, transform, _)| (mesh, transform));
+        for (_, transform) in placed.chain(added).filter(|&(mesh, _)| mesh == id) {
+            conditions.push((within(&transform, all), wrong::TRANSFORM));
+        }
     }
 
     pub fn remove_instance(&mut self, id: InstanceId) -> (Edit, Verdict) {

@@ -121,6 +121,16 @@ pub(super) fn batch<N: LightNode<W>, I, const W: usize>(
                 instance,
                 transform: transform(random),
             },
+            (6, Some(mesh), _) if at % 2 == 1 => {
+                let count = bvh.mesh_len(mesh) as u32;
+                let first = random.below(count);
+                let more = 1 + random.below((count - first).min(3));
+                Edit::SetTriangleRange {
+                    mesh,
+                    first,
+                    triangles: (0..more).map(|_| triangle(random, 0)).collect(),
+                }
+            }
             (6, Some(mesh), _) => Edit::SetTriangles {
                 mesh,
                 triangles: {
@@ -156,7 +166,10 @@ pub(super) fn renamed<N: LightNode<W>, I, const W: usize>(
     };
     let mut edit = edit.clone();
     match &mut edit {
-        Edit::AddInstance { mesh, .. } | Edit::SetTriangles { mesh, .. } | Edit::RemoveMesh(mesh) => {
+        Edit::AddInstance { mesh, .. }
+        | Edit::SetTriangles { mesh, .. }
+        | Edit::SetTriangleRange { mesh, .. }
+        | Edit::RemoveMesh(mesh) => {
             *mesh = as_mesh(*mesh);
         }
         Edit::SetTransform { instance, .. }
