@@ -74,7 +74,8 @@ fn control<const TEST: usize>() -> std::sync::MutexGuard<'static, Control> {
 }
 
 fn touch<const TEST: usize>() {
-    if SPARED.get() {
+    // Threads of a pool, which have no name, build what edits bring: the frame waits for them.
+    if SPARED.get() || std::thread::current().name().is_none() {
         return;
     }
     let mut control = control::<TEST>();

@@ -3,10 +3,7 @@
 use core::f32::consts::{FRAC_PI_2, PI};
 
 use super::primitive::Group;
-use crate::bounds::LightBounds;
 use crate::exact::{max, min, rsqrt_rough};
-use crate::node::{LightNode, kind};
-use crate::summary::Summary;
 
 /// How a tree is built: what a split is judged by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -89,30 +86,6 @@ impl Scales {
     }
 }
 
-/// Cost of a built tree: the sum of Φ·a·M_Ω over the children of all its nodes, over that of `whole`, the bounds of all
-/// (Eq. 3 without k_r, summed as in the surface area heuristic). It grows as refits stretch the nodes; 0 without flux.
-pub(crate) fn drift<N: LightNode<W>, const W: usize>(nodes: &[N], whole: &LightBounds) -> f64 {
-    let measure = |b: &LightBounds| {
-        let (x, y, z) = (
-            f64::from(b.max.x) - f64::from(b.min.x),
-            f64::from(b.max.y) - f64::from(b.min.y),
-            f64::from(b.max.z) - f64::from(b.min.z),
-        );
-        let area = (x * y + y * z + z * x) + f64::from(DEGENERATE) * (x + y + z);
-        f64::from(b.phi) * area * f64::from(orientation_measure(b.cos_theta_o))
-    };
-    let mut sum = 0.0;
-    for node in nodes {
-        for slot in 0..W {
-            if node.kind(slot) != kind::EMPTY {
-                sum += measure(&node.summary(slot).bounds());
-            }
-        }
-    }
-    let all = measure(whole);
-    if all > 0.0 { sum / all } else { 0.0 }
-}
-
 /// cos θ_o of a cone around the group's normals, from the box that holds them.
 ///
 /// A unit vector x within ρ of the box's centre m has x·m ≥ (1 + |m|² − ρ²)/2, so the cone around m with
@@ -177,45 +150,5 @@ mod tests {
                 "{theta_o}: {found}, expected {expected}"
             );
         }
-    }
-
-    #[test]
-    fn drift_is_the_cost_of_the_children_over_that_of_all() {
-        use crate::FullNode;
-        let bounds = |size: [f32; 3], cos_theta_o: f32, phi: f32| LightBounds {
-            min: glam::Vec3::new(1.0, -2.0, 3.0),
-            max: glam::Vec3::new(1.0 + size[0], size[1] - 2.0, 3.0 + size[2]),
-            cos_theta_o,
-            phi,
-            ..LightBounds::EMPTY
-        };
-        let mut node = FullNode::<2>::EMPTY;
-        let mut children = [LightBounds::EMPTY; 2];
-        for (slot, size, cos, phi) in [(0, [1.0, 2.0, 3.0], -1.0, 3.0), (1, [2.0, 0.0, 5.0], 1.0, 5.0)] {
-            node.set_child(slot, kind::LIGHT, 0);
-            children[slot] = bounds(size, cos, phi);
-        }
-        node.set_summaries(&children);
-        // M_Ω is 4π for a sphere and π for one direction; k_r is left out.
-        let (a, b) = (11.0 + 6.0 / 1024.0, 10.0 + 7.0 / 1024.0);
-        let all = 74.0 + 15.0 / 1024.0;
-        let expected = (3.0 * a * 4.0 + 5.0 * b) / (8.0 * all * 4.0);
-        let whole = bounds([4.0, 5.0, 6.0], -1.0, 8.0);
-        let found = drift(&[node], &whole);
-        assert!(
-            (found / expected - 1.0).abs() < 1e-5,
-            "{found}, expected {expected}"
-        );
-        assert_eq!(drift(&[node, node], &whole), 2.0 * found);
-        // What an empty slot holds is nothing, whatever its bounds.
-        node.set_child(1, kind::EMPTY, 0);
-        node.set_summaries(&[children[0], whole]);
-        let found = drift(&[node], &whole);
-        let expected = 3.0 * a / (8.0 * all);
-        assert!(
-            (found / expected - 1.0).abs() < 1e-5,
-            "{found}, expected {expected}"
-        );
-        assert_eq!(drift(&[node], &LightBounds { phi: 0.0, ..whole }), 0.0);
     }
 }

@@ -17,7 +17,6 @@ pub mod tune;
 mod ward;
 
 pub use cost::Heuristic;
-pub(crate) use cost::drift;
 pub(crate) use topology::{Topology, build_each, build_over, build_top};
 
 /// What the builder may be told.

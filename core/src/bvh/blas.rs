@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::{Bvh, Trails};
-use crate::build::{Topology, drift};
+use crate::build::Topology;
 use crate::levels::Levels;
 use crate::light::EmissiveTriangle;
 use crate::node::{LightNode, kind};
@@ -27,8 +27,6 @@ pub(super) struct Blas {
     pub levels: Levels,
     pub depth: u32,
     pub extent: Extent,
-    /// Its cost when it was built; see [`drift`].
-    pub cost: f64,
     /// When its topology was made.
     pub created: u64,
     /// When what is known of it as a whole changed last.
@@ -52,7 +50,6 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             levels: Levels::default(),
             depth: 0,
             extent: Extent::of(triangles),
-            cost: 0.0,
             created: 0,
             changed: 0,
         };
@@ -150,8 +147,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             &[nodes.start],
         );
         self.roots[index as usize] = refit::root(&self.nodes, nodes.start);
-        let placed = &self.nodes[nodes.start as usize..nodes.end as usize];
-        self.blases[index as usize].cost = drift(placed, &self.root_of(index).bounds());
+        self.judge_range(nodes, true);
         self.changes.new.mark_built(index);
     }
 

@@ -28,6 +28,7 @@ mod edit;
 mod follow;
 mod lights;
 mod one;
+mod quality;
 mod query;
 mod ranges;
 mod rebuild;
@@ -131,6 +132,10 @@ pub struct Bvh<N, I, const W: usize, T = WithTrails> {
     epoch: u64,
     /// Whether it is one mesh alone, walked from the root of its bottom level.
     single: bool,
+    /// By node: what is known of its subtree's quality; only those of bottom levels count.
+    quality: Vec<quality::Quality>,
+    /// When bottom levels were refitted, and which.
+    refitted: Vec<(u64, u32)>,
     /// Nodes of bottom levels that a search came by.
     marks: touched::Marks,
     importance: PhantomData<I>,
@@ -192,6 +197,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             bottom_depth: 0,
             epoch: 0,
             single: false,
+            quality: Vec::new(),
+            refitted: Vec::new(),
             marks: touched::Marks::default(),
             importance: PhantomData,
             asked: PhantomData,
@@ -311,6 +318,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             + levels.map(|levels| size_of_val(levels.nodes())).sum::<usize>()
             + self.top.memory()
             + self.marks.bytes()
+            + size_of_val(&*self.quality)
+            + size_of_val(&*self.refitted)
     }
 
     fn blas_of(&self, placed: &InstanceState) -> &Blas {

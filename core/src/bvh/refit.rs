@@ -104,6 +104,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let parts = self.parts(&pending);
         for &blas in pending.blases.iter().chain(parts.keys()) {
             self.blases[blas as usize].changed = self.epoch + 1;
+            self.note_refitted(blas, self.epoch + 1);
         }
         let work = if is_listed {
             core::mem::take(&mut self.planned)
@@ -115,6 +116,10 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         for range in work.parts.ranges() {
             sweep::bottom(&mut self.nodes, &self.triangles, &work.parts.nodes()[range]);
         }
+        for tree in &work.trees {
+            self.judge_range(tree.clone(), false);
+        }
+        self.judge_list(work.parts.nodes());
         for &blas in &work.roots {
             let root = self.roots[blas as usize].node;
             self.roots[blas as usize] = refit::root(&self.nodes, root);

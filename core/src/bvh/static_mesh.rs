@@ -63,6 +63,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             blas.changed = self.epoch;
         }
         self.triangles = Vec::new();
+        self.quality = Vec::new();
+        self.refitted = Vec::new();
         self.changes = Changes::default();
         self.planned = RefitPlan::default();
         self.done = None;

@@ -117,6 +117,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             bottom_depth: self.bottom_depth,
             epoch: self.epoch,
             single: self.single,
+            quality: self.quality,
+            refitted: self.refitted,
             marks: self.marks,
             importance: self.importance,
         }

@@ -1,7 +1,7 @@
 //! A light BVH as words, to be kept in a file and read again.
 //!
 //! What is written is what cannot be computed: triangles, transforms, links, and what later edits depend on (which places are free,
-//! the order of lists, the cost of each bottom level when it was built). Nodes' summaries, instances' words, trails and levels are
+//! the order of lists, what was noted of bottom levels when they were built). Nodes' summaries, instances' words, trails and levels are
 //! computed anew, by the functions that a refit calls: so they have the words that they had, whatever machine reads them.
 //! `docs/format.md` lists every word.
 

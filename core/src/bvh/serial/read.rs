@@ -42,10 +42,11 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             bvh.top.edits.push(edits);
         }
         let refitted = read_indices(words, header.refitted, header.blases, "refitted bottom level")?;
+        let built = bvh.read_quality(words, &refitted)?;
         bvh.read_nodes(words, &header)?;
         bvh.read_triangles(words, &header)?;
         bvh.restore(&header)?;
-        bvh.restore_changes(refitted)?;
+        bvh.restore_changes(refitted, built)?;
         Ok(bvh)
     }
 
@@ -61,7 +62,6 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 levels: Levels::default(),
                 depth: 0,
                 extent: Extent::of(&[]),
-                cost: 0.0,
                 created: 0,
                 changed: 0,
             };
@@ -70,12 +70,6 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 blas.nodes = read_range(words, header.nodes, "nodes of a bottom level")?;
                 blas.triangles = read_range(words, header.triangles, "triangles of a bottom level")?;
                 nodes.push(blas.nodes.clone());
-                let [low, high] = words.array()?;
-                blas.cost = f64::from_bits(u64::from(low) | (u64::from(high) << 32));
-                words.expect(
-                    blas.cost.is_finite() && blas.cost >= 0.0,
-                    "cost of a bottom level",
-                )?;
             }
             self.blases.push(blas);
         }
@@ -170,6 +164,22 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             "instances",
         )?;
         Ok(())
+    }
+
+    /// What was noted of the nodes of bottom levels that were refitted since they were built.
+    fn read_quality(&self, words: &mut Words<'_>, refitted: &[u32]) -> Result<Vec<Vec<f32>>, ReadError> {
+        let mut all = Vec::with_capacity(refitted.len());
+        for &blas in refitted {
+            let count = self.blases[blas as usize].nodes.len() as u32;
+            let mut built = Vec::with_capacity(words.need(count)?);
+            for _ in 0..count {
+                let share = f32::from_bits(words.one()?);
+                words.expect((0.0..=1.0).contains(&share), "quality of a node")?;
+                built.push(share);
+            }
+            all.push(built);
+        }
+        Ok(all)
     }
 
     fn read_nodes(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {

@@ -41,10 +41,14 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     /// The bottom levels that may have lost quality.
-    pub(super) fn restore_changes(&mut self, refitted: Vec<u32>) -> Result<(), ReadError> {
+    pub(super) fn restore_changes(
+        &mut self,
+        refitted: Vec<u32>,
+        built: Vec<Vec<f32>>,
+    ) -> Result<(), ReadError> {
         self.changes = Changes::default();
         self.epoch = 1;
-        for blas in refitted {
+        for (blas, built) in refitted.into_iter().zip(built) {
             let own = &mut self.blases[blas as usize];
             if own.nodes.is_empty() {
                 return Err(ReadError::Places {
@@ -52,6 +56,12 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 });
             }
             own.changed = self.epoch;
+            let nodes = own.nodes.clone();
+            for (node, share) in nodes.clone().zip(built) {
+                self.quality[node as usize].built = share;
+            }
+            self.judge_range(nodes, false);
+            self.note_refitted(blas, self.epoch);
         }
         Ok(())
     }
@@ -129,6 +139,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 &[range.start],
             );
             self.roots[index] = refit::root(&self.nodes, range.start);
+            self.judge_range(range, true);
         }
         Ok(())
     }

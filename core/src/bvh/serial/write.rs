@@ -16,10 +16,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             refitted.extend(&pending.blases);
             refitted.extend(self.parts(pending).into_keys());
         }
-        let changed = (0..)
-            .zip(&self.blases)
-            .filter(|(_, own)| own.changed > own.created);
-        refitted.extend(changed.map(|(blas, _)| blas));
+        refitted.extend(self.refitted_since(0));
         let header = Header {
             params: self.params,
             single: self.single,
@@ -48,7 +45,11 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 words.push(edits);
             }
         }
-        words.extend(refitted);
+        words.extend(&refitted);
+        for blas in refitted {
+            let nodes = self.blases[blas as usize].nodes.clone();
+            words.extend(nodes.map(|node| self.quality[node as usize].built.to_bits()));
+        }
         self.write_nodes(&mut words);
         self.write_triangles_to(&mut words);
         words[LENGTH] = words.len() as u32;
@@ -61,15 +62,12 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 words.push(INVALID);
                 continue;
             }
-            let cost = blas.cost.to_bits();
             words.extend([
                 blas.mesh,
                 blas.nodes.start,
                 blas.nodes.end,
                 blas.triangles.start,
                 blas.triangles.end,
-                cost as u32,
-                (cost >> 32) as u32,
             ]);
         }
         words.extend(

@@ -1,0 +1,157 @@
+//! How much worse a bottom level is than when it was built: what decides whether it is built anew.
+//!
+//! A node stands for the lights below each of its children by a few moments. What it cannot tell apart is the share of its lights'
+//! variance of position that lies within its inner children, r = Σ Φ_c σ²_c / (Φ σ²), from 0 to 1 and without unit or scale. As refits
+//! stretch the nodes, r grows. The mean of its growth over a tree's nodes, by flux, is what of the order of its lights the tree has
+//! lost: 0 as built and for any motion of the whole, 0.6 to 0.85 where the triangles change places at random. Each node is compared
+//! with itself, so nothing that happens elsewhere hides it.
+//!
+//! Means of subtrees are kept by node and computed along the paths of a refit. They follow from the words of the nodes and what was
+//! noted at the build, however many refits lie between.
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use super::{Bvh, Trails};
+use crate::exact::max;
+use crate::node::{LightNode, kind};
+use crate::summary::Summary;
+use crate::widest::widest;
+
+/// What is known of a node's subtree.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Quality {
+    /// r as it was built.
+    pub built: f32,
+    /// Mean over the lights of what the nodes on their paths have lost, the sum over each path.
+    lost: f32,
+    /// Mean over the lights of the number of those nodes.
+    levels: f32,
+}
+
+impl Quality {
+    /// How many times worse than when it was built, at least 1.
+    pub fn drift(&self) -> f64 {
+        if self.levels > 0.0 {
+            1.0 / (1.0 - f64::from(self.lost) / f64::from(self.levels)).max(1e-6)
+        } else {
+            1.0
+        }
+    }
+
+    /// That of node `index`, whose children's stand in `known`; as built with `is_new`.
+    #[inline(always)]
+    fn of<N: LightNode<W>, const W: usize>(nodes: &[N], known: &[Self], index: u32, is_new: bool) -> Self {
+        let node = &nodes[index as usize];
+        // A node of triangles alone tells all of them apart.
+        if !(0..W).any(|slot| node.kind(slot) == kind::INNER) {
+            return Self::default();
+        }
+        let (mut within, mut all, mut phi, mut lost, mut levels) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        // Positions from the first child's, for the differences of `f32` are exact.
+        let first = node.summary(0).center();
+        let (mut moved, mut squares) = ([0.0; 3], 0.0);
+        for slot in 0..W {
+            if node.kind(slot) == kind::EMPTY {
+                continue;
+            }
+            let child = node.summary(slot);
+            let (flux, spread, c) = (f64::from(child.phi()), f64::from(child.spread()), child.center());
+            let from = [
+                f64::from(c.x) - f64::from(first.x),
+                f64::from(c.y) - f64::from(first.y),
+                f64::from(c.z) - f64::from(first.z),
+            ];
+            phi += flux;
+            all += flux * spread;
+            for axis in 0..3 {
+                moved[axis] += flux * from[axis];
+                squares += flux * from[axis] * from[axis];
+            }
+            if node.kind(slot) == kind::INNER {
+                let below = &known[node.link(slot) as usize];
+                within += flux * spread;
+                lost += flux * f64::from(below.lost);
+                levels += flux * f64::from(below.levels);
+            }
+        }
+        let per_phi = if phi > 0.0 { 1.0 / phi } else { 0.0 };
+        let mean = moved.map(|sum| sum * per_phi);
+        let total = all + (squares - (moved[0] * mean[0] + moved[1] * mean[1] + moved[2] * mean[2])).max(0.0);
+        let share = if total > 0.0 {
+            (within / total).min(1.0) as f32
+        } else {
+            0.0
+        };
+        let built = if is_new {
+            share
+        } else {
+            known[index as usize].built
+        };
+        Self {
+            built,
+            lost: max(share - built, 0.0) + (lost * per_phi) as f32,
+            levels: 1.0 + (levels * per_phi) as f32,
+        }
+    }
+}
+
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+    /// Looks at nodes in depth-first order, all below each of them among them; as built with `is_new`.
+    pub(super) fn judge_range(&mut self, range: Range<u32>, is_new: bool) {
+        self.quality.resize(self.nodes.len(), Quality::default());
+        let (nodes, quality) = (&self.nodes, &mut self.quality);
+        widest(
+            #[inline(always)]
+            || {
+                for index in range.rev() {
+                    quality[index as usize] = Quality::of(nodes, quality, index, is_new);
+                }
+            },
+        );
+    }
+
+    /// Looks at nodes that were refitted, children before parents.
+    pub(super) fn judge_list(&mut self, list: &[u32]) {
+        for &index in list {
+            self.quality[index as usize] = Quality::of(&self.nodes, &self.quality, index, false);
+        }
+    }
+
+    /// How many times worse a bottom level is than when it was built.
+    pub(super) fn drift(&self, blas: u32) -> f64 {
+        self.quality[self.roots[blas as usize].node as usize].drift()
+    }
+
+    /// Notes that bottom level `blas` was refitted at `epoch`.
+    pub(super) fn note_refitted(&mut self, blas: u32, epoch: u64) {
+        self.refitted.push((epoch, blas));
+        if self.refitted.len() > 2 * self.blases.len() + 64 {
+            let mut all = core::mem::take(&mut self.refitted);
+            all.retain(|&entry| self.is_last(entry));
+            self.refitted = all;
+        }
+    }
+
+    /// Whether an entry of the list is the last of a bottom level that was refitted since it was built.
+    fn is_last(&self, (epoch, blas): (u64, u32)) -> bool {
+        let own = &self.blases[blas as usize];
+        !own.nodes.is_empty() && own.changed == epoch && own.changed > own.created
+    }
+
+    /// The bottom levels refitted after `since`, and since they were built, by index.
+    pub(super) fn refitted_since(&self, since: u64) -> Vec<u32> {
+        let from = self.refitted.partition_point(|&(epoch, _)| epoch <= since);
+        let recent = self.refitted[from..].iter();
+        let mut found: Vec<u32> = recent
+            .filter(|&&entry| self.is_last(entry))
+            .map(|&(_, blas)| blas)
+            .collect();
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests;
