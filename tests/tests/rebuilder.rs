@@ -33,6 +33,7 @@ fn params(after: u32, swap: Swap) -> RebuilderParams {
         after,
         swap,
         rebuild: EAGER,
+        ..RebuilderParams::default()
     }
 }
 
