@@ -123,7 +123,7 @@ macro_rules! record {
 
 #[test]
 fn records_have_their_fields() {
-    record!(Instance: root, trail, blas, first, first_triangle, count, listed, columns, translation, inverse, per_inverse,
+    record!(Instance: root, place, above, blas, first, first_triangle, count, listed, columns, translation, inverse, per_inverse,
         flux, radiance, mirrored);
     record!(BlasRoot: node, words);
     record!(EmissiveTriangle: p, radiance, mesh, flags);

@@ -4,7 +4,7 @@ extern crate std;
 
 use std::vec::Vec;
 
-use super::first_of;
+use super::settle::first_of;
 use crate::bvh::{FrameStart, RebuildParams, RebuilderParams, Swap};
 use crate::exact::hash;
 use crate::kit::Random;
@@ -228,9 +228,9 @@ fn what_comes_to_nothing_leaves_nothing() {
 #[test]
 fn indices_are_taken_in_order() {
     let mut ranges = std::vec![7..9, 1..4, 3..5];
-    assert_eq!(first_of(&mut ranges, 3), [1..4]);
+    assert!(first_of(&mut ranges, 3).iter().eq([&(1..4)]));
     assert_eq!(ranges, [4..5, 7..9]);
     assert_eq!(first_of(&mut ranges, 2), [4..5, 7..8]);
-    assert_eq!(first_of(&mut ranges, 9), [8..9]);
+    assert!(first_of(&mut ranges, 9).iter().eq([&(8..9)]));
     assert!(ranges.is_empty() && first_of(&mut ranges, 9).is_empty());
 }
