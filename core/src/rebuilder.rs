@@ -2,11 +2,13 @@
 //!
 //! [`end_frame`](Rebuilder::end_frame) takes a copy of what is to be built and hands it to a worker thread,
 //! [`begin_frame`](Rebuilder::begin_frame) swaps the result in. In between the scene is free: it may be sampled, edited
-//! and refitted as ever. The paper lets the next frame wait for the rebuild if it must; here that is a choice,
+//! and refitted as ever. A large mesh is copied to the builder, and its tree put in place, a piece in each frame: the bytes that a
+//! frame copies are bounded ([`RebuilderParams::bytes`]), whatever is built beside it. The paper lets the next frame wait for the rebuild if it must; here that is a choice,
 //! [`Swap::Deterministic`].
 
 mod clock;
 mod handover;
+mod meshes;
 mod worker;
 
 use alloc::string::String;
@@ -14,8 +16,8 @@ use core::fmt;
 use core::time::Duration;
 
 use self::clock::Clock;
-use self::handover::Outcome;
-use self::worker::{Built, Worker, build};
+use self::meshes::Meshes;
+use self::worker::{Built, Job, Product, Worker, build};
 use crate::bvh::{Bvh, RebuildParams, Taken, Trails};
 use crate::node::{DefaultNode, LightNode};
 
@@ -42,6 +44,12 @@ pub struct RebuilderParams {
     pub swap: Swap,
     /// What is built anew.
     pub rebuild: RebuildParams,
+    /// Bytes that the start of a frame copies of meshes that are built anew, at least 16 KiB; 512 KiB, the default, take 0.1 to 0.3 ms. A
+    /// mesh of less than a 256th as many triangles is put in place at once; a larger one over the frames that it takes, 112 bytes for
+    /// a triangle before it is built, and its nodes and trails after it.
+    pub bytes: u32,
+    /// Large meshes that are under way at a time, each with a thread of its own; at least 1.
+    pub meshes: u32,
 }
 
 impl Default for RebuilderParams {
@@ -51,6 +59,8 @@ impl Default for RebuilderParams {
             after: 1,
             swap: Swap::WhenReady,
             rebuild: RebuildParams::default(),
+            bytes: 1 << 19,
+            meshes: 2,
         }
     }
 }
@@ -65,6 +75,12 @@ pub struct FrameStart {
     pub waited: Duration,
     /// How long the worker took for what was swapped in; zero if nothing was, and where there is no clock.
     pub built: Duration,
+    /// Number of large meshes whose new trees took their places since the last frame began.
+    pub adopted: u32,
+    /// Number of large meshes that are under way or wait for it.
+    pub under_way: u32,
+    /// Bytes copied of them, or time as much.
+    pub copied: u32,
     /// Whether it was built at the end of its frame on the frame's own thread, since no other could be started.
     pub inline: bool,
 }
@@ -96,7 +112,8 @@ impl fmt::Display for RebuildError {
 
 impl core::error::Error for RebuildError {}
 
-/// Runs the rebuilds of one [`Bvh`] beside its frames, one at a time.
+/// Runs the rebuilds of one [`Bvh`] beside its frames: that of the top level and of small meshes, one at a time, and those of
+/// [some](RebuilderParams::meshes) large meshes.
 ///
 /// Dropping it waits for the worker to end the rebuild that it runs, if any. Where no thread can be started (a limit of
 /// the system, or a platform without threads) rebuilds run at the end of their frame, with the same results: so it is on
@@ -107,6 +124,8 @@ pub struct Rebuilder<N = DefaultNode, const W: usize = 8> {
     params: RebuilderParams,
     worker: Option<Worker<N, W>>,
     flight: Option<Flight<N, W>>,
+    /// Large meshes.
+    meshes: Meshes<N, W>,
     /// When the last rebuild was taken, if nothing was lost since.
     taken: Option<Taken>,
     /// How a worker is started.
@@ -136,6 +155,7 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
             params,
             worker: None,
             flight: None,
+            meshes: Meshes::default(),
             taken: None,
             start: Worker::start,
         }
@@ -144,7 +164,7 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
     /// Whether a rebuild is under way, or its result waits to be swapped in.
     #[must_use]
     pub fn is_busy(&self) -> bool {
-        self.flight.is_some()
+        self.flight.is_some() || self.meshes.is_busy()
     }
 
     /// Swaps in what is due. Comes before the frame's [`Bvh::apply`] or after it, but before its [`Bvh::plan`] and [`Bvh::refit`],
@@ -157,55 +177,73 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
         scene: &mut Bvh<N, I, W, T>,
     ) -> Result<FrameStart, RebuildError> {
         let mut start = FrameStart::default();
+        let meshes = self
+            .meshes
+            .begin_frame(scene, &self.params, self.start, &mut start);
+        // What it would have built is still to be built.
+        if core::mem::take(&mut self.meshes.is_lost) {
+            self.taken = None;
+        }
+        self.begin_flight(scene, &mut start)?;
+        meshes?;
+        Ok(start)
+    }
+
+    /// Swaps in the top level and small meshes.
+    fn begin_flight<I, T: Trails>(
+        &mut self,
+        scene: &mut Bvh<N, I, W, T>,
+        start: &mut FrameStart,
+    ) -> Result<(), RebuildError> {
         let Some(flight) = &mut self.flight else {
-            return Ok(start);
+            return Ok(());
         };
         if flight.left > 1 {
             flight.left -= 1;
-            return Ok(start);
+            return Ok(());
         }
         let built = if let Some(built) = flight.inline.take() {
             start.inline = true;
             Some(built)
         } else {
             let began = Clock::start();
-            let outcome = self.worker.as_ref().and_then(|worker| match self.params.swap {
-                Swap::Deterministic => worker.handover().take(),
-                Swap::WhenReady => worker.handover().try_take(),
-            });
-            start.waited = began.elapsed();
-            outcome.map(|outcome| match outcome {
-                Outcome::Done(built) => built,
-                Outcome::Lost => Err(String::from("the worker ended without a result")),
-            })
+            let waits = self.params.swap == Swap::Deterministic;
+            let built = self.worker.as_ref().and_then(|worker| worker.outcome(waits));
+            start.waited += began.elapsed();
+            built
         };
         let Some(built) = built else {
-            return Ok(start);
+            return Ok(());
         };
         self.flight = None;
         // What it would have built is still to be built.
         let taken = self.taken.take();
-        let (rebuilt, time) = built.map_err(|message| {
+        let (product, time) = built.map_err(|message| {
             // By a worker that has seen no panic.
             self.worker = None;
             RebuildError::Panicked { message }
         })?;
-        scene.install(rebuilt).map_err(|_| RebuildError::Foreign)?;
+        if let Product::Frame(rebuilt) = product {
+            scene.install(rebuilt).map_err(|_| RebuildError::Foreign)?;
+        }
         self.taken = taken;
         start.swapped = true;
         start.built = time;
-        Ok(start)
+        Ok(())
     }
 
     /// Starts the next rebuild, unless one is under way or there is nothing to build. Comes after the frame's
-    /// [`Bvh::refit`]. Takes time in proportion to the meshes, to the instances if the top level is rebuilt, and to the triangles of
-    /// the meshes deformed since the last rebuild started.
+    /// [`Bvh::refit`]. Takes time in proportion to the meshes refitted since the last rebuild started, to the instances if the top level
+    /// is rebuilt, and to the triangles of small meshes that are built anew.
     pub fn end_frame<I, T: Trails>(&mut self, scene: &Bvh<N, I, W, T>) {
         let now = scene.now();
         if self.flight.is_some() || self.taken == Some(now) {
             return;
         }
-        let job = scene.rebuild_since(&self.params.rebuild, self.taken);
+        let worn = scene.worn_since(&self.params.rebuild, self.taken);
+        let (small, large) = meshes::parted(worn, scene, &self.params);
+        self.meshes.await_turn(large);
+        let job = scene.rebuild_of(&self.params.rebuild, &small);
         self.taken = Some(now);
         if job.is_empty() {
             return;
@@ -214,8 +252,8 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
             self.worker = (self.start)().ok();
         }
         let refused = match &self.worker {
-            Some(worker) => worker.handover().submit(job).err(),
-            None => Some(job),
+            Some(worker) => worker.handover().submit(Job::Frame(job)).err(),
+            None => Some(Job::Frame(job)),
         };
         self.flight = Some(Flight {
             left: self.params.after,

@@ -33,6 +33,7 @@ fn params(after: u32, swap: Swap) -> RebuilderParams {
         after,
         swap,
         rebuild: EAGER,
+        ..RebuilderParams::default()
     }
 }
 
@@ -420,8 +421,77 @@ fn rebuilds_stop_when_nothing_changes() {
     assert_eq!(swaps, [false, true, false, false, false, false]);
 }
 
+/// Large for the bytes that a frame may copy: its tree is built by a thread of its own and put in place piece by piece.
+#[test]
+fn a_panic_over_a_large_mesh_costs_nothing_but_itself() {
+    const TEST: usize = 7;
+    slowed::spare();
+    let random = &mut Random::new(70);
+    let (mut scene, mut model) = town::<TEST>(random, 5);
+    let mut triangles = generate::small_triangles(300, 300, 2.0, 0.2, false, random.bits());
+    let mesh = add(random, &mut scene, &mut model, triangles.clone(), 3);
+    for i in (1..triangles.len()).rev() {
+        triangles.swap(i, random.below(i as u32 + 1) as usize);
+    }
+    model.meshes.insert(mesh, triangles.clone());
+    scene
+        .apply(vec![Edit::SetTriangles { mesh, triangles }])
+        .expect("as many");
+    scene.refit();
+    let due = scene.due(&EAGER);
+    assert!(
+        due.len() == 1 && due[0].mesh == mesh && due[0].drift > 1.1,
+        "{due:?}"
+    );
+    let mut rebuilder = Rebuilder::new(RebuilderParams {
+        rebuild: RebuildParams { top: false, ..EAGER },
+        bytes: 0,
+        ..params(1, Swap::Deterministic)
+    });
+    let before = words(&scene, &ids(&model), 0);
+    slowed::set::<TEST>(Pace::Panic);
+    let mut frames = 0;
+    let error = loop {
+        match rebuilder.begin_frame(&mut scene) {
+            Err(error) => break error,
+            Ok(start) => assert!(start.adopted == 0 && frames < 100),
+        }
+        scene.refit();
+        valid(&scene, &model);
+        rebuilder.end_frame(&scene);
+        frames += 1;
+    };
+    assert!(error.to_string().contains("told to panic"));
+    assert!(!rebuilder.is_busy());
+    scene.refit();
+    assert_eq!(before.pmfs, words(&scene, &ids(&model), 0).pmfs);
+    // What failed is still to be built.
+    slowed::set::<TEST>(Pace::Full);
+    let mut edited = 0;
+    loop {
+        rebuilder.end_frame(&scene);
+        let start = rebuilder.begin_frame(&mut scene).expect("no panic");
+        if start.adopted > 0 {
+            break;
+        }
+        edited += 1;
+        assert!(edited < 100);
+        if edited % 3 == 0 {
+            let first = random.below(300);
+            let some = vec![model.meshes[&mesh][299 - first as usize]];
+            model.meshes.get_mut(&mesh).expect("it is there")[first as usize] = some[0];
+            scene.set_triangle_range(mesh, first, some).expect("its own");
+        }
+        scene.refit();
+        check_pmfs(&scene, &model, random);
+    }
+    scene.refit();
+    check_pmfs(&scene, &model, random);
+    assert!(scene.due(&RebuildParams::default()).is_empty());
+}
+
 #[test]
 fn a_rebuilder_moves_between_threads() {
     fn sends<T: Send + 'static>() {}
-    sends::<Rebuilder<Slowed<7>, 4>>();
+    sends::<Rebuilder<Slowed<6>, 4>>();
 }

@@ -1,8 +1,10 @@
 //! Bottom levels: built when a mesh comes in or a new shape needs one, and placed among the nodes.
 
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use super::stage::Staged;
 use super::{Bvh, Trails};
 use crate::build::Topology;
 use crate::levels::Levels;
@@ -31,6 +33,10 @@ pub(super) struct Blas {
     pub created: u64,
     /// When what is known of it as a whole changed last.
     pub changed: u64,
+    /// The tree that is to take its place.
+    pub staged: Option<Box<Staged>>,
+    /// The stage that made this one.
+    pub adopted: u64,
 }
 
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
@@ -52,6 +58,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             extent: Extent::of(triangles),
             created: 0,
             changed: 0,
+            staged: None,
+            adopted: 0,
         };
         put(&mut self.blases, index, empty.clone(), &empty);
         put(
@@ -73,6 +81,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Takes a bottom level out.
     pub(super) fn remove_blas(&mut self, index: u32) {
+        self.drop_stage(index);
         let blas = &mut self.blases[index as usize];
         let (nodes, triangles) = (blas.nodes.clone(), blas.triangles.clone());
         blas.nodes = 0..0;
@@ -93,8 +102,13 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Writes those of its triangles that begin with its `first`-th, and marks them for refit.
     pub(super) fn write_triangle_range(&mut self, index: u32, first: u32, triangles: &[EmissiveTriangle]) {
-        if !triangles.is_empty() {
-            let range = self.put_triangles(index, first, triangles);
+        if triangles.is_empty() {
+            return;
+        }
+        let range = self.put_triangles(index, first, triangles);
+        if range.len() == self.blases[index as usize].triangles.len() {
+            self.changes.new.mark_blas(index);
+        } else {
             self.changes.new.parts.push(range);
         }
     }
@@ -102,26 +116,40 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     fn put_triangles(&mut self, index: u32, first: u32, triangles: &[EmissiveTriangle]) -> Range<u32> {
         let start = self.blases[index as usize].triangles.start + first;
         let range = start..start + triangles.len() as u32;
-        let end = self.triangle_ranges.end() as usize;
-        if self.triangles.len() < end {
+        self.cover_triangles(range.end);
+        let own = &mut self.triangles[range.start as usize..range.end as usize];
+        for (to, from) in own.iter_mut().zip(triangles) {
+            *to = EmissiveTriangle { mesh: index, ..*from };
+        }
+        self.changes.new.written_triangles.push(range.clone());
+        self.write_staged(index, first, triangles.len() as u32);
+        range
+    }
+
+    /// Makes room for triangles up to `end`.
+    pub(super) fn cover_triangles(&mut self, end: u32) {
+        if self.triangles.len() < end as usize {
             let dark = EmissiveTriangle {
                 p: [[0.0; 3]; 3],
                 radiance: [0.0; 3],
                 mesh: INVALID,
                 flags: 0,
             };
-            self.triangles.resize(end, dark);
+            self.triangles.resize(end as usize, dark);
         }
-        let own = &mut self.triangles[range.start as usize..range.end as usize];
-        for (to, from) in own.iter_mut().zip(triangles) {
-            *to = EmissiveTriangle { mesh: index, ..*from };
+    }
+
+    /// Makes room for nodes up to `end`.
+    pub(super) fn cover_nodes(&mut self, end: u32) {
+        if self.nodes.len() < end as usize {
+            self.nodes.resize(end as usize, N::EMPTY);
+            self.parents.resize(end as usize, INVALID);
         }
-        self.changes.new.written_triangles.push(range.clone());
-        range
     }
 
     /// Puts the nodes of `topology` in place of those that bottom level `index` had.
     pub(super) fn place_blas(&mut self, index: u32, topology: &Topology<N>) {
+        self.drop_stage(index);
         let old = self.blases[index as usize].nodes.clone();
         self.node_ranges.give(old);
         let nodes = self.place_nodes(&topology.nodes);
@@ -154,11 +182,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Room for `nodes`, their links moved to where they stand then; sets the parents.
     pub(super) fn place_nodes(&mut self, nodes: &[N]) -> Range<u32> {
         let range = self.node_ranges.take(nodes.len() as u32);
-        let end = self.node_ranges.end() as usize;
-        if self.nodes.len() < end {
-            self.nodes.resize(end, N::EMPTY);
-            self.parents.resize(end, INVALID);
-        }
+        self.cover_nodes(range.end);
         let base = range.start;
         self.parents[base as usize] = INVALID;
         for (i, node) in (base..).zip(nodes) {
@@ -178,7 +202,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// The trails of the triangles of bottom level `index`.
     fn place_trails(&mut self, index: u32, topology: &Topology<N>) {
-        self.reserve_trails(topology.depth);
+        self.reserve_trails(topology.depth, self.blases[index as usize].triangles.end);
         let words = self.trail_words as usize;
         for &(triangle, trail) in &topology.trails {
             let at = triangle as usize * words;
@@ -206,16 +230,21 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Makes trails as wide as trees of `depth` levels need, for all triangles.
-    fn reserve_trails(&mut self, depth: u32) {
-        let end = self.triangle_ranges.end() as usize;
+    /// Makes trails as wide as trees of `depth` levels need, for all triangles, and room for those up to `end`.
+    pub(super) fn reserve_trails(&mut self, depth: u32, end: u32) {
         if self.trail_words == 1 && trail_words(W, depth) == 2 {
             self.trail_words = 2;
             let narrow = core::mem::take(&mut self.trails);
             self.trails = narrow.into_iter().flat_map(|low| [low, 0]).collect();
-            self.changes.new.written_trails.push(0..end as u32);
+            self.changes
+                .new
+                .written_trails
+                .push(0..self.trails.len() as u32 / 2);
         }
-        self.trails.resize(end * self.trail_words as usize, 0);
+        let length = end as usize * self.trail_words as usize;
+        if self.trails.len() < length {
+            self.trails.resize(length, 0);
+        }
     }
 }
 

@@ -40,6 +40,11 @@ impl Changes {
         }
     }
 
+    /// What the last plan listed is not what there is any more.
+    pub fn forget_lists(&mut self) {
+        self.is_fresh = false;
+    }
+
     /// All lists.
     pub fn all(&mut self) -> [&mut Pending; 3] {
         [&mut self.new, &mut self.unrefitted, &mut self.unplanned]

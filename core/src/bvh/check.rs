@@ -1,5 +1,7 @@
 //! Validation of a batch of edits, as a whole, before any of it is done.
 
+mod extents;
+
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
@@ -55,13 +57,6 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 checked => return checked,
             }
         }
-    }
-
-    /// Whether an instance is refused for an extent that is perhaps not the least.
-    fn may_be_nearer(&self, edits: &[Edit], reason: &EditReason) -> bool {
-        let in_part = |edit: &Edit| matches!(edit, Edit::SetTriangleRange { .. });
-        matches!(reason, EditReason::Transform(_))
-            && (edits.iter().any(in_part) || self.blases.iter().any(|blas| !blas.extent.is_exact))
     }
 
     fn check_all(&self, edits: &mut [Edit], is_crowded: bool, is_exact: bool) -> Result<Extents, EditError> {
@@ -215,62 +210,6 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.blases[self.meshes[id.index as usize].blas as usize]
             .triangles
             .len()
-    }
-
-    /// What is known of a mesh's extent, or once for a batch all of it.
-    fn extent(&self, batch: &mut Batch, id: MeshId) -> Extent {
-        if let Some(&extent) = batch.extents.get(&id) {
-            return extent;
-        }
-        let known = self.blases[self.meshes[id.index as usize].blas as usize].extent;
-        if batch.copies.is_none() || known.is_exact {
-            return known;
-        }
-        let exact = Extent::of(self.mesh_triangles(id).unwrap_or_default());
-        batch.extents.insert(id, exact);
-        exact
-    }
-
-    /// The extent of a mesh with some of its triangles changed.
-    fn extent_with(
-        &self,
-        batch: &mut Batch,
-        id: MeshId,
-        first: u32,
-        triangles: &[EmissiveTriangle],
-    ) -> Extent {
-        let own = self.mesh_triangles(id).unwrap_or_default();
-        let range = first as usize..first as usize + triangles.len();
-        if let Some(copies) = &mut batch.copies {
-            let copy = copies.entry(id).or_insert_with(|| own.to_vec());
-            copy[range].copy_from_slice(triangles);
-            return Extent::of(copy);
-        }
-        let mut old = Extent::of(&own[range]);
-        // Others may be there since.
-        old.is_exact = !batch.extents.contains_key(&id);
-        self.extent(batch, id).with(&old, &Extent::of(triangles))
-    }
-
-    /// Whether all instances of a mesh, those of the batch included, may have that extent, which it gets.
-    fn check_users(&self, batch: &mut Batch, mesh: MeshId, extent: Extent) -> Result<(), EditReason> {
-        for &index in &self.meshes[mesh.index as usize].users {
-            let placed = &self.placed[index as usize];
-            let id = InstanceId {
-                tree: self.id.0,
-                index,
-                generation: placed.generation,
-            };
-            if !batch.removed_instances.contains(&id) {
-                let transform = batch.transforms.get(&id).unwrap_or(&placed.transform);
-                transform.check(&extent).map_err(EditReason::Transform)?;
-            }
-        }
-        for transform in batch.added.get(&mesh).into_iter().flatten() {
-            transform.check(&extent).map_err(EditReason::Transform)?;
-        }
-        batch.extents.insert(mesh, extent);
-        Ok(())
     }
 }
 

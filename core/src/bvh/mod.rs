@@ -35,6 +35,8 @@ mod rebuild;
 mod records;
 mod refit;
 mod serial;
+#[cfg_attr(not(feature = "std"), allow(dead_code, reason = "the `Rebuilder` drives it"))]
+mod stage;
 mod static_bvh;
 mod static_mesh;
 #[cfg(test)]
@@ -53,9 +55,11 @@ pub use edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS
 pub use follow::{FollowError, MeshCounts};
 #[cfg(feature = "std")]
 pub(crate) use rebuild::Taken;
-pub use rebuild::{Foreign, Rebuild, RebuildParams, Rebuilt};
+pub use rebuild::{Due, Foreign, Rebuild, RebuildParams, Rebuilt};
 pub use refit::RefitPlan;
 pub use serial::{FORMAT, ReadError};
+#[cfg(feature = "std")]
+pub(crate) use stage::{MeshJob, MeshTree, StageId};
 pub use static_bvh::StaticBvh;
 pub use static_mesh::StaticMeshBvh;
 pub use trails::{NoTrails, Trails, WithTrails};
@@ -134,6 +138,8 @@ pub struct Bvh<N, I, const W: usize, T = WithTrails> {
     single: bool,
     /// By node: what is known of its subtree's quality; only those of bottom levels count.
     quality: Vec<quality::Quality>,
+    /// Bottom levels whose trees are being put in place piece by piece.
+    staging: Vec<u32>,
     /// When bottom levels were refitted, and which.
     refitted: Vec<(u64, u32)>,
     /// Nodes of bottom levels that a search came by.
@@ -199,6 +205,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             single: false,
             quality: Vec::new(),
             refitted: Vec::new(),
+            staging: Vec::new(),
             marks: touched::Marks::default(),
             importance: PhantomData,
             asked: PhantomData,

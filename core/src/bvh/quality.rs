@@ -39,6 +39,15 @@ impl Quality {
         }
     }
 
+    /// Those of the nodes of a tree in depth-first order, links counting from its root.
+    pub fn as_built<N: LightNode<W>, const W: usize>(nodes: &[N]) -> Vec<Self> {
+        let mut known = alloc::vec![Self::default(); nodes.len()];
+        for index in (0..nodes.len() as u32).rev() {
+            known[index as usize] = Self::of(nodes, &known, index, true);
+        }
+        known
+    }
+
     /// That of node `index`, whose children's stand in `known`; as built with `is_new`.
     #[inline(always)]
     fn of<N: LightNode<W>, const W: usize>(nodes: &[N], known: &[Self], index: u32, is_new: bool) -> Self {
@@ -99,7 +108,9 @@ impl Quality {
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Looks at nodes in depth-first order, all below each of them among them; as built with `is_new`.
     pub(super) fn judge_range(&mut self, range: Range<u32>, is_new: bool) {
-        self.quality.resize(self.nodes.len(), Quality::default());
+        if self.quality.len() < self.nodes.len() {
+            self.quality.resize(self.nodes.len(), Quality::default());
+        }
         let (nodes, quality) = (&self.nodes, &mut self.quality);
         widest(
             #[inline(always)]

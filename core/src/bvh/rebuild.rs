@@ -6,6 +6,7 @@ use core::marker::PhantomData;
 use core::ops::Range;
 
 use super::blas::Blas;
+use super::edit::MeshId;
 use super::top::{TopCopy, TopTree};
 use super::{Bvh, Trails};
 use crate::build::{BuildParams, Topology, build_over};
@@ -33,6 +34,16 @@ impl Default for RebuildParams {
             drift: 1.1,
         }
     }
+}
+
+/// A mesh whose bottom level is to be built anew.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Due {
+    /// Which mesh.
+    pub mesh: MeshId,
+    /// How many times worse its bottom level is than when it was built; see [`RebuildParams::drift`].
+    pub drift: f64,
 }
 
 /// Work for any thread: a copy of what is to be built anew.
@@ -127,18 +138,45 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// As [`rebuild`](Self::rebuild), but looks for lost quality among the bottom levels refitted since then.
     pub(crate) fn rebuild_since(&self, params: &RebuildParams, since: Option<Taken>) -> Rebuild<N, W> {
+        self.rebuild_of(params, &self.worn_since(params, since))
+    }
+
+    /// The bottom levels refitted since then that are to be built anew.
+    pub(crate) fn worn_since(&self, params: &RebuildParams, since: Option<Taken>) -> Vec<u32> {
         let since = since
             .filter(|since| since.tree == self.id.0)
             .map_or(0, |since| since.epoch);
-        let top = params.top.then(|| self.copy_top());
         let refitted = match params.drift.is_finite() {
             true => self.refitted_since(since),
             false => Vec::new(),
         };
-        let drifted = refitted
-            .into_iter()
-            .filter(|&blas| self.drift(blas) > params.drift);
-        let bottoms = drifted.map(|blas| {
+        let is_worn = |&blas: &u32| self.is_worn(blas, params);
+        refitted.into_iter().filter(is_worn).collect()
+    }
+
+    /// Whether a bottom level is to be built anew.
+    pub(crate) fn is_worn(&self, blas: u32, params: &RebuildParams) -> bool {
+        let own = self.blases.get(blas as usize);
+        own.is_some_and(|own| !own.nodes.is_empty()) && self.drift(blas) > params.drift
+    }
+
+    /// The meshes whose bottom levels `params` wants built anew, and why; in time in proportion to those refitted since they were built.
+    #[must_use]
+    pub fn due(&self, params: &RebuildParams) -> Vec<Due> {
+        let worn = self.worn_since(params, None).into_iter();
+        let due = worn.filter_map(|blas| {
+            Some(Due {
+                mesh: self.mesh_id(self.blases[blas as usize].mesh)?,
+                drift: self.drift(blas),
+            })
+        });
+        due.collect()
+    }
+
+    /// Takes a copy of the top level's leaves, where `params` wants it, and of the triangles of those bottom levels.
+    pub(crate) fn rebuild_of(&self, params: &RebuildParams, bottoms: &[u32]) -> Rebuild<N, W> {
+        let top = params.top.then(|| self.copy_top());
+        let bottoms = bottoms.iter().map(|&blas| {
             let own = &self.blases[blas as usize];
             let range = own.triangles.clone();
             Bottom {

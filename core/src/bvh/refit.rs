@@ -57,6 +57,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Where only a device refits, nodes here stay as they were: samples taken here are of that tree, and a
     /// [`rebuild`](Self::rebuild) sees no bottom level lose quality. A refit here, now and then, is enough for both.
     pub fn plan(&mut self) -> &RefitPlan {
+        self.adopt_swept();
         self.changes.is_planned = true;
         self.changes.plans += 1;
         let new = core::mem::take(&mut self.changes.new);
@@ -87,6 +88,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Computes the nodes that the edits since the last call touch, and no other.
     pub fn refit(&mut self) {
+        self.adopt_swept();
         let new = core::mem::take(&mut self.changes.new);
         let mut pending = core::mem::take(&mut self.changes.unrefitted);
         let is_listed = self.changes.is_fresh && new.is_empty();

@@ -52,6 +52,9 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.refit();
         // Later than any rebuild that was taken, so that none of a bottom level is installed or asked for.
         self.epoch += 1;
+        for blas in self.staging.clone() {
+            self.drop_stage(blas);
+        }
         for blas in &mut self.blases {
             blas.levels = Levels::default();
             // No triangle will tell it better.

@@ -84,21 +84,21 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 pending.blases.insert(blas);
             } else {
                 touched.push(blas);
-                levels.push(self.paths(blas, ranges));
+                let (root, depth) = (self.roots[blas as usize].node, self.blases[blas as usize].depth);
+                levels.push(self.paths(root, depth, ranges));
             }
         }
         (touched, levels)
     }
 
-    /// The nodes on the paths from the root of a bottom level to some of its triangles.
-    fn paths(&mut self, blas: u32, triangles: Vec<Range<u32>>) -> Levels {
+    /// The nodes on the paths from the root of a bottom level of `depth` levels to some of its triangles.
+    pub(super) fn paths(&mut self, root: u32, depth: u32, triangles: Vec<Range<u32>>) -> Levels {
         self.marks.begin(self.nodes.len());
-        let root = self.roots[blas as usize].node;
         let mut pairs = Vec::new();
         for triangle in triangles.into_iter().flatten() {
             let trail = self.trail_of(triangle);
             let mut node = root;
-            for level in 0..self.blases[blas as usize].depth {
+            for level in 0..depth {
                 if self.marks.is_first(node) {
                     pairs.push((level, node));
                 }

@@ -119,6 +119,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             single: self.single,
             quality: self.quality,
             refitted: self.refitted,
+            staging: self.staging,
             marks: self.marks,
             importance: self.importance,
         }

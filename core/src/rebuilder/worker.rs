@@ -8,20 +8,49 @@ use std::sync::Arc;
 use std::thread::{self, JoinHandle};
 
 use super::clock::Clock;
-use super::handover::Handover;
-use crate::bvh::{Rebuild, Rebuilt};
+use super::handover::{Handover, Outcome};
+use crate::bvh::{MeshJob, MeshTree, Rebuild, Rebuilt};
 use crate::node::LightNode;
 
-/// A rebuild and the time it took, or what the panic said that ended it.
-pub(super) type Built<N, const W: usize> = Result<(Rebuilt<N, W>, Duration), String>;
+/// What is to be built.
+#[derive(Debug)]
+pub(super) enum Job<N, const W: usize> {
+    /// The top level, and small bottom levels.
+    Frame(Rebuild<N, W>),
+    /// A bottom level that is put in place piece by piece.
+    Mesh(MeshJob<N>),
+    /// A tree that is in place: giving its memory back takes longer than a frame may.
+    Free(MeshTree<N>),
+}
 
-type Shared<N, const W: usize> = Arc<Handover<Rebuild<N, W>, Built<N, W>>>;
+/// What was.
+#[derive(Debug)]
+pub(super) enum Product<N, const W: usize> {
+    /// Of [`Job::Frame`].
+    Frame(Rebuilt<N, W>),
+    /// Of [`Job::Mesh`].
+    Mesh(MeshTree<N>),
+    /// Of [`Job::Free`].
+    Nothing,
+}
+
+/// What was built and the time it took, or what the panic said that ended it.
+pub(super) type Built<N, const W: usize> = Result<(Product<N, W>, Duration), String>;
+
+type Shared<N, const W: usize> = Arc<Handover<Job<N, W>, Built<N, W>>>;
 
 /// Builds, here and now.
-pub(super) fn build<N: LightNode<W>, const W: usize>(job: Rebuild<N, W>) -> Built<N, W> {
+pub(super) fn build<N: LightNode<W>, const W: usize>(job: Job<N, W>) -> Built<N, W> {
     let began = Clock::start();
     // The job is all that building touches, and a panic ends it.
-    let rebuilt = catch_unwind(AssertUnwindSafe(|| job.run()));
+    let rebuilt = catch_unwind(AssertUnwindSafe(|| match job {
+        Job::Frame(rebuild) => Product::Frame(rebuild.run()),
+        Job::Mesh(mesh) => Product::Mesh(mesh.run::<W>()),
+        Job::Free(tree) => {
+            drop(tree);
+            Product::Nothing
+        }
+    }));
     rebuilt
         .map(|rebuilt| (rebuilt, began.elapsed()))
         .map_err(|panic| message(&*panic))
@@ -62,8 +91,20 @@ impl<N: LightNode<W>, const W: usize> Worker<N, W> {
         })
     }
 
-    pub fn handover(&self) -> &Handover<Rebuild<N, W>, Built<N, W>> {
+    pub fn handover(&self) -> &Handover<Job<N, W>, Built<N, W>> {
         &self.handover
+    }
+
+    /// The outcome of the job under way, waited for where `waits`; `None` where it is not there yet.
+    pub fn outcome(&self, waits: bool) -> Option<Built<N, W>> {
+        let outcome = match waits {
+            true => self.handover.take(),
+            false => self.handover.try_take(),
+        };
+        outcome.map(|outcome| match outcome {
+            Outcome::Done(built) => built,
+            Outcome::Lost => Err(String::from("the worker ended without a result")),
+        })
     }
 }
 

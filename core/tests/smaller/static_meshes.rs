@@ -12,6 +12,8 @@ type Default8 = Bvh<MomentNode<8>, Defensive<Moments, 6>, 8>;
 
 /// Swaps that do not depend on how fast a thread is.
 const PARAMS: RebuilderParams = RebuilderParams {
+    bytes: 1 << 19,
+    meshes: 2,
     rebuild: RebuildParams {
         top: true,
         drift: 1.5,

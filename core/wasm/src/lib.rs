@@ -47,6 +47,7 @@ fn run<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(frames: u32) -
             top: true,
             drift: 1.01,
         },
+        ..RebuilderParams::default()
     });
     for frame in 0..frames {
         let start = rebuilder.begin_frame(&mut bvh).expect("its own");

@@ -64,6 +64,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 extent: Extent::of(&[]),
                 created: 0,
                 changed: 0,
+                staged: None,
+                adopted: 0,
             };
             if mesh != INVALID {
                 words.expect(mesh < header.meshes, "mesh of a bottom level")?;

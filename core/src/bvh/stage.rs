@@ -1,0 +1,215 @@
+//! Bottom levels built beside the frames and put in place piece by piece, so that no frame waits for a large mesh.
+//!
+//! A stage copies the triangles of a mesh a piece at a time, to where they will stand and for the builder; the builder, on a thread of
+//! its own, gives a tree that is refitted; its nodes and trails are put in place a piece at a time, beside those that are walked; what
+//! changed meanwhile is refitted there; then the instances are told of the new root and triangles, all at once. The order of lights
+//! is a hint: what is exact comes from the refit. Edits meanwhile write both places.
+
+mod job;
+mod place;
+mod settle;
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use core::ops::Range;
+
+pub(crate) use self::job::{MeshJob, MeshTree};
+use super::changes::merged;
+use super::{Bvh, Trails};
+use crate::levels::Levels;
+use crate::node::LightNode;
+use crate::refit;
+
+/// Where more than this share of the triangles changed since they were copied, all nodes are swept.
+const MOST: usize = 16;
+
+/// Which stage, of which light BVH.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct StageId {
+    tree: u32,
+    blas: u32,
+    number: u64,
+}
+
+/// What a light BVH knows of a tree that is to take the place of a bottom level's.
+#[derive(Clone, Debug)]
+pub(super) struct Staged {
+    number: u64,
+    /// Where the triangles will stand; the first `copied` of them do.
+    triangles: Range<u32>,
+    copied: u32,
+    /// Where the nodes will stand; empty until they are built.
+    nodes: Range<u32>,
+    /// Whether all nodes and trails are there.
+    is_placed: bool,
+    depth: u32,
+    levels: Levels,
+    /// Triangles, where they will stand, that changed since they were copied.
+    changed: Vec<Range<u32>>,
+    /// How many since the last frame began.
+    fresh: usize,
+    /// Whether all nodes from the first to that of index `swept` are to be computed.
+    is_whole: bool,
+    swept: u32,
+}
+
+impl Staged {
+    /// Whether so much changed that paths are no less work than all nodes.
+    fn is_worn(&self) -> bool {
+        let changed: usize = self.changed.iter().map(ExactSizeIterator::len).sum();
+        changed * MOST > self.triangles.len()
+    }
+
+    fn sweep_all(&mut self) {
+        self.is_whole = true;
+        self.swept = self.nodes.len() as u32;
+        self.changed.clear();
+    }
+}
+
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+    /// Number of triangles of a bottom level.
+    pub(crate) fn blas_len(&self, blas: u32) -> usize {
+        self.blases[blas as usize].triangles.len()
+    }
+
+    /// Begins a stage for bottom level `blas`; `None` where there is no such, and in a single level, whose lights are its triangles.
+    pub(crate) fn begin_stage(&mut self, blas: u32) -> Option<(StageId, MeshJob<N>)> {
+        if self.single || self.blases.get(blas as usize)?.nodes.is_empty() {
+            return None;
+        }
+        self.drop_stage(blas);
+        self.epoch += 1;
+        let count = self.blas_len(blas);
+        let staged = Staged {
+            number: self.epoch,
+            triangles: self.triangle_ranges.take(count as u32),
+            copied: 0,
+            nodes: 0..0,
+            is_placed: false,
+            depth: 0,
+            levels: Levels::default(),
+            changed: Vec::new(),
+            fresh: 0,
+            is_whole: false,
+            swept: 0,
+        };
+        self.blases[blas as usize].staged = Some(Box::new(staged));
+        self.staging.push(blas);
+        let id = StageId {
+            tree: self.id.0,
+            blas,
+            number: self.epoch,
+        };
+        Some((id, MeshJob::new(&self.params, count)))
+    }
+
+    /// The stage of that id, while it is there.
+    fn staged(&mut self, id: StageId) -> Option<&mut Staged> {
+        let own = self
+            .blases
+            .get_mut(id.blas as usize)
+            .filter(|_| id.tree == self.id.0)?;
+        own.staged
+            .as_deref_mut()
+            .filter(|staged| staged.number == id.number)
+    }
+
+    /// Whether its tree is in place.
+    pub(crate) fn is_adopted(&self, id: StageId) -> bool {
+        let own = self.blases.get(id.blas as usize);
+        id.tree == self.id.0 && own.is_some_and(|own| own.adopted == id.number)
+    }
+
+    /// The tree of a stage takes the place of the bottom level's.
+    fn adopt_stage(&mut self, blas: u32) {
+        let own = &mut self.blases[blas as usize];
+        let Some(staged) = own.staged.take() else {
+            return;
+        };
+        self.staging.retain(|&other| other != blas);
+        self.epoch += 1;
+        own.created = self.epoch;
+        own.adopted = staged.number;
+        own.depth = staged.depth;
+        own.levels = staged.levels;
+        let nodes = core::mem::replace(&mut own.nodes, staged.nodes);
+        let triangles = core::mem::replace(&mut own.triangles, staged.triangles);
+        let (root, first) = (own.nodes.start, own.triangles.start);
+        self.node_ranges.give(nodes);
+        self.triangle_ranges.give(triangles);
+        self.roots[blas as usize] = refit::root(&self.nodes, root);
+        let mesh = self.blases[blas as usize].mesh;
+        for k in 0..self.meshes[mesh as usize].users.len() {
+            let user = self.meshes[mesh as usize].users[k];
+            let instance = &mut self.instances[user as usize];
+            instance.root = root;
+            instance.first_triangle = first;
+            self.changes.new.mark_instance(user);
+        }
+        self.changes.forget_lists();
+        self.changes.new.built.insert(blas);
+        // Built for triangles that have changed since, it may be due again.
+        if self.drift(blas) > 1.0 {
+            self.epoch += 1;
+            self.blases[blas as usize].changed = self.epoch;
+            self.note_refitted(blas, self.epoch);
+        }
+    }
+
+    /// Gives up what was under way for a bottom level.
+    pub(super) fn drop_stage(&mut self, blas: u32) {
+        if let Some(staged) = self.blases[blas as usize].staged.take() {
+            self.node_ranges.give(staged.nodes);
+            self.triangle_ranges.give(staged.triangles);
+            self.staging.retain(|&other| other != blas);
+        }
+    }
+
+    /// Gives up all that is under way but `kept`.
+    pub(crate) fn drop_stages_but(&mut self, kept: impl Fn(StageId) -> bool) {
+        for blas in self.staging.clone() {
+            let number = self.blases[blas as usize]
+                .staged
+                .as_ref()
+                .map_or(0, |staged| staged.number);
+            let id = StageId {
+                tree: self.id.0,
+                blas,
+                number,
+            };
+            if !kept(id) {
+                self.drop_stage(blas);
+            }
+        }
+    }
+
+    /// Triangles that were written also go to where they will stand, as far as they are there.
+    pub(super) fn write_staged(&mut self, blas: u32, first: u32, count: u32) {
+        let own = &mut self.blases[blas as usize];
+        let Some(staged) = own.staged.as_deref_mut() else {
+            return;
+        };
+        let end = (first + count).min(staged.copied);
+        if first >= end {
+            return;
+        }
+        let to = staged.triangles.start + first..staged.triangles.start + end;
+        if count as usize == staged.triangles.len() {
+            staged.sweep_all();
+        } else {
+            staged.changed.push(to.clone());
+            staged.fresh += to.len();
+            if staged.changed.len() > 2 * staged.triangles.len() / MOST + 64 {
+                staged.changed = merged(core::mem::take(&mut staged.changed));
+            }
+        }
+        let start = own.triangles.start;
+        let from = (start + first) as usize..(start + end) as usize;
+        self.triangles.copy_within(from, to.start as usize);
+        self.changes.new.written_triangles.push(to);
+    }
+}
+
+#[cfg(all(test, feature = "std"))]
+mod tests;

@@ -1,0 +1,146 @@
+//! Copies to the builder, and what it built put in place: each call as much as it is told.
+
+use core::ops::Range;
+
+use super::{MeshJob, MeshTree, StageId};
+use crate::bvh::quality::Quality;
+use crate::bvh::{Bvh, Trails};
+use crate::light::EmissiveTriangle;
+use crate::node::{LightNode, kind};
+use crate::tree::INVALID;
+
+impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+    /// Copies more of the triangles, by at most `bytes`, of which what it takes is subtracted; whether all are copied. `None` where the
+    /// stage is gone.
+    pub(crate) fn copy_stage(
+        &mut self,
+        id: StageId,
+        job: &mut MeshJob<N>,
+        bytes: &mut usize,
+    ) -> Option<bool> {
+        let size = 2 * size_of::<EmissiveTriangle>();
+        let staged = self.staged(id)?;
+        let from = staged.copied;
+        let count = (staged.triangles.len() as u32 - from).min((*bytes / size) as u32);
+        let to = staged.triangles.start + from;
+        staged.copied += count;
+        let is_done = staged.copied as usize == staged.triangles.len();
+        if count > 0 {
+            *bytes -= count as usize * size;
+            let start = (self.blases[id.blas as usize].triangles.start + from) as usize;
+            let own = start..start + count as usize;
+            job.triangles.extend_from_slice(&self.triangles[own.clone()]);
+            self.cover_triangles(to + count);
+            self.triangles.copy_within(own, to as usize);
+            self.changes.new.written_triangles.push(to..to + count);
+        }
+        Some(is_done)
+    }
+
+    /// Puts more of what was built in place, as [`copy_stage`](Self::copy_stage) copies.
+    pub(crate) fn place_stage(
+        &mut self,
+        id: StageId,
+        tree: &mut MeshTree<N>,
+        bytes: &mut usize,
+    ) -> Option<bool> {
+        let count = tree.nodes.len() as u32;
+        let staged = self.staged(id)?;
+        if staged.nodes.is_empty() {
+            let nodes = self.node_ranges.take(count);
+            let staged = self.staged(id)?;
+            staged.nodes = nodes;
+            if staged.is_whole {
+                staged.sweep_all();
+            }
+        }
+        let staged = self.staged(id)?;
+        let (nodes, triangles) = (staged.nodes.clone(), staged.triangles.clone());
+        self.place_nodes_of(tree, &nodes, &triangles, bytes);
+        if T::KEPT {
+            self.place_trails_of(tree, &triangles, bytes);
+        }
+        let is_done =
+            tree.nodes_placed == tree.nodes.len() && (!T::KEPT || tree.trails_placed == tree.trails.len());
+        if is_done {
+            let (depth, levels) = (tree.depth, core::mem::take(&mut tree.levels));
+            self.bottom_depth = self.bottom_depth.max(depth);
+            let staged = self.staged(id)?;
+            staged.depth = depth;
+            staged.levels = levels;
+            staged.fresh = 0;
+            staged.is_placed = true;
+        }
+        Some(is_done)
+    }
+
+    fn place_nodes_of(
+        &mut self,
+        tree: &mut MeshTree<N>,
+        nodes: &Range<u32>,
+        triangles: &Range<u32>,
+        bytes: &mut usize,
+    ) {
+        let size = size_of::<N>() + size_of::<Quality>() + 2 * size_of::<u32>();
+        let from = tree.nodes_placed;
+        let to = (from + *bytes / size).min(tree.nodes.len());
+        if from == to {
+            return;
+        }
+        *bytes -= (to - from) * size;
+        let base = nodes.start;
+        self.cover_nodes(base + to as u32);
+        if self.quality.len() < self.nodes.len() {
+            self.quality.resize(self.nodes.len(), Quality::default());
+        }
+        for k in from..to {
+            let mut node = tree.nodes[k];
+            for slot in 0..W {
+                match node.kind(slot) {
+                    kind::INNER => node.relink(slot, node.link(slot) + base),
+                    kind::LIGHT => node.relink(slot, node.link(slot) + triangles.start),
+                    _ => {}
+                }
+            }
+            let at = base as usize + k;
+            self.nodes[at] = node;
+            self.parents[at] = if k == 0 { INVALID } else { tree.parents[k] + base };
+            self.quality[at] = tree.quality[k];
+        }
+        // As many entries in all.
+        for node in &mut tree.levels.nodes[from..to] {
+            *node += base;
+        }
+        tree.nodes_placed = to;
+        self.changes
+            .new
+            .written_nodes
+            .push(base + from as u32..base + to as u32);
+    }
+
+    fn place_trails_of(&mut self, tree: &mut MeshTree<N>, triangles: &Range<u32>, bytes: &mut usize) {
+        // All trails are rewritten where this is the first tree too deep for one word.
+        self.reserve_trails(tree.depth, triangles.start);
+        let words = self.trail_words as usize;
+        let from = tree.trails_placed;
+        let to = (from + *bytes / (4 * words)).min(tree.trails.len());
+        if from == to {
+            return;
+        }
+        *bytes -= (to - from) * 4 * words;
+        let start = triangles.start;
+        self.reserve_trails(tree.depth, start + to as u32);
+        for k in from..to {
+            let at = (start as usize + k) * words;
+            self.trails[at] = tree.trails[k].low;
+            if words == 2 {
+                self.trails[at + 1] = tree.trails[k].high;
+            }
+        }
+        tree.trails_placed = to;
+        self.changes
+            .new
+            .written_trails
+            .push(start + from as u32..start + to as u32);
+    }
+}

@@ -1,0 +1,236 @@
+//! Trees that are put in place piece by piece.
+
+extern crate std;
+
+use std::vec::Vec;
+
+use super::settle::first_of;
+use crate::bvh::{FrameStart, RebuildParams, RebuilderParams, Swap};
+use crate::exact::hash;
+use crate::kit::Random;
+use crate::rebuilder::Rebuilder;
+use crate::{EmissiveTriangle, LightBvh, MeshId, MomentNode, Transform};
+
+const COUNT: u32 = 3000;
+/// The least that a frame copies: a mesh takes 21 frames to the builder and as many back.
+const BYTES: u32 = 1 << 14;
+
+type Own = Rebuilder<MomentNode<8>, 8>;
+
+fn lamps(seed: u32) -> Vec<EmissiveTriangle> {
+    let random = &mut Random(seed);
+    let lamp = |_| {
+        let [x, y, z] = [0; 3].map(|_| 10.0 * random.unit());
+        EmissiveTriangle {
+            p: [[x, y, z], [x + 0.02, y, z], [x, y + 0.02, z]],
+            radiance: [0.5 + random.unit(); 3],
+            mesh: 0,
+            flags: 0,
+        }
+    };
+    (0..COUNT).map(lamp).collect()
+}
+
+/// A mesh that has lost its order, below three instances, and small ones around it.
+fn scene() -> (LightBvh, MeshId, Own) {
+    let mut bvh = LightBvh::default();
+    bvh.add_mesh(lamps(3)[..20].to_vec()).expect("a mesh");
+    let mesh = bvh.add_mesh(lamps(1)).expect("a mesh");
+    for mesh in [mesh, bvh.mesh_id(0).expect("there"), mesh, mesh] {
+        let x = 30.0 * bvh.instances().len() as f32;
+        bvh.add_instance(mesh, Transform::at([x, 0.0, 0.0])).expect("one");
+    }
+    bvh.set_triangles(mesh, lamps(2)).expect("as many");
+    bvh.refit();
+    let rebuilder = Own::new(RebuilderParams {
+        after: 2,
+        swap: Swap::Deterministic,
+        rebuild: RebuildParams {
+            top: false,
+            ..RebuildParams::default()
+        },
+        bytes: BYTES,
+        ..RebuilderParams::default()
+    });
+    (bvh, mesh, rebuilder)
+}
+
+/// Frames of which each is edited by `edit` until the tree is in place; how many they were.
+fn until_adopted(bvh: &mut LightBvh, rebuilder: &mut Own, mut edit: impl FnMut(&mut LightBvh, u32)) -> u32 {
+    for frame in 0..2000 {
+        let start: FrameStart = rebuilder.begin_frame(bvh).expect("no panic");
+        assert!(!start.swapped && start.copied <= BYTES, "{start:?}");
+        if start.adopted > 0 {
+            bvh.refit();
+            bvh.validate().expect("valid");
+            return frame;
+        }
+        edit(bvh, frame);
+        bvh.refit();
+        if frame % 16 == 0 {
+            bvh.validate().expect("valid");
+        }
+        rebuilder.end_frame(bvh);
+    }
+    panic!("it does not end");
+}
+
+fn drift(bvh: &LightBvh, mesh: MeshId) -> f64 {
+    bvh.drift(bvh.meshes[mesh.index() as usize].blas)
+}
+
+/// The frames are as many as the bytes say, whatever a thread takes, and the tree is a new one.
+#[test]
+fn a_large_mesh_comes_in_piece_by_piece() {
+    let (mut bvh, mesh, mut rebuilder) = scene();
+    assert_eq!(bvh.due(&RebuildParams::default()).len(), 1);
+    assert_eq!(bvh.due(&RebuildParams::default())[0].mesh, mesh);
+    let before = bvh.lights_of(bvh.instance_id(2).expect("there"));
+    let world = bvh.world_lights();
+    let copied = (COUNT * 112).div_ceil(BYTES);
+    let frames = until_adopted(&mut bvh, &mut rebuilder, |bvh, _| {
+        let written: usize = bvh
+            .changes
+            .new
+            .written_triangles
+            .iter()
+            .map(ExactSizeIterator::len)
+            .sum();
+        assert!(written as u32 * 112 <= BYTES);
+        let written: usize = bvh
+            .changes
+            .new
+            .written_nodes
+            .iter()
+            .map(ExactSizeIterator::len)
+            .sum();
+        assert!(written * size_of::<MomentNode<8>>() <= BYTES as usize);
+    });
+    assert!((copied..3 * copied).contains(&frames), "{frames}");
+    assert_eq!(drift(&bvh, mesh), 1.0);
+    assert!(bvh.due(&RebuildParams::default()).is_empty() && !rebuilder.is_busy());
+    // The lights are those that they were, and the tree is that of a mesh that comes in as it is.
+    assert_eq!(bvh.lights_of(bvh.instance_id(2).expect("there")), before);
+    assert!(bvh.world_lights() == world);
+    let mut fresh = LightBvh::default();
+    let same = fresh.add_mesh(lamps(2)).expect("a mesh");
+    fresh.add_instance(same, Transform::IDENTITY).expect("one");
+    assert_eq!(
+        bvh.roots()[1].summary::<crate::moments::LightMoments>(),
+        fresh.roots()[0].summary::<crate::moments::LightMoments>()
+    );
+}
+
+/// A mesh that is deformed in every frame gets its tree in a frame whose sweep covers it.
+#[test]
+fn what_changes_as_a_whole_is_swept_once() {
+    let (mut bvh, mesh, mut rebuilder) = scene();
+    let frames = until_adopted(&mut bvh, &mut rebuilder, |bvh, frame| {
+        let mut all = lamps(2);
+        for lamp in &mut all {
+            lamp.p = lamp.p.map(|[x, y, z]| [x, y, z + 0.01 * frame as f32]);
+        }
+        bvh.set_triangles(mesh, all).expect("as many");
+        bvh.refit();
+        assert!(bvh.work().trees.len() == 1);
+    });
+    assert!(frames < 100, "{frames}");
+    assert!(drift(&bvh, mesh) < 1.01, "{}", drift(&bvh, mesh));
+}
+
+/// A mesh that rests after that gets its nodes computed piece by piece.
+#[test]
+fn what_changed_as_a_whole_and_rests_is_swept_in_pieces() {
+    let (mut bvh, mesh, mut rebuilder) = scene();
+    let mut computed = 0;
+    until_adopted(&mut bvh, &mut rebuilder, |bvh, frame| {
+        computed = bvh
+            .work()
+            .bottom
+            .nodes()
+            .len()
+            .max(if frame > 10 { computed } else { 0 });
+        if frame == 10 {
+            bvh.set_triangles(mesh, lamps(4)).expect("as many");
+        }
+        if frame == 70 {
+            bvh.set_triangle_range(mesh, 40, lamps(5)[..3].to_vec())
+                .expect("its own");
+        }
+    });
+    // Built for other triangles: right, not good.
+    assert!(drift(&bvh, mesh) > 1.5);
+    rebuilder.end_frame(&bvh);
+    assert!(rebuilder.is_busy());
+    until_adopted(&mut bvh, &mut rebuilder, |_, _| ());
+    assert_eq!(drift(&bvh, mesh), 1.0);
+}
+
+/// However many triangles change from frame to frame.
+#[test]
+fn what_changes_in_part_does_not_put_it_off() {
+    for count in [1, 30, 200] {
+        let (mut bvh, mesh, mut rebuilder) = scene();
+        let frames = until_adopted(&mut bvh, &mut rebuilder, |bvh, frame| {
+            let first = hash(frame) % (COUNT - count);
+            let mut some = lamps(2)[first as usize..(first + count) as usize].to_vec();
+            for lamp in &mut some {
+                lamp.radiance = [hash(frame + 7) as f32 * 1e-9; 3];
+            }
+            bvh.set_triangle_range(mesh, first, some).expect("its own");
+        });
+        assert!(frames < 200, "{count}: {frames}");
+    }
+}
+
+/// A mesh that goes, a light BVH that is another, a rebuilder that is dropped: nothing of it stays.
+#[test]
+fn what_comes_to_nothing_leaves_nothing() {
+    for stop in [1, 12, 23, 28] {
+        let (mut bvh, mesh, mut rebuilder) = scene();
+        let frames = |bvh: &mut LightBvh, rebuilder: &mut Own| {
+            for _ in 0..stop {
+                rebuilder.begin_frame(bvh).expect("no panic");
+                bvh.refit();
+                rebuilder.end_frame(bvh);
+            }
+        };
+        frames(&mut bvh, &mut rebuilder);
+        assert!(rebuilder.is_busy());
+        drop(rebuilder);
+        let (.., mut other) = scene();
+        other.begin_frame(&mut bvh).expect("nothing");
+        assert!(bvh.staging.is_empty());
+        frames(&mut bvh, &mut other);
+        for k in [0, 2, 3] {
+            let id = bvh.instance_id(k).expect("there");
+            bvh.remove_instance(id).expect("its own");
+        }
+        bvh.remove_mesh(mesh).expect("unused");
+        bvh.refit();
+        bvh.validate().expect("valid");
+        let newcomer = bvh.add_mesh(lamps(6)).expect("a mesh");
+        bvh.add_instance(newcomer, Transform::IDENTITY).expect("one");
+        for _ in 0..60 {
+            assert_eq!(other.begin_frame(&mut bvh).expect("no panic").adopted, 0);
+            bvh.refit();
+            other.end_frame(&bvh);
+        }
+        assert!(!other.is_busy());
+        bvh.validate().expect("valid");
+        // What was given back is what is taken next: a mesh of that size finds room.
+        let end = bvh.triangle_ranges.end();
+        bvh.add_mesh(lamps(7)).expect("a mesh");
+        assert_eq!(bvh.triangle_ranges.end(), end.max(2 * COUNT + 20));
+    }
+}
+
+#[test]
+fn indices_are_taken_in_order() {
+    let mut ranges = std::vec![7..9, 1..4, 3..5];
+    assert!(first_of(&mut ranges, 3).iter().eq([&(1..4)]));
+    assert_eq!(ranges, [4..5, 7..9]);
+    assert_eq!(first_of(&mut ranges, 2), [4..5, 7..8]);
+    assert!(first_of(&mut ranges, 9).iter().eq([&(8..9)]));
+    assert!(ranges.is_empty() && first_of(&mut ranges, 9).is_empty());
+}
