@@ -18,7 +18,7 @@ use core::time::Duration;
 use self::clock::Clock;
 use self::meshes::Meshes;
 use self::worker::{Built, Job, Product, Worker, build};
-use crate::bvh::{Bvh, RebuildParams, Taken, Trails};
+use crate::bvh::{Bvh, RebuildParams, Search, Taken, Trails};
 use crate::node::{DefaultNode, LightNode};
 
 /// When results are swapped in.
@@ -128,6 +128,8 @@ pub struct Rebuilder<N = DefaultNode, const W: usize = 8> {
     meshes: Meshes<N, W>,
     /// When the last rebuild was taken, if nothing was lost since.
     taken: Option<Taken>,
+    /// For the next part of a large top level.
+    search: Search,
     /// How a worker is started.
     start: fn() -> std::io::Result<Worker<N, W>>,
 }
@@ -157,6 +159,7 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
             flight: None,
             meshes: Meshes::default(),
             taken: None,
+            search: Search::default(),
             start: Worker::start,
         }
     }
@@ -233,17 +236,21 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
     }
 
     /// Starts the next rebuild, unless one is under way or there is nothing to build. Comes after the frame's
-    /// [`Bvh::refit`]. Takes time in proportion to the meshes refitted since the last rebuild started, to the instances if the top level
-    /// is rebuilt, and to the triangles of small meshes that are built anew.
+    /// [`Bvh::refit`]. Takes time in proportion to the meshes refitted since the last rebuild started, to the instances of the part of the
+    /// top level that is rebuilt, at most 2048, and to the triangles of small meshes that are built anew.
     pub fn end_frame<I, T: Trails>(&mut self, scene: &Bvh<N, I, W, T>) {
         let now = scene.now();
-        if self.flight.is_some() || self.taken == Some(now) {
+        if self.taken != Some(now) {
+            scene.search_again(&mut self.search);
+        }
+        if self.flight.is_some() || (self.taken == Some(now) && self.search.is_done()) {
             return;
         }
         let worn = scene.worn_since(&self.params.rebuild, self.taken);
         let (small, large) = meshes::parted(worn, scene, &self.params);
         self.meshes.await_turn(large);
-        let job = scene.rebuild_of(&self.params.rebuild, &small);
+        let top = scene.copy_worn_part(self.params.rebuild.top, &mut self.search);
+        let job = scene.rebuild_of(top, &small);
         self.taken = Some(now);
         if job.is_empty() {
             return;

@@ -260,10 +260,7 @@ fn refits_after_edits_are_those_of_the_cpu() {
         let mut cpu = CpuBackend::<Standard, 8>::new(bvh.clone());
         let mut other = DeviceBackend::<Standard, 8>::new(device, &bvh).expect("an upload");
         bvh.follow(&lamps(12, 40, 2)).expect("the same meshes");
-        let everything = RebuildParams {
-            top: true,
-            drift: 0.0,
-        };
+        let everything = RebuildParams { top: 1.0, drift: 0.0 };
         let rebuilt = bvh.rebuild(&everything).run();
         bvh.install(rebuilt).expect("its own");
         bvh.plan();

@@ -24,7 +24,7 @@ const FRAMES: usize = 60;
 
 /// Bottom levels that lost any quality are built anew, so that many are.
 const EAGER: RebuildParams = RebuildParams {
-    top: true,
+    top: 1.0,
     drift: 1.0001,
 };
 
@@ -444,7 +444,10 @@ fn a_panic_over_a_large_mesh_costs_nothing_but_itself() {
         "{due:?}"
     );
     let mut rebuilder = Rebuilder::new(RebuilderParams {
-        rebuild: RebuildParams { top: false, ..EAGER },
+        rebuild: RebuildParams {
+            top: f64::INFINITY,
+            ..EAGER
+        },
         bytes: 0,
         ..params(1, Swap::Deterministic)
     });

@@ -62,6 +62,8 @@ pub use serial::{FORMAT, ReadError};
 pub(crate) use stage::{MeshJob, MeshTree, StageId};
 pub use static_bvh::StaticBvh;
 pub use static_mesh::StaticMeshBvh;
+#[cfg(feature = "std")]
+pub(crate) use top::Search;
 pub use trails::{NoTrails, Trails, WithTrails};
 pub use validate::Stats;
 

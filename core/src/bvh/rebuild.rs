@@ -16,8 +16,9 @@ use crate::node::LightNode;
 /// When trees are built anew. By default the top level always, bottom levels that have lost a tenth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RebuildParams {
-    /// Whether the top level is.
-    pub top: bool,
+    /// The top level is once it is worse than when it was built by this factor, as below: 1 for whenever something has changed, infinite
+    /// for never. Of a top level of more than 2048 instances a [`Rebuilder`](crate::Rebuilder) builds parts, one at a time.
+    pub top: f64,
     /// A bottom level is once it is worse than when it was built by more than this factor; infinite for never. The factor is
     /// 1 / (1 - l), where l is the mean by flux, over the nodes, of how much more of their lights' variance of position lies within their
     /// children: 0 as built, wherever the mesh goes, however it is scaled, and whatever happens elsewhere; 0.65 to 0.85, a factor of 3
@@ -29,10 +30,7 @@ pub struct RebuildParams {
 impl Default for RebuildParams {
     /// The top level always, bottom levels that are 1.1 times worse than when they were built.
     fn default() -> Self {
-        Self {
-            top: true,
-            drift: 1.1,
-        }
+        Self { top: 1.0, drift: 1.1 }
     }
 }
 
@@ -138,7 +136,15 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// As [`rebuild`](Self::rebuild), but looks for lost quality among the bottom levels refitted since then.
     pub(crate) fn rebuild_since(&self, params: &RebuildParams, since: Option<Taken>) -> Rebuild<N, W> {
-        self.rebuild_of(params, &self.worn_since(params, since))
+        let is_worn = self.quality(self.top.root).drift() >= params.top;
+        let top = is_worn.then(|| self.copy_top());
+        self.rebuild_of(top, &self.worn_since(params, since))
+    }
+
+    /// How many times worse the top level is than when its nodes were built.
+    #[cfg(test)]
+    pub(crate) fn rebuild_drift(&self) -> f64 {
+        self.quality(self.top.root).drift()
     }
 
     /// The bottom levels refitted since then that are to be built anew.
@@ -173,9 +179,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         due.collect()
     }
 
-    /// Takes a copy of the top level's leaves, where `params` wants it, and of the triangles of those bottom levels.
-    pub(crate) fn rebuild_of(&self, params: &RebuildParams, bottoms: &[u32]) -> Rebuild<N, W> {
-        let top = params.top.then(|| self.copy_top());
+    /// Work for what is to be built anew of the top level, and a copy of the triangles of those bottom levels.
+    pub(crate) fn rebuild_of(&self, top: Option<TopCopy>, bottoms: &[u32]) -> Rebuild<N, W> {
         let bottoms = bottoms.iter().map(|&blas| {
             let own = &self.blases[blas as usize];
             let range = own.triangles.clone();

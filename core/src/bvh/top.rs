@@ -15,7 +15,8 @@ mod settle;
 
 use alloc::vec::Vec;
 
-pub(super) use self::rebuild::{TopCopy, TopTree};
+pub(super) use self::rebuild::TopTree;
+pub(crate) use self::rebuild::{Search, TopCopy};
 pub(super) use self::settle::MOST as MOST_EDITS;
 use super::ranges::Ranges;
 use super::{Bvh, Trails};
@@ -41,6 +42,12 @@ pub(super) struct Top {
     pub heights: Vec<u32>,
     /// By number: instances below.
     pub counts: Vec<u32>,
+    /// Whether it was built as a whole and is not refitted yet.
+    pub is_new: bool,
+    /// By number: how many nodes had come when the node did.
+    pub born: Vec<u64>,
+    /// Nodes that have come so far.
+    pub births: u64,
     /// By number: edits below since the node was built.
     pub edits: Vec<u32>,
     /// Nodes whose children edits have changed; they may be gone.
@@ -88,6 +95,7 @@ impl Top {
             + size_of_val(&*self.heights)
             + size_of_val(&*self.counts)
             + size_of_val(&*self.edits)
+            + size_of_val(&*self.born)
             + size_of_val(&*self.marks)
             + self
                 .levels
@@ -144,6 +152,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             self.replace_top(&topology.nodes);
         }
         self.changes.new.whole_top = true;
+        self.top.is_new = true;
     }
 
     /// What is known of an instance in the world.
@@ -186,6 +195,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         for &node in order.iter().rev() {
             self.measure(node);
+            self.note_birth(node);
         }
         self.top.touched.clear();
         self.top.levels = None;

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::kit::{line, triangle};
-use crate::{CompactNode, Edit, EmissiveTriangle, Transform};
+use crate::{CompactNode, Edit, EmissiveTriangle, LightBvh, Transform};
 use alloc::vec;
 
 #[test]
@@ -56,7 +56,7 @@ fn seen() -> (crate::LightBvh, crate::MeshId, Own) {
     let mut rebuilder = Own::new(RebuilderParams {
         swap: Swap::Deterministic,
         rebuild: RebuildParams {
-            top: false,
+            top: f64::INFINITY,
             drift: 1.5,
         },
         ..RebuilderParams::default()
@@ -113,4 +113,63 @@ fn what_was_built_for_another_is_built_again() {
     bvh.refit();
     rebuilder.end_frame(&bvh);
     assert!(!rebuilder.is_busy());
+}
+
+/// Part after part is built anew while instances move, come and go, and none again once nothing changes.
+#[test]
+fn large_top_levels_are_built_in_parts() {
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh((0..2).map(|k| line(k, 1.0)).collect()).expect("a mesh");
+    let random = &mut crate::kit::Random(7);
+    let place = |random: &mut crate::kit::Random| Transform::at((random.vector() * 100.0).to_array());
+    let add = |random: &mut crate::kit::Random| Edit::AddInstance {
+        mesh,
+        transform: place(random),
+        radiance: 1.0,
+    };
+    let all = (0..7000).map(|_| add(random)).collect();
+    let mut ids = bvh.apply(all).expect("instances").instances;
+    bvh.refit();
+    let mut rebuilder = Own::new(RebuilderParams {
+        swap: Swap::Deterministic,
+        ..RebuilderParams::default()
+    });
+    let drift = |bvh: &LightBvh| bvh.rebuild_drift();
+    // All change places, more than one batch puts in elsewhere.
+    let scramble = |bvh: &mut LightBvh, ids: &[crate::InstanceId], random: &mut crate::kit::Random| {
+        let moves = ids.iter().map(|&instance| Edit::SetTransform {
+            instance,
+            transform: place(random),
+        });
+        bvh.apply(moves.collect()).expect("there");
+        bvh.refit();
+    };
+    scramble(&mut bvh, &ids, random);
+    let before = drift(&bvh);
+    assert!(before > 1.2, "{before}");
+    let mut swapped = 0;
+    for frame in 0..60 {
+        swapped += u32::from(rebuilder.begin_frame(&mut bvh).expect("its own").swapped);
+        let at = frame * 97 % ids.len();
+        bvh.remove_instance(ids[at]).expect("there");
+        bvh.take_removed_lights();
+        ids[at] = bvh.apply(alloc::vec![add(random)]).expect("one more").instances[0];
+        bvh.refit();
+        if frame % 7 == 0 {
+            bvh.validate().expect("valid");
+        }
+        rebuilder.end_frame(&bvh);
+    }
+    let after = drift(&bvh);
+    assert!(swapped > 5 && after < 1.0 + (before - 1.0) / 4.0, "{swapped} swaps: {before} to {after}");
+    let mut last = 0;
+    for frame in 0..200 {
+        if rebuilder.begin_frame(&mut bvh).expect("its own").swapped {
+            last = frame;
+        }
+        bvh.refit();
+        rebuilder.end_frame(&bvh);
+    }
+    bvh.validate().expect("valid");
+    assert!(last < 100 && !rebuilder.is_busy(), "{last}");
 }

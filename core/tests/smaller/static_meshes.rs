@@ -14,10 +14,7 @@ type Default8 = Bvh<MomentNode<8>, Defensive<Moments, 6>, 8>;
 const PARAMS: RebuilderParams = RebuilderParams {
     bytes: 1 << 19,
     meshes: 2,
-    rebuild: RebuildParams {
-        top: true,
-        drift: 1.5,
-    },
+    rebuild: RebuildParams { top: 1.0, drift: 1.5 },
     after: 1,
     swap: Swap::Deterministic,
 };
@@ -157,10 +154,7 @@ fn edits_of_meshes_are_refused_whole() {
 /// Bottom levels that were to be rebuilt when the triangles went: neither asked for nor installed.
 #[test]
 fn rebuilds_under_way_bring_no_bottom_level() {
-    let params = RebuildParams {
-        top: true,
-        drift: 0.0,
-    };
+    let params = RebuildParams { top: 1.0, drift: 0.0 };
     for seed in 0..10 {
         let mut bvh = whole(seed);
         let own = first_mesh(&bvh);
@@ -169,7 +163,13 @@ fn rebuilds_under_way_bring_no_bottom_level() {
         bvh.refit();
         let rebuilt = bvh.rebuild(&params).run();
         let mut less = bvh.into_static_meshes();
-        assert!(less.rebuild(&RebuildParams { top: false, ..params }).is_empty());
+        assert!(
+            less.rebuild(&RebuildParams {
+                top: f64::INFINITY,
+                ..params
+            })
+            .is_empty()
+        );
         less.install(rebuilt).expect("its own");
         less.refit();
         let built = less.rebuild(&params).run();

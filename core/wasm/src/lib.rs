@@ -44,7 +44,7 @@ fn run<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(frames: u32) -
         after: 2,
         swap: Swap::Deterministic,
         rebuild: RebuildParams {
-            top: true,
+            top: 1.0,
             drift: 1.01,
         },
         ..RebuilderParams::default()

@@ -114,12 +114,7 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
             digest.float(scene.by::<I>().pmf(&point, lights.start + frame % 30, id.index()));
         }
         if frame % 4 == 3 {
-            let rebuilt = scene
-                .rebuild(&RebuildParams {
-                    top: true,
-                    drift: 1.1,
-                })
-                .run();
+            let rebuilt = scene.rebuild(&RebuildParams { top: 1.0, drift: 1.1 }).run();
             scene.install(rebuilt).expect("its own");
         }
     }

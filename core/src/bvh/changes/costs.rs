@@ -40,12 +40,15 @@ fn as_many(bvh: &LightBvh, mesh: MeshId) -> Vec<Edit> {
 }
 
 const TOP: RebuildParams = RebuildParams {
-    top: true,
+    top: 1.0,
     drift: f64::INFINITY,
 };
 
 fn of_meshes(drift: f64) -> RebuildParams {
-    RebuildParams { top: false, drift }
+    RebuildParams {
+        top: f64::INFINITY,
+        drift,
+    }
 }
 
 #[test]

@@ -221,7 +221,7 @@ fn random_frames<N: LightNode<W>, I: Clone, const W: usize>(seed: u32, refits: u
         }
         match random.below(10) {
             0 => built.push(bvh.rebuild(&RebuildParams {
-                top: random.below(3) > 0,
+                top: if random.below(3) > 0 { 1.0 } else { f64::INFINITY },
                 drift: 1.1,
             })),
             1 if !built.is_empty() => {

@@ -285,10 +285,7 @@ fn rebuilds_are_not_for_newcomers() {
     let mesh = bvh.add_mesh(soup(0)).expect("a mesh");
     let user = bvh.add_instance(mesh, Transform::IDENTITY).expect("one");
     bvh.refit();
-    let all = RebuildParams {
-        top: true,
-        drift: 0.0,
-    };
+    let all = RebuildParams { top: 1.0, drift: 0.0 };
     bvh.set_triangles(mesh, soup(3)).expect("as many");
     bvh.refit();
     let rebuild: Rebuild<_, 8> = bvh.rebuild(&all);

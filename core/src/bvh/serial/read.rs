@@ -33,13 +33,20 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             nodes: Vec::with_capacity(words.need(header.top_nodes)?),
             ..Top::default()
         };
+        let mut top_built = Vec::with_capacity(words.need(header.top_nodes)?);
         for _ in 0..header.top_nodes {
             let node = words.one()?;
             words.expect(node < header.nodes || node == INVALID, "node of the top level")?;
             bvh.top.nodes.push(node);
-            let edits = if node == INVALID { 0 } else { words.one()? };
+            let [edits, built] = match node {
+                INVALID => [0, INVALID],
+                _ => words.array()?,
+            };
             words.expect(edits <= MOST_EDITS, "edits below a node of the top level")?;
+            let is_share = built == INVALID || (0.0..=1.0).contains(&f32::from_bits(built));
+            words.expect(is_share, "quality of a node")?;
             bvh.top.edits.push(edits);
+            top_built.push(built);
         }
         let refitted = read_indices(words, header.refitted, header.blases, "refitted bottom level")?;
         let built = bvh.read_quality(words, &refitted)?;
@@ -47,6 +54,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         bvh.read_triangles(words, &header)?;
         bvh.restore(&header)?;
         bvh.restore_changes(refitted, built)?;
+        bvh.restore_top_quality(&top_built);
         Ok(bvh)
     }
 

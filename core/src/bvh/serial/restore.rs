@@ -9,6 +9,7 @@ use super::places::taken;
 use crate::bvh::Bvh;
 use crate::bvh::apply::NO_INSTANCE;
 use crate::bvh::changes::Changes;
+use crate::bvh::quality::Quality;
 use crate::bvh::validate::Found;
 use crate::levels::Levels;
 use crate::node::{LightNode, kind};
@@ -64,6 +65,23 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             self.note_refitted(blas, self.epoch);
         }
         Ok(())
+    }
+
+    /// What the nodes of the top level, by number, were as they were built; those of which nothing is known are so now.
+    pub(super) fn restore_top_quality(&mut self, built: &[u32]) {
+        self.quality.resize(self.nodes.len(), Quality::default());
+        for (&node, &built) in self.top.nodes.iter().zip(built) {
+            if node != INVALID {
+                self.quality[node as usize].built = f32::from_bits(built);
+            }
+        }
+        for node in self.top.by_height().nodes {
+            if self.quality[node as usize].built.is_nan() {
+                self.judge_new(node);
+            } else {
+                self.judge_list(&[node]);
+            }
+        }
     }
 
     /// The list of instances in use, and each mesh's.

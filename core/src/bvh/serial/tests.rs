@@ -65,7 +65,7 @@ fn goes_on<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32,
         }
         if random.below(3) == 0 {
             let params = RebuildParams {
-                top: random.below(3) > 0,
+                top: if random.below(3) > 0 { 1.0 } else { f64::INFINITY },
                 drift: 1.01,
             };
             for bvh in [&mut first, &mut again] {

@@ -42,7 +42,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         for (&node, &edits) in self.top.nodes.iter().zip(&self.top.edits) {
             words.push(node);
             if node != INVALID {
-                words.push(edits);
+                let built = self.quality(node).built.to_bits();
+                words.extend([edits, if self.top.is_new { INVALID } else { built }]);
             }
         }
         words.extend(&refitted);

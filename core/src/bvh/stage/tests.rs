@@ -46,7 +46,7 @@ fn scene() -> (LightBvh, MeshId, Own) {
         after: 2,
         swap: Swap::Deterministic,
         rebuild: RebuildParams {
-            top: false,
+            top: f64::INFINITY,
             ..RebuildParams::default()
         },
         bytes: BYTES,

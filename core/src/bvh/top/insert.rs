@@ -79,6 +79,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             }
             self.measure(own);
             self.refit_node(own);
+            self.judge_new(own);
             self.changes.new.top_nodes.push(own);
             let item = Item {
                 kind: kind::INNER,
@@ -150,6 +151,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.dissolve(own);
         self.measure(own);
         self.refit_node(own);
+        self.judge_new(own);
         self.changes.new.top_nodes.push(own);
         self.hang(node, slot, kind::INNER, own);
     }

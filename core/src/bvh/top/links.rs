@@ -21,7 +21,15 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.reserve_numbers();
         self.top.edits[number as usize] = 0;
         self.top.number_of[node as usize] = number;
+        self.note_birth(node);
         node
+    }
+
+    /// Tells a node of the top level from those that had its number before.
+    pub(super) fn note_birth(&mut self, node: u32) {
+        self.top.births += 1;
+        let number = self.top.number(node) as usize;
+        self.top.born[number] = self.top.births;
     }
 
     /// Takes a node out of the top level whose children hang elsewhere.
@@ -40,6 +48,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.top.heights.resize(numbers, 0);
         self.top.counts.resize(numbers, 0);
         self.top.edits.resize(numbers, 0);
+        self.top.born.resize(numbers, 0);
         self.top.marks.resize(numbers, 0);
         self.top.number_of.resize(self.nodes.len(), INVALID);
     }
@@ -145,6 +154,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         while node != INVALID {
             self.measure(node);
             self.refit_node(node);
+            self.judge_list(&[node]);
             let number = self.top.number(node) as usize;
             self.top.edits[number] = (self.top.edits[number] + 1).min(super::settle::MOST);
             node = self.parents[node as usize];

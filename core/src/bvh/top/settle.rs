@@ -56,6 +56,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if self.level(node) + topology.depth > max_levels(W) {
             return;
         }
+        let above = self.parents[node as usize];
         for &old in &interior[1..] {
             self.free_top_node(old);
         }
@@ -76,12 +77,15 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         for &own in nodes.iter().rev() {
             self.measure(own);
             self.refit_node(own);
+            self.judge_new(own);
         }
-        self.update_path(node);
+        if above != INVALID {
+            self.update_path(above);
+        }
     }
 
     /// The nodes from `node` down, itself first, and the instances below it with what the nodes know of them.
-    fn below(&self, node: u32) -> (Vec<u32>, Vec<(u32, N::Summary)>) {
+    pub(super) fn below(&self, node: u32) -> (Vec<u32>, Vec<(u32, N::Summary)>) {
         let (mut nodes, mut leaves) = (alloc::vec![node], Vec::new());
         let mut next = 0;
         while let Some(&node) = nodes.get(next) {
@@ -99,7 +103,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// Levels above a node of the top level.
-    fn level(&self, node: u32) -> u32 {
+    pub(super) fn level(&self, node: u32) -> u32 {
         let mut above = self.parents[node as usize];
         let mut level = 0;
         while above != INVALID {

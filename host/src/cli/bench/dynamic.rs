@@ -125,7 +125,7 @@ fn cpu(world: &mut World, change: Change, changed: u32, threads: usize, scale: &
 /// Frames that each swap in the top level rebuilt beside the one before: its rebuild, the swap, the refit after it.
 fn swapping(world: &mut World, change: Change, changed: u32) -> [Spread; 3] {
     let params = RebuildParams {
-        top: true,
+        top: 1.0,
         drift: f64::INFINITY,
     };
     let (mut rebuild, mut swap, mut refit) = (Vec::new(), Vec::new(), Vec::new());

@@ -131,7 +131,7 @@ fn instances(size: u32) {
         |scene, ()| scene.mirror.frame(&mut scene.bvh),
     );
     let top = RebuildParams {
-        top: true,
+        top: 1.0,
         drift: f64::INFINITY,
     };
     row(scene, "rebuild: its copy", size, nothing, |scene, ()| {
@@ -243,7 +243,7 @@ fn triangles(size: u32) {
             scene
                 .bvh
                 .rebuild(&RebuildParams {
-                    top: false,
+                    top: f64::INFINITY,
                     drift: 0.0,
                 })
                 .run()

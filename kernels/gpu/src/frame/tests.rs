@@ -157,12 +157,7 @@ fn follows<N: LightNode<W>, const W: usize>(rebuilds: bool) {
     for frame in 0..40 {
         edit(&mut scene, &mut ids, frame);
         if rebuilds && frame % 2 == 1 {
-            let rebuilt = scene
-                .rebuild(&RebuildParams {
-                    top: true,
-                    drift: 1.1,
-                })
-                .run();
+            let rebuilt = scene.rebuild(&RebuildParams { top: 1.0, drift: 1.1 }).run();
             scene.install(rebuilt).expect("its own");
         }
         scene.plan();
@@ -191,12 +186,7 @@ fn a_device_follows_a_scene_that_is_never_refitted_itself() {
     for frame in 0..100 {
         edit(&mut scene, &mut ids, frame);
         if frame % 5 == 4 {
-            let rebuilt = scene
-                .rebuild(&RebuildParams {
-                    top: true,
-                    drift: 1.1,
-                })
-                .run();
+            let rebuilt = scene.rebuild(&RebuildParams { top: 1.0, drift: 1.1 }).run();
             scene.install(rebuilt).expect("its own");
         }
         // Each change is told once.

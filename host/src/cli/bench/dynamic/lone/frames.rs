@@ -18,7 +18,7 @@ const BESIDE: usize = 2000;
 /// The top level is rebuilt beside frames in which nothing changes, and such in which one instance moves.
 pub(super) fn rows(scene: &mut Scene, patience: Patience) -> Vec<Row> {
     let rebuild = RebuildParams {
-        top: true,
+        top: 1.0,
         drift: f64::INFINITY,
     };
     let change = |scene: &mut Scene| {

@@ -47,7 +47,7 @@ fn deformed(
 /// The mesh's bottom level is rebuilt beside frames in which nothing changes, and such in which a lamp moves.
 fn rebuilt(scene: &mut Scene, patience: Patience) -> Vec<Row> {
     let rebuild = RebuildParams {
-        top: false,
+        top: f64::INFINITY,
         drift: 0.0,
     };
     let start = |scene: &mut Scene| {

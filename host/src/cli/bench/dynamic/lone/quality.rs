@@ -82,7 +82,7 @@ pub(super) fn measure(edits: u32) -> Quality {
 fn anew(bvh: &Bvh) -> Bvh {
     let mut bvh = bvh.clone();
     let top = RebuildParams {
-        top: true,
+        top: 1.0,
         drift: f64::INFINITY,
     };
     let built = bvh.rebuild(&top).run();
