@@ -49,6 +49,9 @@ pub enum HostError {
     /// Lights that a backend cannot follow.
     #[error("{0}")]
     Follow(FollowError),
+    /// A refit of everything after edits.
+    #[error("{0}")]
+    Edited(BackendError),
     /// A comparison that makes no sense.
     #[error(transparent)]
     Compare(#[from] CompareError),
@@ -131,6 +134,7 @@ impl From<BackendError> for HostError {
         match error {
             BackendError::Vulkan(error) => Self::Vulkan(error),
             BackendError::Lights(error) => Self::Follow(error),
+            error @ BackendError::Edited => Self::Edited(error),
         }
     }
 }

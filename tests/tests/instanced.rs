@@ -267,6 +267,10 @@ fn refits_after_edits_are_those_of_the_cpu() {
         other.follow(&bvh).expect("copies and a refit");
         cpu.follow(&bvh).expect("a refit");
         let moved = lamps(12, 40, 3);
+        // No frame pays for the list that this needs.
+        let error = other.refit(&moved).expect_err("edited").to_string();
+        assert!(error.contains("list_everything"), "{error}");
+        other.list_everything(&bvh);
         cpu.refit(&moved).expect("a refit");
         other.refit(&moved).expect("a refit");
         let queries: Vec<_> = (0..500_u32)
@@ -297,6 +301,7 @@ fn refits_after_edits_are_those_of_the_cpu() {
         bvh.plan();
         other.follow(&bvh).expect("copies and a refit");
         cpu.follow(&bvh).expect("a refit");
+        other.list_everything(&bvh);
         let error = cpu.refit(&moved).expect_err("a mesh is gone").to_string();
         assert!(error.contains("mesh light 5"), "{error}");
         assert_eq!(

@@ -311,7 +311,8 @@ fn a_frame_uploads_what_changed() {
             ..Options::default()
         };
         on_each_device(options, |device| {
-            for source in SOURCES {
+            // The same words go either way; by staging buffers one source is enough.
+            for source in SOURCES.into_iter().skip(usize::from(force_staging)) {
                 let mut cpu = Restir::new(small(source, Combination::Unbiased));
                 let mut restir = Restir::new(small(source, Combination::Unbiased));
                 // The lights of the first shot, so that what is uploaded is the scene alone.
@@ -326,7 +327,6 @@ fn a_frame_uploads_what_changed() {
                     let counts = device.counts() - before;
                     assert!(found == on_cpu.restir(&mut cpu, &frame).expect("a frame").value);
                     let what = format!("{} {source:?} frame {number}: {counts:?}", device.name());
-                    println!("{what}");
                     let reads = u64::from(force_staging || !device.probe().unified_memory);
                     assert_eq!(counts.submissions, 1 + reads, "{what}");
                     assert!(counts.waits <= 1, "{what}");
@@ -341,7 +341,8 @@ fn a_frame_uploads_what_changed() {
                         1 => assert_eq!(counts.bytes, 0, "{what}"),
                         2 => assert_eq!(counts.bytes, 48, "{what}: the camera"),
                         3 => assert!(of_lights.contains(&counts.bytes), "{what}"),
-                        _ => assert!(counts.bytes > 0 && counts.bytes <= all, "{what}"),
+                        // Things move, and the ray BVH is built anew; many of its blocks are known all the same.
+                        _ => assert!(counts.bytes > 0 && 4 * counts.bytes < 3 * all, "{what}"),
                     }
                 }
             }

@@ -38,8 +38,8 @@ pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     pub(super) roots: Arc<Buffer<BlasRoot>>,
     /// What refits are listed in.
     pub(super) list: Buffer<u32>,
-    /// The refit of everything, and of how many triangles the meshes are then.
-    pub(super) refit: Refit,
+    /// The refit of everything, and of how many triangles the meshes are then; none after edits.
+    pub(super) refit: Option<Refit>,
     pub(super) counts: MeshCounts,
     /// By which edits are followed.
     pub(super) mirror: Mirror,
@@ -74,7 +74,7 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
             tree: DeviceTree::upload::<C, W>(device, &bvh.tree(), bvh.triangles())?,
             roots: Arc::new(device.upload(bvh.roots())?),
             list: device.buffer(0, refit.list.len())?,
-            refit,
+            refit: Some(refit),
             counts: bvh.mesh_counts(),
             mirror,
             pending: None,
@@ -106,13 +106,13 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     /// Refits everything after what `pass` does, without a wait.
     fn refit_all(&mut self, pass: Pass<'_>) -> Result<Submission, BackendError> {
         // The list is large and seldom changes hands.
-        let refit = std::mem::take(&mut self.refit);
+        let refit = self.refit.take().ok_or(BackendError::Edited)?;
         let submitted = {
             let mut pass: Pass<'_> = pass;
             let listed = self.refit_by(&refit, &mut pass);
             listed.and_then(|()| self.submit(&pass))
         };
-        self.refit = refit;
+        self.refit = Some(refit);
         submitted
     }
 
@@ -178,6 +178,9 @@ impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
     }
 
     fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, BackendError> {
+        if self.refit.is_none() {
+            return Err(BackendError::Edited);
+        }
         self.counts.check(lights)?;
         self.flush()?;
         let triangles = lights.triangles();

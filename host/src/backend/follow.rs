@@ -43,6 +43,12 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
         self.stage(bvh).map(drop)
     }
 
+    /// Lists a refit of everything anew, for [`Backend::refit`](super::Backend::refit) after edits: of what was followed last.
+    pub fn list_everything(&mut self, bvh: &Bvh<C, W>) {
+        self.refit = Some(Refit::new(&bvh.plan_of_everything()));
+        self.counts = bvh.mesh_counts();
+    }
+
     /// Submits what was followed and is not yet; waits for nothing.
     ///
     /// # Errors
@@ -87,8 +93,8 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
         self.copy_changes(bvh, frame, &mut pass)?;
         let is_rewired = |copy: &Copy| matches!(copy.buffer, Array::Nodes | Array::Trails);
         if !frame.resizes.is_empty() || frame.copies.iter().any(is_rewired) {
-            self.refit = Refit::new(&bvh.plan_of_everything());
-            self.counts = bvh.mesh_counts();
+            // Listing everything takes as long as everything is large, which no frame waits for.
+            self.refit = None;
         }
         self.refit_by(&frame.refit, &mut pass)?;
         if pass.bytes() > KEPT {

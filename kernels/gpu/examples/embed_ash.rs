@@ -11,6 +11,7 @@ mod common;
 use std::process::ExitCode;
 use std::rc::Rc;
 
+use ash::vk;
 use bytemuck::cast_slice;
 use common::Result;
 use common::buffer::Buffer;
@@ -99,11 +100,17 @@ impl DeviceLights {
                 old.copy_to(commands, 0, new, 0, old.bytes.min(new.bytes));
             }
             gpu.barrier(commands);
-            let mut from = 0;
-            for copy in &frame.copies {
-                let (at, bytes) = (copy.bytes.start, copy.bytes.end - copy.bytes.start);
-                staging.copy_to(commands, from, &self.arrays[copy.buffer as usize], at, bytes);
-                from += bytes;
+            // One command for each array, of as many regions as there are.
+            for (array, regions) in frame.regions(0) {
+                let regions: Vec<_> = regions
+                    .iter()
+                    .map(|region| vk::BufferCopy {
+                        src_offset: region.from,
+                        dst_offset: region.to,
+                        size: region.bytes,
+                    })
+                    .collect();
+                staging.copy_regions(commands, &self.arrays[array as usize], &regions);
             }
             gpu.barrier(commands);
             for dispatch in &frame.refit.dispatches {

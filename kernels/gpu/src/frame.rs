@@ -1,5 +1,6 @@
 //! What a device does to follow a light BVH from one frame to the next.
 
+use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -40,7 +41,54 @@ impl Copy {
     }
 }
 
+/// A region of a copy from a staging buffer, bytes: the words of `VkBufferCopy`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Region {
+    /// First byte in the staging buffer.
+    pub from: u64,
+    /// First byte in the device's buffer.
+    pub to: u64,
+    /// How many.
+    pub bytes: u64,
+}
+
+impl Frame {
+    /// Bytes of all [`copies`](Self::copies): what a staging buffer of them takes.
+    #[must_use]
+    pub fn staged_bytes(&self) -> u64 {
+        self.copies
+            .iter()
+            .map(|copy| copy.bytes.end - copy.bytes.start)
+            .sum()
+    }
+
+    /// The copies out of a staging buffer that holds their [sources](Copy::source) one after another, in their order: for each buffer the
+    /// regions of one copy command. `start` is the first byte there, a multiple of 4: the place in a ring, for example.
+    #[must_use]
+    pub fn regions(&self, start: u64) -> Vec<(Buffer, Vec<Region>)> {
+        let mut all: Vec<(Buffer, Vec<Region>)> = Vec::new();
+        let mut from = start;
+        for copy in &self.copies {
+            let bytes = copy.bytes.end - copy.bytes.start;
+            let region = Region {
+                from,
+                to: copy.bytes.start,
+                bytes,
+            };
+            from += bytes;
+            match all.last_mut().filter(|(buffer, _)| *buffer == copy.buffer) {
+                Some((_, regions)) => regions.push(region),
+                None => all.push((copy.buffer, vec![region])),
+            }
+        }
+        all
+    }
+}
+
 /// What a device holds of a light BVH, by which it follows it. A new one holds nothing, so its first frame copies everything.
+///
+/// A mirror takes a frame that it has told for done. Where the device could not do it, begin with a new one; the light BVH is as it was, and
+/// another device may take over so.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Mirror {
     bytes: [u64; Buffer::ALL.len()],

@@ -29,7 +29,7 @@ pub mod spirv;
 pub mod table;
 
 pub use buffer::Buffer;
-pub use frame::{Copy, Frame, Mirror};
+pub use frame::{Copy, Frame, Mirror, Region};
 pub use query::{Query, query_push};
 pub use refit::{Dispatch, Pass, Refit};
 #[cfg(feature = "kernels")]

@@ -91,20 +91,25 @@ impl Buffer {
 
     /// Records a copy of `bytes` bytes to another buffer.
     pub fn copy_to(&self, commands: vk::CommandBuffer, from: u64, to: &Self, at: u64, bytes: u64) {
-        assert!(
-            from + bytes <= self.bytes && at + bytes <= to.bytes,
-            "within both"
-        );
         let region = vk::BufferCopy {
             src_offset: from,
             dst_offset: at,
             size: bytes,
         };
-        // SAFETY: both are the device's, made for copies, and hold the region.
+        self.copy_regions(commands, to, &[region]);
+    }
+
+    /// Records one copy of many regions to another buffer; at least one.
+    pub fn copy_regions(&self, commands: vk::CommandBuffer, to: &Self, regions: &[vk::BufferCopy]) {
+        let is_within = |region: &vk::BufferCopy| {
+            region.src_offset + region.size <= self.bytes && region.dst_offset + region.size <= to.bytes
+        };
+        assert!(regions.iter().all(is_within), "within both");
+        // SAFETY: both are the device's, made for copies, and hold the regions.
         unsafe {
             self.gpu
                 .device
-                .cmd_copy_buffer(commands, self.raw, to.raw, &[region])
+                .cmd_copy_buffer(commands, self.raw, to.raw, regions)
         };
     }
 }

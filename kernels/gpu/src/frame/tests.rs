@@ -18,6 +18,11 @@ struct Device {
     buffers: [Vec<u32>; Buffer::ALL.len()],
 }
 
+/// The copies of the buffers after this one.
+fn regions_after(frame: &Frame, number: usize) -> Vec<(Buffer, Vec<Region>)> {
+    frame.regions(0).split_off(number + 1)
+}
+
 impl Device {
     fn buffer(&self, buffer: Buffer) -> &[u32] {
         &self.buffers[buffer as usize]
@@ -29,10 +34,22 @@ impl Device {
             // New memory holds anything.
             self.buffers[buffer as usize].resize(bytes as usize / 4, 0xdead_beef);
         }
-        for Copy { buffer, bytes } in &frame.copies {
-            let bytes = bytes.start as usize..bytes.end as usize;
+        // By way of a staging buffer.
+        let start = 12;
+        let mut staging = vec![0xcc_u8; start];
+        for copy in &frame.copies {
+            staging.extend(copy.source(scene));
+        }
+        assert_eq!(staging.len() as u64, start as u64 + frame.staged_bytes());
+        let regions = frame.regions(start as u64);
+        for (number, (buffer, regions)) in regions.iter().enumerate() {
             let to: &mut [u8] = cast_slice_mut(&mut self.buffers[*buffer as usize]);
-            to[bytes.clone()].copy_from_slice(&buffer.bytes(scene)[bytes]);
+            for Region { from, to: at, bytes } in regions {
+                let [from, at, bytes] = [from, at, bytes].map(|byte| *byte as usize);
+                to[at..at + bytes].copy_from_slice(&staging[from..from + bytes]);
+            }
+            let is_same = |(other, _): &(Buffer, Vec<Region>)| other == buffer;
+            assert!(!regions.is_empty() && !regions_after(&frame, number).iter().any(is_same));
         }
         for dispatch in &frame.refit.dispatches {
             let [first, count] = dispatch.push();
