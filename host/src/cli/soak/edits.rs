@@ -79,7 +79,7 @@ impl World {
     }
 
     fn below(&mut self, count: usize) -> usize {
-        (u64::from(self.draw()) * count as u64 >> 32) as usize
+        ((u64::from(self.draw()) * count as u64) >> 32) as usize
     }
 
     fn unit(&mut self) -> f32 {
