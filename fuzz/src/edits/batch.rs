@@ -61,9 +61,11 @@ struct Staged {
 pub struct Touched {
     /// Instances added, moved, dimmed, removed, or of a mesh that bends.
     pub instances: usize,
-    /// Triangles of meshes added or bent.
+    /// Triangles of meshes added or bent as a whole.
     pub triangles: usize,
-    /// Such meshes.
+    /// Triangles that alone changed in theirs.
+    pub single: usize,
+    /// Meshes added or bent.
     pub meshes: usize,
 }
 
@@ -76,8 +78,11 @@ impl Touched {
                     touched.triangles += triangles.len();
                     touched.meshes += 1;
                 }
-                Edit::SetTriangles { mesh, triangles } => {
-                    touched.triangles += triangles.len();
+                Edit::SetTriangles { mesh, triangles } | Edit::SetTriangleRange { mesh, triangles, .. } => {
+                    match edit {
+                        Edit::SetTriangleRange { .. } => touched.single += triangles.len(),
+                        _ => touched.triangles += triangles.len(),
+                    }
                     touched.meshes += 1;
                     // Those added or removed by the same batch count themselves.
                     let users = model.instances.iter().filter(|placed| placed.mesh == *mesh);

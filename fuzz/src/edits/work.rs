@@ -9,6 +9,8 @@ use super::batch::Touched;
 const BESIDE: usize = 1 + 63;
 /// Paths of an instance that moves: from where it was, and to where it goes.
 const PATHS: usize = 2;
+/// A range of more than this part of a mesh is the whole mesh.
+const WHOLE: usize = 16;
 /// The root, whatever changes.
 const ROOT: usize = 1;
 
@@ -18,8 +20,8 @@ const ROOT: usize = 1;
 /// If there are more.
 pub fn check(plan: &RefitPlan, touched: &Touched, depth: u32) {
     let paths = PATHS * BESIDE * depth as usize * (touched.instances + ROOT);
-    // A node of a bottom level holds a triangle, or two nodes at least.
-    let bottom = touched.triangles;
+    // A node of a bottom level holds a triangle, or two nodes at least; more than a sixteenth of a mesh is refitted with all of it.
+    let bottom = touched.triangles + touched.single * WHOLE.max(depth as usize);
     let computed = plan.top.nodes().len();
     assert!(
         computed <= paths,

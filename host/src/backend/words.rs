@@ -22,11 +22,12 @@ pub struct DeviceArrays {
 }
 
 impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
-    /// All arrays as they are.
+    /// All arrays as they are, after all that was followed.
     ///
     /// # Errors
     /// [`BackendError`] from the device.
     pub fn arrays(&mut self) -> Result<DeviceArrays, BackendError> {
+        self.flush()?;
         Ok(DeviceArrays {
             nodes: words(&self.tree.nodes)?,
             roots: words(&self.roots)?,

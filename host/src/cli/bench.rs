@@ -255,8 +255,9 @@ fn run_dynamic(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     } else {
         let opened = cli_devices::open(context)?;
         let report = dynamic::report(args.instances, args.mesh_triangles, &opened)?;
+        let rows = devices::rows(&opened, args.instances)?;
         cli_devices::close(opened)?;
-        Some(report)
+        Some((report, rows))
     };
     let one = lone::report(largest, args.quick);
     if context.json {
@@ -265,12 +266,14 @@ fn run_dynamic(context: &Context, args: &Args) -> Result<Outcome, HostError> {
             "growth": one.growth,
             "quality": one.quality,
             "left_out": one.left_out,
-            "dynamic": much,
+            "dynamic": much.as_ref().map(|(report, _)| report),
+            "devices": much.as_ref().map(|(_, rows)| rows),
         }))?;
     } else {
         lone::print(&one)?;
-        if let Some(much) = much {
-            dynamic::print(&much)?;
+        if let Some((report, rows)) = much {
+            dynamic::print(&report)?;
+            devices::print(&rows)?;
         }
     }
     Ok(Outcome::Good)

@@ -68,7 +68,7 @@ fn soak(context: &Context, args: &Args, opened: &[devices::Opened]) -> Result<Re
     let bar = progress::bar(args.frames.into(), "{bar:40} {pos}/{len} {eta}", context.json);
     let mut rebuilder = rebuilder(0);
     for frame in 0..args.frames {
-        if frame % RULED == 0 {
+        if frame.is_multiple_of(RULED) {
             // A rebuild under way is dropped with its rebuilder.
             rebuilder = self::rebuilder(frame / RULED);
         }
@@ -104,7 +104,7 @@ fn soak(context: &Context, args: &Args, opened: &[devices::Opened]) -> Result<Re
             }
         }
         memory.take(frame, world.bvh.memory());
-        if (frame + 1) % CHECKED == 0 || frame + 1 == args.frames {
+        if (frame + 1).is_multiple_of(CHECKED) || frame + 1 == args.frames {
             let sound = world.bvh.validate().map_err(|violation| violation.to_string());
             if let Err(what) = sound.and_then(|_| world.check()) {
                 invalid = Some(format!("frame {frame}: {what}"));
@@ -138,7 +138,7 @@ fn rebuilder(turn: u32) -> Rebuilder {
         swap: Swap::Deterministic,
         ..RebuilderParams::default()
     };
-    Rebuilder::new(if turn % 2 == 0 {
+    Rebuilder::new(if turn.is_multiple_of(2) {
         RebuilderParams::default()
     } else {
         deterministic

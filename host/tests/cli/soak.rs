@@ -7,7 +7,7 @@ const DISTURBED: u64 = 8;
 
 #[test]
 fn a_soak_finds_nothing() {
-    let output = run("soak --json --frames 2000 --instances 300 --mesh-triangles 500 --seed 5");
+    let output = run("soak --json --frames 2000 --instances 100 --mesh-triangles 500 --seed 5");
     let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("one JSON object");
     assert_eq!(report["invalid"], serde_json::Value::Null);
     assert_eq!(report["frames"], 2000);

@@ -79,7 +79,7 @@ impl World {
     }
 
     fn below(&mut self, count: usize) -> usize {
-        (u64::from(self.draw()) * count as u64 >> 32) as usize
+        ((u64::from(self.draw()) * count as u64) >> 32) as usize
     }
 
     fn unit(&mut self) -> f32 {
@@ -249,11 +249,19 @@ impl World {
         }
     }
 
-    /// A mesh sways, or is scrambled.
+    /// A mesh sways, or is scrambled, as a whole or in a range of its triangles.
     fn deform(&mut self, edits: &mut Vec<Edit>, work: &mut Work, counts: &mut Counts) {
         let at = self.below(self.meshes.len());
+        let count = self.meshes[at].triangles.len();
         let step = if self.below(4) == 0 { 2.0 } else { 0.05 };
-        let mut triangles = self.meshes[at].triangles.clone();
+        let is_whole = self.below(2) == 0;
+        let range = if is_whole {
+            0..count
+        } else {
+            let first = self.below(count);
+            first..count.min(first + 1 + self.below(32))
+        };
+        let mut triangles = self.meshes[at].triangles[range.clone()].to_vec();
         for triangle in &mut triangles {
             let by: [f32; 3] = std::array::from_fn(|_| step * (self.unit() - 0.5));
             triangle.p = triangle.p.map(|p| std::array::from_fn(|k| p[k] + by[k]));
@@ -261,9 +269,15 @@ impl World {
         work.triangles += triangles.len() as u32;
         work.instances += self.meshes[at].users;
         counts.deformed += 1;
-        edits.push(Edit::SetTriangles {
-            mesh: self.meshes[at].id,
-            triangles,
+        let (mesh, first) = (self.meshes[at].id, range.start as u32);
+        edits.push(if is_whole {
+            Edit::SetTriangles { mesh, triangles }
+        } else {
+            Edit::SetTriangleRange {
+                mesh,
+                first,
+                triangles,
+            }
         });
     }
 

@@ -65,7 +65,7 @@ impl Memory {
         let quarter = (u64::from(frame) * 4 / u64::from(self.frames)) as u32;
         self.scene.take(quarter, bytes as f64);
         // The system is asked seldom: that takes as long as a frame.
-        if frame % 16 == 0
+        if frame.is_multiple_of(16)
             && let Some(usage) = memory_stats::memory_stats()
         {
             self.process.take(quarter, usage.physical_mem as f64);

@@ -1,5 +1,7 @@
 //! One large mesh changes.
 
+use std::ops::Range;
+
 use lightbvh::bvh::RebuildParams;
 
 use super::rows::{Kind, Row};
@@ -25,18 +27,27 @@ pub(super) fn rows(scene: &mut Scene, patience: Patience) -> Vec<Row> {
     rows
 }
 
-/// Frames in which triangles move that `which` draws; the first is not counted.
+/// Frames in which triangles move that `which` draws, all of them or a range; the first is not counted.
 fn deformed(
     scene: &mut Scene,
     patience: Patience,
-    mut which: impl FnMut(&mut Scene) -> std::ops::Range<usize>,
+    mut which: impl FnMut(&mut Scene) -> Range<usize>,
 ) -> Vec<Sample> {
     let mut samples = Vec::new();
     patience.frames(|frame| {
         let range = which(scene);
-        scene.shake(range, 0.2);
-        let (mesh, triangles) = (scene.lone, scene.triangles.clone());
-        let sample = scene.frame(|bvh| bvh.set_triangles(mesh, triangles).expect("as many"));
+        scene.shake(range.clone(), 0.2);
+        let (mesh, first) = (scene.lone, range.start as u32);
+        let is_whole = range.len() == scene.triangles.len();
+        let triangles = scene.triangles[range].to_vec();
+        let sample = scene.frame(|bvh| {
+            let set = if is_whole {
+                bvh.set_triangles(mesh, triangles)
+            } else {
+                bvh.set_triangle_range(mesh, first, triangles)
+            };
+            set.expect("triangles of the mesh");
+        });
         if frame > 0 {
             samples.push(sample);
         }
