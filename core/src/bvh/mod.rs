@@ -290,7 +290,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         &self.instances
     }
 
-    /// The triangles of all bottom levels, in the spaces of their meshes.
+    /// The triangles of all bottom levels, in the spaces of their meshes. Where those of a mesh begin may change with its tree; its
+    /// instances tell.
     #[must_use]
     pub fn triangles(&self) -> &[EmissiveTriangle] {
         &self.triangles

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::StageId;
+use super::{MOST, StageId};
 use crate::bvh::changes::merged;
 use crate::bvh::{Bvh, Trails};
 use crate::node::LightNode;
@@ -18,7 +18,10 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// left; whether it has. `None` where the stage is gone.
     pub(crate) fn settle_stage(&mut self, id: StageId, bytes: &mut usize) -> Option<bool> {
         let staged = self.staged(id)?;
-        if !staged.is_whole && (staged.is_worn() || (!T::KEPT && !staged.changed.is_empty())) {
+        let fresh = core::mem::take(&mut staged.fresh);
+        // Where more come from frame to frame, paths are sure to end.
+        let is_worn = fresh == 0 && staged.is_worn();
+        if !staged.is_whole && (is_worn || (!T::KEPT && !staged.changed.is_empty())) {
             staged.sweep_all();
         }
         if staged.is_whole {
@@ -27,7 +30,6 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let staged = self.staged(id)?;
         if !staged.is_whole {
             // Never fewer than come, so that it ends.
-            let fresh = core::mem::take(&mut staged.fresh);
             let paths = (*bytes / PATH).max(2 * fresh).max(1);
             *bytes = bytes.saturating_sub(paths * PATH);
             let some = first_of(&mut staged.changed, paths);
@@ -66,13 +68,22 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         Some(())
     }
 
+    /// Whether the next refit sweeps all of a bottom level.
+    fn is_swept(&self, blas: u32) -> bool {
+        let new = &self.changes.new;
+        let parts = self.parts(new).remove(&blas).unwrap_or_default();
+        let changed: usize = parts.iter().map(ExactSizeIterator::len).sum();
+        new.blases.contains(&blas) || (changed > 0 && !T::KEPT) || changed * MOST > self.blas_len(blas)
+    }
+
     /// Before a refit or a plan: meshes that it sweeps anyway get the trees that wait for that.
     pub(in crate::bvh) fn adopt_swept(&mut self) {
         for blas in self.staging.clone() {
             let own = &self.blases[blas as usize];
             let is_ready = own.staged.as_ref().is_some_and(|staged| staged.is_placed);
-            if is_ready && self.changes.new.blases.contains(&blas) {
+            if is_ready && self.is_swept(blas) {
                 self.adopt_stage(blas);
+                self.changes.new.mark_blas(blas);
             }
         }
     }

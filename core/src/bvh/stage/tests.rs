@@ -169,7 +169,7 @@ fn what_changed_as_a_whole_and_rests_is_swept_in_pieces() {
 /// However many triangles change from frame to frame.
 #[test]
 fn what_changes_in_part_does_not_put_it_off() {
-    for count in [1, 30, 200] {
+    for count in [1, 30, 150, 200] {
         let (mut bvh, mesh, mut rebuilder) = scene();
         let frames = until_adopted(&mut bvh, &mut rebuilder, |bvh, frame| {
             let first = hash(frame) % (COUNT - count);
@@ -178,6 +178,15 @@ fn what_changes_in_part_does_not_put_it_off() {
                 lamp.radiance = [hash(frame + 7) as f32 * 1e-9; 3];
             }
             bvh.set_triangle_range(mesh, first, some).expect("its own");
+            // Those of the frame, and twice as many of those before.
+            let written: usize = bvh
+                .changes
+                .new
+                .written_nodes
+                .iter()
+                .map(ExactSizeIterator::len)
+                .sum();
+            assert!(written <= 80 + 3 * count as usize * 8, "{count}: {written}");
         });
         assert!(frames < 200, "{count}: {frames}");
     }
