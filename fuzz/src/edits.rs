@@ -67,7 +67,7 @@ fn frames<N: LightNode<W> + std::fmt::Debug, I: ImportanceModel<N, W>, const W: 
         if bits & 8 != 0 && flying.len() < FLYING {
             let bits: u8 = u.arbitrary()?;
             let params = RebuildParams {
-                top: bits & 3 != 0,
+                top: if bits & 3 != 0 { 1.0 } else { f64::INFINITY },
                 drift: [1.0001, 1.5, 0.0, f64::INFINITY][usize::from(bits >> 2 & 3)],
             };
             let rebuild = scene.rebuild(&params);
