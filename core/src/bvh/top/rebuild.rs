@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use crate::build::{BuildParams, Topology, build_top};
-use crate::bvh::{Bvh, Trails};
+use crate::bvh::{Bvh, Trails, opened};
 use crate::instance::Instance;
 use crate::levels::Levels;
 use crate::node::{LightNode, kind};
@@ -18,8 +18,10 @@ pub(in crate::bvh) struct TopCopy {
     /// By index, those not in use included.
     instances: Vec<Instance>,
     roots: Vec<BlasRoot>,
-    /// Indices of the instances in use, in order.
+    /// Indices of the leaves, in order.
     live: Vec<u32>,
+    /// Indices of the instances that are opened or could be.
+    openable: Vec<u32>,
 }
 
 /// A top level as it was built: every word of its nodes is what refit makes of the copy.
@@ -28,8 +30,11 @@ pub(in crate::bvh) struct TopTree<N> {
     /// In depth-first order; links of nodes count from the first, the root.
     nodes: Vec<N>,
     depth: u32,
-    /// The instances it was built over.
+    /// The leaves it was built over.
     live: Vec<u32>,
+    /// Instances to be opened, and to be closed.
+    open: Vec<u32>,
+    close: Vec<u32>,
 }
 
 impl TopCopy {
@@ -40,14 +45,18 @@ impl TopCopy {
                 nodes: Vec::new(),
                 depth: 0,
                 live: self.live,
+                open: Vec::new(),
+                close: Vec::new(),
             };
         }
-        let summaries = self.live.iter().map(|&i| {
+        let in_world = |i: u32| {
             let instance = &self.instances[i as usize];
             let local = self.roots[instance.blas as usize].summary::<N::Summary>();
-            (i, local.to_world(instance))
-        });
-        let mut topology: Topology<N> = build_top::<N, W>(summaries, params);
+            local.to_world(instance)
+        };
+        let [open, close] = opened::wanted(&self.instances, &self.live, &self.openable, in_world);
+        let summaries = self.live.iter().map(|&i| (i, in_world(i)));
+        let mut topology: Topology<N> = build_top::<N, W>(summaries, &super::in_full(params));
         for &node in Levels::gather(topology.leveled(0)).nodes() {
             topology.nodes[node as usize] = refit::top(&topology.nodes, &self.instances, &self.roots, node);
         }
@@ -55,6 +64,8 @@ impl TopCopy {
             nodes: topology.nodes,
             depth: topology.depth,
             live: self.live,
+            open,
+            close,
         }
     }
 }
@@ -62,9 +73,10 @@ impl TopCopy {
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// What the top level is built from.
     pub(in crate::bvh) fn copy_top(&self) -> TopCopy {
-        let mut live = self.live.clone();
+        let mut live = self.leaves_of_all(&self.live);
         live.sort_unstable();
         TopCopy {
+            openable: self.openable(),
             instances: self.instances.clone(),
             roots: self.roots.clone(),
             live,
@@ -81,7 +93,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let (listed, found) = (self.top.mark - 1, self.top.mark);
         for &index in &tree.live {
             if let Some(placed) = self.placed.get_mut(index as usize)
-                && placed.live
+                && placed.node != INVALID
                 && placed.hung <= since
             {
                 placed.mark = listed;
@@ -163,6 +175,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         newcomers.sort_unstable();
         self.insert_instances(&newcomers);
+        self.reopen(&tree.open, &tree.close);
         self.settle();
     }
 }
