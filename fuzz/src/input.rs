@@ -67,6 +67,7 @@ pub fn params(u: &mut Unstructured<'_>) -> Result<BuildParams> {
         heuristic,
         buckets,
         effort,
+        opens: bits & 8 == 0,
     })
 }
 

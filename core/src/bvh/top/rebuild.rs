@@ -6,7 +6,7 @@
 use alloc::vec::Vec;
 
 use crate::build::{BuildParams, Topology, build_top};
-use crate::bvh::{Bvh, Trails};
+use crate::bvh::{Bvh, Trails, opened};
 use crate::instance::Instance;
 use crate::levels::Levels;
 use crate::node::{LightNode, kind};
@@ -48,11 +48,13 @@ impl Search {
 pub(crate) struct TopCopy {
     /// `None` for all of it.
     part: Option<Part>,
-    /// Indices of the instances, in order.
+    /// Indices of the leaves, in order.
     names: Vec<u32>,
-    /// The same, each with the root of that place below.
+    /// Their records, each with the root of that place below.
     instances: Vec<Instance>,
     roots: Vec<BlasRoot>,
+    /// The instances that are opened or could be; none of a part.
+    openable: Vec<(u32, Instance, BlasRoot)>,
 }
 
 /// A tree as it was built: every word of its nodes is what refit makes of the copy.
@@ -62,8 +64,10 @@ pub(in crate::bvh) struct TopTree<N> {
     /// In depth-first order; links of nodes count from the first, the root.
     nodes: Vec<N>,
     depth: u32,
-    /// The instances that it was built over.
+    /// The leaves that it was built over.
     names: Vec<u32>,
+    /// Instances to be opened, and to be closed.
+    reopened: [Vec<u32>; 2],
 }
 
 impl TopCopy {
@@ -74,14 +78,24 @@ impl TopCopy {
             nodes: Vec::new(),
             depth: 0,
             names: self.names,
+            reopened: [Vec::new(), Vec::new()],
         };
         if self.instances.is_empty() {
             return tree;
         }
-        let copies = (0..).zip(self.instances.iter().zip(&self.roots));
-        let summaries =
-            copies.map(|(k, (instance, root))| (k, root.summary::<N::Summary>().to_world(instance)));
-        let mut topology: Topology<N> = build_top::<N, W>(summaries, params);
+        let in_world =
+            |(instance, root): (&Instance, &BlasRoot)| root.summary::<N::Summary>().to_world(instance);
+        let leaves = || self.instances.iter().zip(&self.roots).map(in_world);
+        let openable = self
+            .openable
+            .iter()
+            .map(|(name, instance, root)| (*name, in_world((instance, root)), instance.part != INVALID));
+        tree.reopened = opened::wanted(leaves(), openable);
+        let params = match self.part {
+            None => super::in_full(params),
+            Some(_) => *params,
+        };
+        let mut topology: Topology<N> = build_top::<N, W>((0..).zip(leaves()), &params);
         for &node in Levels::gather(topology.leveled(0)).nodes() {
             topology.nodes[node as usize] = refit::top(&topology.nodes, &self.instances, &self.roots, node);
         }
@@ -101,7 +115,14 @@ impl TopCopy {
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// What the top level is built from.
     pub(in crate::bvh) fn copy_top(&self) -> TopCopy {
-        self.copy_of(None, self.live.clone())
+        let openable = self.openable().into_iter().map(|name| {
+            let own = self.instances[name as usize];
+            (name, own, self.roots[own.blas as usize])
+        });
+        TopCopy {
+            openable: openable.collect(),
+            ..self.copy_of(None, self.leaves_of_all(&self.live))
+        }
     }
 
     /// What the next part is built from that is worse than when it was built by the factor `worse` or more; all of the top level, where
@@ -147,6 +168,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             instances: Vec::with_capacity(names.len()),
             roots: Vec::with_capacity(names.len()),
             names: Vec::new(),
+            openable: Vec::new(),
         };
         for (k, &name) in (0..).zip(&names) {
             let own = self.instances[name as usize];
@@ -234,6 +256,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             }
         }
         self.insert_instances(&newcomers);
+        let [open, close] = &tree.reopened;
+        self.reopen(open, close);
         self.settle();
     }
 
@@ -244,7 +268,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let (listed, found) = (self.top.mark - 1, self.top.mark);
         for &name in names {
             if let Some(placed) = self.placed.get_mut(name as usize)
-                && placed.live
+                && placed.node != INVALID
                 && placed.hung <= since
             {
                 placed.mark = listed;
