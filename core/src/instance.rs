@@ -24,7 +24,9 @@ const LEAST_PRODUCT: f32 = pow2(-120);
 /// Greatest magnitude of a coordinate in a mesh's space, 2^60.
 const FAR: f32 = pow2(60);
 
-/// A leaf of the top level: where a mesh stands, and which lights its triangles are there. 132 bytes.
+/// A leaf of the top level: where a mesh stands, and which lights its triangles are there. 136 bytes.
+///
+/// Or a part of an opened instance: a subtree below the root of its bottom level, which is a leaf in its place. Then `count` is 0.
 ///
 /// Plain words, as the device reads them; `Transform` (feature `alloc`) derives them on the CPU.
 #[repr(C)]
@@ -62,9 +64,12 @@ pub struct Instance {
     pub radiance: f32,
     /// 1 where the map mirrors, else 0.
     pub mirrored: u32,
+    /// Of an instance that is opened, the record of its first part; that of the part in slot k of its bottom level's root is k further.
+    /// Of a part, its instance. `u32::MAX` of others.
+    pub part: u32,
 }
 
-const _: () = assert!(size_of::<Instance>() == 132);
+const _: () = assert!(size_of::<Instance>() == 136);
 
 impl Instance {
     /// A bottom level in world space.
@@ -84,6 +89,7 @@ impl Instance {
         flux: 1.0,
         radiance: 1.0,
         mirrored: 0,
+        part: u32::MAX,
     };
 
     /// The light that triangle `triangle` of the bottom level is here.
@@ -93,6 +99,13 @@ impl Instance {
         triangle
             .wrapping_sub(self.first_triangle)
             .wrapping_add(self.first)
+    }
+
+    /// Whether it is a part of another (or no instance at all).
+    #[inline(always)]
+    #[must_use]
+    pub fn is_part(&self) -> bool {
+        self.count == 0
     }
 
     /// The triangle of the bottom level that light `light` is.

@@ -87,9 +87,10 @@ impl<'a, N, I, const W: usize> LightTree<'a, N, I, W> {
     #[must_use]
     pub(crate) fn path_of(&self, triangle: u32, instance: u32) -> Path {
         if instance < self.instances.len() as u32 {
+            let bottom = self.trail(triangle);
             Path {
-                top: self.trail_to(instance),
-                bottom: self.trail(triangle),
+                top: self.trail_to(self.leaf_of(instance, bottom)),
+                bottom,
             }
         } else {
             Path {
@@ -97,6 +98,34 @@ impl<'a, N, I, const W: usize> LightTree<'a, N, I, W> {
                 bottom: BitTrail { low: 0, high: 0 },
             }
         }
+    }
+
+    /// The leaf of the top level below which a triangle of `instance` lies, whose trail in the bottom level is `bottom`: the instance, or
+    /// the one of its parts.
+    #[inline]
+    fn leaf_of(&self, instance: u32, bottom: BitTrail) -> u32 {
+        let own = &self.instances[instance as usize];
+        let mut leaf = instance;
+        if own.part != INVALID && !own.is_part() {
+            let part = own.part.wrapping_add(bottom.slot::<W>(0));
+            if part < self.instances.len() as u32 {
+                leaf = part;
+            }
+        }
+        leaf
+    }
+
+    /// The instance that a leaf of the top level belongs to: itself, unless it is a part.
+    #[inline(always)]
+    pub(crate) fn instance_of(&self, leaf: u32) -> u32 {
+        let mut instance = leaf;
+        if leaf < self.instances.len() as u32 {
+            let own = &self.instances[leaf as usize];
+            if own.is_part() && own.part != INVALID {
+                instance = own.part;
+            }
+        }
+        instance
     }
 
     /// Trail of an instance in the top level, from its leaf up: at most as many steps as a tree has levels, for any words.

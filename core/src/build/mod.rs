@@ -29,6 +29,9 @@ pub struct BuildParams {
     pub buckets: u32,
     /// What the wide builder spends; the others do not ask.
     pub effort: Effort,
+    /// Whether the top level may hold the subtrees of a large mesh in place of the whole: less variance where meshes lie within each
+    /// other, for a record more of each subtree. Scenes of meshes that are small against the whole stay as they are.
+    pub opens: bool,
 }
 
 /// Which ranges of lights [`Heuristic::Ward`] splits on the way to a node's `W` children.
@@ -59,6 +62,7 @@ impl BuildParams {
         heuristic: Heuristic::Ward,
         buckets: 16,
         effort: Effort::Usual,
+        opens: true,
     };
     /// Ward's criterion down to single lights, 32 buckets: less variance where a few lights dominate, more on some other scenes, in
     /// twice the bytes (`docs/walk.md`).
@@ -66,13 +70,15 @@ impl BuildParams {
         heuristic: Heuristic::Ward,
         buckets: MAX_BUCKETS,
         effort: Effort::Most,
+        opens: true,
     };
 
-    /// As the paper builds, by its `heuristic`: 16 buckets.
+    /// As the paper builds, by its `heuristic`: 16 buckets, meshes left whole.
     #[must_use]
     pub const fn paper(heuristic: Heuristic) -> Self {
         Self {
             heuristic,
+            opens: false,
             ..Self::BALANCED
         }
     }

@@ -91,9 +91,16 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 Edit::RemoveMesh(id) => self.take_mesh(id.index),
             }
         }
-        self.take_misplaced(moved, &mut added);
-        added.sort_unstable();
-        self.insert_instances(&added);
+        if !added.is_empty() && 2 * added.len() >= self.live.len() {
+            self.build_top();
+        } else {
+            self.decide_added(&added);
+            added = self.leaves_of_all(&added);
+            let moved = self.leaves_of_all(&moved);
+            self.take_misplaced(moved, &mut added);
+            added.sort_unstable();
+            self.insert_instances(&added);
+        }
         self.settle();
         self.bound_changes();
         Ok(updated)
@@ -159,6 +166,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             hung_radiance: radiance,
             mark: 0,
             changed: self.epoch,
+            parts: 0..0,
+            part_of: INVALID,
         };
         put(&mut self.placed, index, placed.clone(), &placed);
         // The record may hold an entry of the list and a link of the top level, which are not this instance's to take.
@@ -181,7 +190,12 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     fn take_instance(&mut self, index: u32) {
         self.epoch += 1;
-        self.remove_leaf(index);
+        for leaf in self.leaves_of(index) {
+            self.remove_leaf(leaf);
+        }
+        if !self.placed[index as usize].parts.is_empty() {
+            self.close(index);
+        }
         let placed = &mut self.placed[index as usize];
         placed.live = false;
         placed.node = INVALID;
@@ -230,9 +244,11 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             listed: old.listed,
             place: old.place,
             above: old.above,
+            part: old.part,
             ..placed.transform.instance(placed.radiance)
         };
         self.changes.new.mark_instance(index);
+        self.write_parts(index);
     }
 
     /// After a bottom level got other nodes: its instances must know the root.
@@ -247,6 +263,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 self.changes.new.mark_instance(user);
             }
         }
+        self.update_parts(blas);
     }
 }
 

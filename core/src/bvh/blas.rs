@@ -37,6 +37,10 @@ pub(super) struct Blas {
     pub staged: Option<Box<Staged>>,
     /// The stage that made this one.
     pub adopted: u64,
+    /// What is known of its parts, among the roots, where instances of it are opened.
+    pub parts: Range<u32>,
+    /// How many are.
+    pub opened: u32,
 }
 
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
@@ -60,6 +64,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             changed: 0,
             staged: None,
             adopted: 0,
+            parts: 0..0,
+            opened: 0,
         };
         put(&mut self.blases, index, empty.clone(), &empty);
         put(

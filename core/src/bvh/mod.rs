@@ -28,6 +28,7 @@ mod edit;
 mod follow;
 mod lights;
 mod one;
+mod opened;
 mod quality;
 mod query;
 mod ranges;

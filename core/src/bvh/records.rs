@@ -41,6 +41,10 @@ pub(super) struct InstanceState {
     pub mark: u32,
     /// When its words changed last.
     pub changed: u64,
+    /// The records of its parts, where it is opened.
+    pub parts: Range<u32>,
+    /// The instance that this is a part of, or [`INVALID`](crate::INVALID).
+    pub part_of: u32,
 }
 
 /// The number by which a BVH tells its own ids and rebuilds from another's. A copy has another.

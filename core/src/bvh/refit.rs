@@ -80,7 +80,9 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         RefitPlan {
             bottom: Levels::join(&levels),
             trees: used().map(|(_, blas)| blas.nodes.clone()).collect(),
-            roots: used().map(|(index, _)| index).collect(),
+            roots: used()
+                .flat_map(|(index, blas)| core::iter::once(index).chain(blas.parts.clone()))
+                .collect(),
             top: self.top.levels.clone().unwrap_or_else(|| self.top.by_height()),
             ..RefitPlan::default()
         }
@@ -196,9 +198,11 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         changed.extend(pending.built);
         changed.extend(touched);
         for blas in changed {
+            let own = &self.blases[blas as usize];
             work.roots.push(blas);
-            let mesh = self.blases[blas as usize].mesh;
-            instances.extend(&self.meshes[mesh as usize].users);
+            work.roots.extend(own.parts.clone());
+            let users = &self.meshes[own.mesh as usize].users;
+            instances.extend(users.iter().flat_map(|&user| self.leaves_of(user)));
         }
 
         if pending.whole_top || instances.len() > self.live.len() / MOST {

@@ -20,7 +20,7 @@ pub(crate) use self::rebuild::{Search, TopCopy};
 pub(super) use self::settle::MOST as MOST_EDITS;
 use super::ranges::Ranges;
 use super::{Bvh, Trails};
-use crate::build::{Topology, build_top};
+use crate::build::{BuildParams, Topology, build_top};
 use crate::levels::Levels;
 use crate::node::{LightNode, kind};
 use crate::refit;
@@ -104,6 +104,19 @@ impl Top {
     }
 }
 
+/// How a top level is built as a whole: where meshes may be opened by twice as many buckets. Its leaves are few and large, so a plane
+/// that lies a little off costs more than below.
+fn in_full(params: &BuildParams) -> BuildParams {
+    BuildParams {
+        buckets: if params.opens {
+            params.buckets.saturating_mul(2)
+        } else {
+            params.buckets
+        },
+        ..*params
+    }
+}
+
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// A top level without instances: one empty node.
     pub(super) fn empty_top(&mut self) {
@@ -147,8 +160,12 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         } else {
             let mut live = self.live.clone();
             live.sort_unstable();
-            let topology: Topology<N> =
-                build_top::<N, W>(live.into_iter().map(|i| (i, self.in_world(i))), &self.params);
+            if self.params.opens {
+                self.decide(&live, self.cost_of_all());
+            }
+            let leaves = self.leaves_of_all(&live);
+            let leaves = leaves.into_iter().map(|i| (i, self.in_world(i)));
+            let topology: Topology<N> = build_top::<N, W>(leaves, &in_full(&self.params));
             self.replace_top(&topology.nodes);
         }
         self.changes.new.whole_top = true;

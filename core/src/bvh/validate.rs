@@ -86,6 +86,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 &refit::root(&again, root),
                 &self.roots[index],
             )?;
+            self.check_parts(blas, &again)?;
             listed(&blas.levels, &found)?;
             used_triangles.push(blas.triangles.clone());
         }
@@ -94,7 +95,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let found = self.walk(self.top.root, kind::MESH, &mut seen)?;
         let mut times = alloc::vec![0u32; self.placed.len()];
         for &(link, node, slot, trail) in &found.leaves {
-            if link as usize >= self.placed.len() || !self.placed[link as usize].live {
+            if link as usize >= self.placed.len() || !self.is_leaf(link) {
                 return Err(bad(node, slot, What::Mesh, INVALID, link));
             }
             times[link as usize] += 1;
@@ -114,7 +115,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 INVALID,
                 index,
                 What::Mesh,
-                u32::from(placed.live),
+                u32::from(self.is_leaf(index)),
                 times[index as usize],
             )?;
             if placed.live {
@@ -168,6 +169,34 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
+    /// Whether an instance or a part is a leaf of the top level.
+    pub(super) fn is_leaf(&self, index: u32) -> bool {
+        let placed = &self.placed[index as usize];
+        (placed.live && placed.parts.is_empty()) || placed.part_of != INVALID
+    }
+
+    /// What is known of the parts of a bottom level, and how many of its instances have them.
+    fn check_parts(&self, blas: &super::Blas, again: &[N]) -> Result<(), Violation> {
+        let users = self.meshes[blas.mesh as usize].users.iter();
+        let opened = users
+            .filter(|&&user| !self.placed[user as usize].parts.is_empty())
+            .count();
+        let slot = blas.parts.start;
+        equal(INVALID, slot, What::Parts, blas.opened, opened as u32)?;
+        let root = &self.nodes[blas.nodes.start as usize];
+        let count = if opened > 0 {
+            super::opened::parts_below::<N, W>(root)
+        } else {
+            0
+        };
+        equal(INVALID, slot, What::Parts, count, blas.parts.len() as u32)?;
+        for (part, slot) in blas.parts.clone().zip(0..) {
+            let expected = refit::root(again, root.link(slot));
+            same_words(INVALID, part, &expected, &self.roots[part as usize])?;
+        }
+        Ok(())
+    }
+
     /// An instance's words against its transform, mesh and bottom level.
     fn check_instance(&self, index: u32) -> Result<(), Violation> {
         let placed = &self.placed[index as usize];
@@ -207,9 +236,44 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             first_triangle: found.first_triangle,
             count,
             listed: found.listed,
+            part: if placed.parts.is_empty() {
+                INVALID
+            } else {
+                placed.parts.start
+            },
             ..placed.transform.instance(placed.radiance)
         };
         same_words(INVALID, index, &expected, found)?;
+        if !placed.parts.is_empty() {
+            equal(
+                INVALID,
+                index,
+                What::Parts,
+                own.parts.len() as u32,
+                placed.parts.len() as u32,
+            )?;
+        }
+        for (part, blas) in placed.parts.clone().zip(own.parts.clone()) {
+            let found = &self.instances[part as usize];
+            equal(
+                INVALID,
+                part,
+                What::Parts,
+                index,
+                self.placed[part as usize].part_of,
+            )?;
+            let words = crate::instance::Instance {
+                root: self.roots[blas as usize].node,
+                blas,
+                count: 0,
+                part: index,
+                listed: found.listed,
+                place: found.place,
+                above: found.above,
+                ..expected
+            };
+            same_words(INVALID, part, &words, found)?;
+        }
         equal(
             INVALID,
             index,

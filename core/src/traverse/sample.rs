@@ -96,7 +96,11 @@ impl<P: Receiver> Started<P> {
         let walk = &self.walk;
         let chosen = self.light != INVALID;
         let reached = walk.triangle != INVALID;
-        let instance = if chosen { self.instance } else { walk.instance };
+        let instance = if chosen {
+            self.instance
+        } else {
+            tree.instance_of(walk.instance)
+        };
         let light = if chosen {
             self.light
         } else {
@@ -132,7 +136,8 @@ pub(super) fn pmf<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, con
         walk.step(tree, point);
         done = walk.done;
     }
-    let found = (walk.triangle == triangle) & (walk.instance == instance) & (triangle != INVALID);
+    let found =
+        (walk.triangle == triangle) & (tree.instance_of(walk.instance) == instance) & (triangle != INVALID);
     let by_tree = if found { walk.probability() } else { 0.0 };
     let uniform = uniform_probability::<N, I, P, W>(tree, instance);
     if is_light(tree, light, instance) {

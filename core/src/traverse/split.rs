@@ -87,7 +87,7 @@ pub(super) fn sample_split<N: LightNode<W>, I: ImportanceModel<N, W>, const W: u
         if walk.triangle != INVALID {
             sampled[found] = SampledLight {
                 light: light_of(tree, walk.triangle, walk.instance),
-                instance: walk.instance,
+                instance: tree.instance_of(walk.instance),
                 pmf: walk.probability(),
             };
             found += 1;

@@ -24,7 +24,7 @@ pub(super) struct Walk<P = ShadingPoint> {
     pub index: u32,
     /// The triangle reached, or [`INVALID`].
     pub triangle: u32,
-    /// The instance passed, or [`INVALID`].
+    /// The leaf of the top level passed, an instance or a part of one, or [`INVALID`].
     pub instance: u32,
     /// Whether the walk has ended.
     pub done: bool,
@@ -132,7 +132,8 @@ impl<P: Receiver> Walk<P> {
             let instance = &tree.instances[link as usize];
             self.instance = link;
             self.index = instance.root;
-            self.position = levels;
+            // A part begins one level below the root.
+            self.position = levels + u32::from(instance.is_part());
             self.point = world.to_local(instance);
         } else {
             self.index = if descends { link } else { self.index };

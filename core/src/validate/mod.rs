@@ -62,6 +62,8 @@ pub enum What {
     Place,
     /// Number of children of a node of the top level, at least two below the root.
     Children,
+    /// Parts of an opened mesh light (`slot` is its index), or of a bottom level: as many as children of the root.
+    Parts,
     /// A word of a node that does not show in the decoded summaries; the number counts words.
     Word(u32),
     /// A component of a child's summary that refit would not give.
@@ -95,6 +97,7 @@ impl fmt::Display for What {
             Self::TrailHigh => write!(f, "high word of the leaf's trail"),
             Self::Place => write!(f, "place in the node above"),
             Self::Children => write!(f, "number of children"),
+            Self::Parts => write!(f, "parts"),
             Self::Listed => write!(f, "times in the list of levels"),
             Self::ListedLevel => write!(f, "level in the list of levels"),
             Self::Word(word) => write!(f, "word {word} of the node"),

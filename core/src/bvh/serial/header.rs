@@ -8,7 +8,7 @@ use crate::node::LightNode;
 use crate::trail::max_levels;
 
 /// Version of the words of [`Bvh::to_words`](crate::Bvh::to_words).
-pub const FORMAT: u32 = 2;
+pub const FORMAT: u32 = 3;
 
 /// "LBVH" as bytes in little-endian order.
 const MAGIC: u32 = u32::from_le_bytes(*b"LBVH");
@@ -18,6 +18,7 @@ pub(super) const HEADER_WORDS: usize = 19;
 
 const SINGLE: u32 = 1;
 const FORGOTTEN: u32 = 2;
+const OPENS: u32 = 4;
 
 fn flag(is_set: bool, bit: u32) -> u32 {
     if is_set { bit } else { 0 }
@@ -58,7 +59,7 @@ impl Header {
             0,
             layout(N::NAME),
             W as u32,
-            flag(self.single, SINGLE) | flag(self.forgotten, FORGOTTEN),
+            flag(self.single, SINGLE) | flag(self.forgotten, FORGOTTEN) | flag(self.params.opens, OPENS),
             heuristic.unwrap_or(0) as u32 | ((effort.unwrap_or(0) as u32) << 8),
             self.params.buckets,
             self.bottom_depth,
@@ -102,7 +103,7 @@ impl Header {
             return Err(ReadError::Width { expected: W, found });
         }
         let flags = words.one()?;
-        words.expect(flags & !(SINGLE | FORGOTTEN) == 0, "flags")?;
+        words.expect(flags & !(SINGLE | FORGOTTEN | OPENS) == 0, "flags")?;
         let built = words.one()?;
         let heuristic = HEURISTICS.get((built & 255) as usize);
         let effort = EFFORTS.get((built >> 8) as usize);
@@ -127,6 +128,7 @@ impl Header {
                 heuristic,
                 buckets,
                 effort,
+                opens: flags & OPENS != 0,
             },
             single: flags & SINGLE != 0,
             forgotten: flags & FORGOTTEN != 0,

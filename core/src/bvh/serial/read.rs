@@ -74,22 +74,22 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 changed: 0,
                 staged: None,
                 adopted: 0,
+                parts: 0..0,
+                opened: 0,
             };
             if mesh != INVALID {
                 words.expect(mesh < header.meshes, "mesh of a bottom level")?;
                 blas.nodes = read_range(words, header.nodes, "nodes of a bottom level")?;
                 blas.triangles = read_range(words, header.triangles, "triangles of a bottom level")?;
                 nodes.push(blas.nodes.clone());
+                blas.parts = read_parts(words, header.blases)?;
             }
             self.blases.push(blas);
         }
         let live = |(_, blas): &(u32, &Blas)| !blas.nodes.is_empty();
         let used = (0..).zip(&self.blases).filter(live);
-        self.blas_ranges = taken(
-            header.blases,
-            used.map(|(i, _)| i..i + 1).collect(),
-            "bottom levels",
-        )?;
+        let used = used.flat_map(|(i, blas)| [i..i + 1, blas.parts.clone()]);
+        self.blas_ranges = taken(header.blases, used.collect(), "bottom levels")?;
         let used = self.blases.iter().map(|blas| blas.triangles.clone()).collect();
         self.triangle_ranges = taken(header.triangles, used, "triangles")?;
 
@@ -123,6 +123,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
 
     fn read_instances(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
         self.placed = Vec::with_capacity(words.need(header.instances)?);
+        let mut hung_radiances = Vec::new();
         for _ in 0..header.instances {
             let mesh = words.one()?;
             let mut placed = InstanceState {
@@ -140,6 +141,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 hung_radiance: 0.0,
                 mark: 0,
                 changed: 0,
+                parts: 0..0,
+                part_of: INVALID,
             };
             if placed.live {
                 let own = self.meshes.get(mesh as usize).filter(|own| own.live);
@@ -164,15 +167,20 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                     columns: [column(0), column(1), column(2)],
                     translation: column(3),
                 };
+                placed.parts = read_parts(words, header.instances)?;
+                words.need(placed.parts.len() as u32)?;
+                for part in placed.parts.clone() {
+                    hung_radiances.push((part, f32::from_bits(words.one()?)));
+                }
             }
             self.placed.push(placed);
         }
+        for (part, radiance) in hung_radiances {
+            self.placed[part as usize].hung_radiance = radiance;
+        }
         let used = (0..).zip(&self.placed).filter(|(_, placed)| placed.live);
-        self.placed_ranges = taken(
-            header.instances,
-            used.map(|(i, _)| i..i + 1).collect(),
-            "instances",
-        )?;
+        let used = used.flat_map(|(i, placed)| [i..i + 1, placed.parts.clone()]);
+        self.placed_ranges = taken(header.instances, used.collect(), "instances")?;
         Ok(())
     }
 
@@ -258,4 +266,15 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         }
         Ok(())
     }
+}
+
+/// A range of parts below `end`, or one word that there are none.
+fn read_parts(words: &mut Words<'_>, end: u32) -> Result<Range<u32>, ReadError> {
+    let from = words.one()?;
+    if from == INVALID {
+        return Ok(0..0);
+    }
+    let to = words.one()?;
+    words.expect(from < to && to <= end, "parts")?;
+    Ok(from..to)
 }

@@ -9,6 +9,7 @@ use super::places::taken;
 use crate::bvh::Bvh;
 use crate::bvh::apply::NO_INSTANCE;
 use crate::bvh::changes::Changes;
+use crate::bvh::opened::parts_below;
 use crate::bvh::quality::Quality;
 use crate::bvh::validate::Found;
 use crate::levels::Levels;
@@ -21,6 +22,9 @@ use crate::transform::Transform;
 use crate::tree::INVALID;
 
 const NODES: ReadError = ReadError::Places { what: "nodes" };
+const PARTS: ReadError = ReadError::Places {
+    what: "parts of opened meshes",
+};
 const LISTS: ReadError = ReadError::Places {
     what: "instances in lists",
 };
@@ -159,6 +163,38 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             self.roots[index] = refit::root(&self.nodes, range.start);
             self.judge_range(range, true);
         }
+        self.restore_parts()
+    }
+
+    /// What is known of opened meshes' parts, whose places hold nothing else.
+    fn restore_parts(&mut self) -> Result<(), ReadError> {
+        for placed in self
+            .placed
+            .iter()
+            .filter(|placed| placed.live && !placed.parts.is_empty())
+        {
+            let blas = self.meshes[placed.mesh as usize].blas as usize;
+            self.blases[blas].opened += 1;
+            if placed.parts.len() != self.blases[blas].parts.len() {
+                return Err(PARTS);
+            }
+        }
+        for blas in 0..self.blases.len() as u32 {
+            let own = &self.blases[blas as usize];
+            if own.nodes.is_empty() {
+                continue;
+            }
+            let root = &self.nodes[own.nodes.start as usize];
+            let count = if own.opened > 0 {
+                parts_below::<N, W>(root)
+            } else {
+                0
+            };
+            if own.parts.len() as u32 != count || (own.opened > 0 && count == 0) {
+                return Err(PARTS);
+            }
+            self.place_parts(blas);
+        }
         Ok(())
     }
 
@@ -190,6 +226,13 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             instance.listed = listed;
         }
         for index in self.live.clone() {
+            let parts = self.placed[index as usize].parts.clone();
+            for part in parts.clone() {
+                self.put_part(part, index);
+            }
+            if !parts.is_empty() {
+                self.instances[index as usize].part = parts.start;
+            }
             self.place(index);
         }
         let mut seen = alloc::vec![false; self.nodes.len()];
@@ -198,11 +241,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             .map_err(ReadError::Tree)?;
         let mut leaves = alloc::vec![false; self.placed.len()];
         for &(instance, ..) in &found.leaves {
-            let live = self
-                .placed
-                .get(instance as usize)
-                .is_some_and(|placed| placed.live);
-            if !live || core::mem::replace(&mut leaves[instance as usize], true) {
+            let is_leaf = (instance as usize) < self.placed.len() && self.is_leaf(instance);
+            if !is_leaf || core::mem::replace(&mut leaves[instance as usize], true) {
                 return Err(LISTS);
             }
         }
@@ -219,7 +259,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         let mut nodes = found.levels.iter().map(|&(_, node)| node);
         // There are fewer nodes than records, unless there are none of these.
         let fits = self.top.nodes.len() <= self.placed.len().max(1);
-        if found.leaves.len() != self.live.len()
+        let expected = self.live.iter().map(|&index| self.leaves_of(index).len());
+        if found.leaves.len() != expected.sum::<usize>()
             || found.levels.len() != self.top.len()
             || !fits
             || !nodes.all(|node| is_listed[node as usize] && (node == root || is_branched(node)))

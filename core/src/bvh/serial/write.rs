@@ -2,6 +2,7 @@
 
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use super::header::{Header, LENGTH};
 use crate::bvh::{Bvh, InstanceState};
@@ -70,6 +71,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 blas.triangles.start,
                 blas.triangles.end,
             ]);
+            write_parts(words, &blas.parts);
         }
         words.extend(
             self.meshes
@@ -92,6 +94,9 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             let transform = &placed.transform;
             let entries = transform.columns.iter().flatten().chain(&transform.translation);
             words.extend(entries.map(|x| x.to_bits()));
+            write_parts(words, &placed.parts);
+            let parts = &self.placed[placed.parts.start as usize..placed.parts.end as usize];
+            words.extend(parts.iter().map(|part| part.hung_radiance.to_bits()));
         }
     }
 
@@ -125,5 +130,14 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 words.push(0);
             }
         }
+    }
+}
+
+/// A range of parts, or one word that there are none.
+fn write_parts(words: &mut Vec<u32>, parts: &Range<u32>) {
+    if parts.is_empty() {
+        words.push(INVALID);
+    } else {
+        words.extend([parts.start, parts.end]);
     }
 }

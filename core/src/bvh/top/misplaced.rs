@@ -40,7 +40,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// as they were at the last refit.
     fn excess(&self, index: u32) -> f64 {
         let placed = &self.placed[index as usize];
-        if !placed.live || placed.node == INVALID {
+        if placed.node == INVALID {
             return 0.0;
         }
         let above = self.parents[placed.node as usize];

@@ -6,7 +6,7 @@
 use alloc::vec::Vec;
 
 use crate::build::{BuildParams, Topology, build_top};
-use crate::bvh::{Bvh, Trails};
+use crate::bvh::{Bvh, Trails, opened};
 use crate::instance::Instance;
 use crate::levels::Levels;
 use crate::node::{LightNode, kind};
@@ -53,6 +53,8 @@ pub(crate) struct TopCopy {
     /// The same, each with the root of that place below.
     instances: Vec<Instance>,
     roots: Vec<BlasRoot>,
+    /// Of all of it: the instances that are opened or could be.
+    openable: Vec<(u32, Instance, BlasRoot)>,
 }
 
 /// A tree as it was built: every word of its nodes is what refit makes of the copy.
@@ -64,6 +66,9 @@ pub(in crate::bvh) struct TopTree<N> {
     depth: u32,
     /// The instances that it was built over.
     names: Vec<u32>,
+    /// Instances to be opened, and to be closed.
+    open: Vec<u32>,
+    close: Vec<u32>,
 }
 
 impl TopCopy {
@@ -74,14 +79,19 @@ impl TopCopy {
             nodes: Vec::new(),
             depth: 0,
             names: self.names,
+            open: Vec::new(),
+            close: Vec::new(),
         };
         if self.instances.is_empty() {
             return tree;
         }
+        let leaves = self.instances.iter().zip(&self.roots);
+        let leaves = leaves.map(|(instance, root)| root.summary::<N::Summary>().to_world(instance));
+        [tree.open, tree.close] = opened::wanted(leaves, &self.openable);
         let copies = (0..).zip(self.instances.iter().zip(&self.roots));
         let summaries =
             copies.map(|(k, (instance, root))| (k, root.summary::<N::Summary>().to_world(instance)));
-        let mut topology: Topology<N> = build_top::<N, W>(summaries, params);
+        let mut topology: Topology<N> = build_top::<N, W>(summaries, &super::in_full(params));
         for &node in Levels::gather(topology.leveled(0)).nodes() {
             topology.nodes[node as usize] = refit::top(&topology.nodes, &self.instances, &self.roots, node);
         }
@@ -101,7 +111,10 @@ impl TopCopy {
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// What the top level is built from.
     pub(in crate::bvh) fn copy_top(&self) -> TopCopy {
-        self.copy_of(None, self.live.clone())
+        TopCopy {
+            openable: self.openable(),
+            ..self.copy_of(None, self.leaves_of_all(&self.live))
+        }
     }
 
     /// What the next part is built from that is worse than when it was built by the factor `worse` or more; all of the top level, where
@@ -147,6 +160,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             instances: Vec::with_capacity(names.len()),
             roots: Vec::with_capacity(names.len()),
             names: Vec::new(),
+            openable: Vec::new(),
         };
         for (k, &name) in (0..).zip(&names) {
             let own = self.instances[name as usize];
@@ -234,6 +248,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             }
         }
         self.insert_instances(&newcomers);
+        self.reopen(&tree.open, &tree.close);
         self.settle();
     }
 
@@ -244,7 +259,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let (listed, found) = (self.top.mark - 1, self.top.mark);
         for &name in names {
             if let Some(placed) = self.placed.get_mut(name as usize)
-                && placed.live
+                && placed.node != INVALID
                 && placed.hung <= since
             {
                 placed.mark = listed;

@@ -7,13 +7,17 @@ use std::vec::Vec;
 use crate::bvh::EditReason;
 use crate::exact::pow2;
 use crate::kit::line;
-use crate::{Bvh, Edit, LightNode, MeshId, MomentNode, Moments, Transform};
+use crate::{BuildParams, Bvh, Edit, LightNode, MeshId, MomentNode, Moments, Transform};
 
 type Own = Bvh<MomentNode<8>, Moments, 8>;
 
 /// A mesh of `count` triangles below two instances, refitted.
 fn mesh<N: LightNode<8>, I>(count: u32) -> (Bvh<N, I, 8>, MeshId) {
-    let mut bvh = Bvh::default();
+    // Left whole: parts have roots of their own.
+    let mut bvh = Bvh::new(BuildParams {
+        opens: false,
+        ..BuildParams::default()
+    });
     let triangles = (0..count).map(|k| line((k * 77 % count) as u16, 1.0)).collect();
     let mesh = bvh.add_mesh(triangles).expect("a mesh");
     for x in [0.0, 9.0] {

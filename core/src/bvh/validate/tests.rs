@@ -4,7 +4,7 @@ use alloc::vec;
 
 use super::*;
 use crate::trail::max_levels;
-use crate::{CompactNode, Edit, EmissiveTriangle, Transform};
+use crate::{BuildParams, CompactNode, Edit, EmissiveTriangle, Transform};
 
 type Tree = Bvh<CompactNode<2>, crate::Eq4, 2>;
 
@@ -19,7 +19,10 @@ fn scene() -> Tree {
             flags: 0,
         }
     };
-    let mut scene = Tree::default();
+    let mut scene = Tree::new(BuildParams {
+        opens: false,
+        ..BuildParams::default()
+    });
     let meshes = [5, 4].map(|count| Edit::AddMesh {
         triangles: (0..count).map(lamp).collect(),
     });
