@@ -109,7 +109,12 @@ pub fn leaves<N: LightNode<W>, I, const W: usize>(tree: &LightTree<'_, N, I, W>)
             let link = node.link(slot);
             match node.kind(slot) {
                 kind::INNER => stack.push((link, instance)),
-                kind::MESH => stack.push((tree.instances[link as usize].root, Some(link))),
+                kind::MESH => {
+                    let own = &tree.instances[link as usize];
+                    // A part is named as its instance.
+                    let instance = if own.is_part() { own.part } else { link };
+                    stack.push((own.root, Some(instance)));
+                }
                 kind::LIGHT => stack.push((link | LEAF, instance)),
                 _ => {}
             }

@@ -52,6 +52,10 @@ fn recomputed<N: LightNode<W>, const W: usize>(
             kind::LIGHT => N::Summary::of_triangle(&lights.triangles()[link as usize]),
             kind::MESH => {
                 let instance = &tree.instances[link as usize];
+                if instance.is_part() {
+                    // The root above the parts, which no leaf leads to.
+                    recomputed(bvh, lights, tree.instances[instance.part as usize].root, out);
+                }
                 recomputed(bvh, lights, instance.root, out).to_world(instance)
             }
             _ => recomputed(bvh, lights, link, out),
