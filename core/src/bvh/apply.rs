@@ -96,7 +96,6 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         } else {
             self.decide_added(&added);
             added = self.leaves_of_all(&added);
-            let moved = self.leaves_of_all(&moved);
             self.take_misplaced(moved, &mut added);
             added.sort_unstable();
             self.insert_instances(&added);

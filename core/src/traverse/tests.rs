@@ -146,6 +146,7 @@ fn rings_end_with_the_levels_of_a_trail() {
     let below = [node(&[(1.0, kind::MESH, 0)]), node(&[(1.0, kind::INNER, 1)])];
     let instance = Instance {
         root: 1,
+        count: 1,
         ..Instance::IDENTITY
     };
     let instances = [instance];
@@ -268,6 +269,7 @@ fn meshes_are_entered_from_the_top_level_alone() {
     let nodes = [node(&[(1.0, kind::MESH, 0)]), node(&[(1.0, kind::MESH, 0)])];
     let instances = [Instance {
         root: 1,
+        count: 1,
         ..Instance::IDENTITY
     }];
     let ring = tree(&nodes, &instances, &[0, 0], u32::MAX);

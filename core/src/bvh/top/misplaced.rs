@@ -22,7 +22,16 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     pub(in crate::bvh) fn take_misplaced(&mut self, mut moved: Vec<u32>, out: &mut Vec<u32>) {
         moved.sort_unstable();
         moved.dedup();
-        let excess = moved.into_iter().map(|index| (self.excess(index), index));
+        // An opened instance's first part stands for all: they move together.
+        let leaves = moved.into_iter().flat_map(|index| {
+            let leaves = self.leaves_of(index);
+            if leaves.len() > 1 && self.excess(leaves.start) <= 0.0 {
+                leaves.start..leaves.start
+            } else {
+                leaves
+            }
+        });
+        let excess = leaves.into_iter().map(|index| (self.excess(index), index));
         let mut misplaced: Vec<(f64, u32)> = excess.filter(|&(excess, _)| excess > 0.0).collect();
         let most = MOST + self.live.len() / MOST;
         if misplaced.len() > most {
