@@ -149,6 +149,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         self.changes.forget_lists();
         self.changes.new.built.insert(blas);
+        self.update_parts(blas);
         // Built for triangles that have changed since, it may be due again.
         if self.drift(blas) > 1.0 {
             self.epoch += 1;
