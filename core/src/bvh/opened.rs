@@ -123,7 +123,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             return Vec::new();
         }
         let live = self.live.iter().copied();
-        let found = live.filter(|&index| !self.placed[index as usize].parts.is_empty() || self.can_open(index));
+        let found =
+            live.filter(|&index| !self.placed[index as usize].parts.is_empty() || self.can_open(index));
         found
             .map(|index| {
                 let own = self.instances[index as usize];

@@ -119,7 +119,9 @@ fn what_was_built_for_another_is_built_again() {
 #[test]
 fn large_top_levels_are_built_in_parts() {
     let mut bvh = LightBvh::default();
-    let mesh = bvh.add_mesh((0..2).map(|k| line(k, 1.0)).collect()).expect("a mesh");
+    let mesh = bvh
+        .add_mesh((0..2).map(|k| line(k, 1.0)).collect())
+        .expect("a mesh");
     let random = &mut crate::kit::Random(7);
     let place = |random: &mut crate::kit::Random| Transform::at((random.vector() * 100.0).to_array());
     let add = |random: &mut crate::kit::Random| Edit::AddInstance {
@@ -161,7 +163,10 @@ fn large_top_levels_are_built_in_parts() {
         rebuilder.end_frame(&bvh);
     }
     let after = drift(&bvh);
-    assert!(swapped > 5 && after < 1.0 + (before - 1.0) / 4.0, "{swapped} swaps: {before} to {after}");
+    assert!(
+        swapped > 5 && after < 1.0 + (before - 1.0) / 4.0,
+        "{swapped} swaps: {before} to {after}"
+    );
     let mut last = 0;
     for frame in 0..200 {
         if rebuilder.begin_frame(&mut bvh).expect("its own").swapped {
