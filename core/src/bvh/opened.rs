@@ -87,25 +87,25 @@ pub(super) fn parts_below<N: LightNode<W>, const W: usize>(root: &N) -> u32 {
     if is_all && count > 1 { count as u32 } else { 0 }
 }
 
-/// Of the `openable` instances, each its index, what is known of it in the world, and whether it is open, those that are to be opened, and
-/// those that are to be closed, the costliest first; at most [`MOST`] of both, so that no frame has much to do for them. `leaves` are
-/// those of all instances.
+/// Of the `openable` instances, each with the root of its bottom level, those that are to be opened, and those that are to be closed,
+/// the costliest first; at most [`MOST`] of both, so that no frame has much to do for them. `leaves` are what is known of all.
 pub(super) fn wanted<S: Summary>(
     leaves: impl Iterator<Item = S>,
-    openable: impl ExactSizeIterator<Item = (u32, S, bool)>,
+    openable: &[(u32, Instance, BlasRoot)],
 ) -> [Vec<u32>; 2] {
-    if openable.len() == 0 {
+    if openable.is_empty() {
         return [Vec::new(), Vec::new()];
     }
     let mut whole = Together::default();
     leaves.for_each(|leaf| whole.add(&leaf));
     let whole = whole.cost();
     let mut changes: Vec<(f64, u32, bool)> = Vec::new();
-    for (index, summary, is_open) in openable {
-        let own = cost(&summary);
+    for (index, instance, root) in openable {
+        let own = cost(&root.summary::<S>().to_world(instance));
+        let is_open = instance.part != INVALID;
         let wanted = is_to_open(own, whole, is_open);
         if wanted != is_open {
-            changes.push((own, index, wanted));
+            changes.push((own, *index, wanted));
         }
     }
     changes.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
@@ -118,16 +118,19 @@ pub(super) fn wanted<S: Summary>(
 
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// The instances that are opened or could be.
-    pub(super) fn openable(&self) -> Vec<u32> {
+    pub(super) fn openable(&self) -> Vec<(u32, Instance, BlasRoot)> {
         if !self.params.opens {
             return Vec::new();
         }
         let live = self.live.iter().copied();
-        let mut found: Vec<u32> = live
-            .filter(|&index| !self.placed[index as usize].parts.is_empty() || self.can_open(index))
-            .collect();
-        found.sort_unstable();
+        let found =
+            live.filter(|&index| !self.placed[index as usize].parts.is_empty() || self.can_open(index));
         found
+            .map(|index| {
+                let own = self.instances[index as usize];
+                (index, own, self.roots[own.blas as usize])
+            })
+            .collect()
     }
 
     /// The records by which an instance hangs in the top level: its parts, or its own.

@@ -137,7 +137,7 @@ fn whatever_changes<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(s
                 .set_triangles(meshes[0], ring(300, 1.0 + random.unit() * 5.0, random.unit()))
                 .expect("as many"),
             5 => rebuilds.push(bvh.rebuild(&RebuildParams {
-                top: 1.0,
+                top: true,
                 drift: 1.0,
             })),
             6 if !rebuilds.is_empty() => {

@@ -9,7 +9,7 @@ use crate::bvh::{FrameStart, RebuildParams, RebuilderParams, Swap};
 use crate::exact::hash;
 use crate::kit::Random;
 use crate::rebuilder::Rebuilder;
-use crate::{EmissiveTriangle, LightBvh, MeshId, MomentNode, Transform};
+use crate::{Edit, EmissiveTriangle, LightBvh, MeshId, MomentNode, Transform};
 
 const COUNT: u32 = 3000;
 /// The least that a frame copies: a mesh takes 21 frames to the builder and as many back.
@@ -36,10 +36,17 @@ fn scene() -> (LightBvh, MeshId, Own) {
     let mut bvh = LightBvh::default();
     bvh.add_mesh(lamps(3)[..20].to_vec()).expect("a mesh");
     let mesh = bvh.add_mesh(lamps(1)).expect("a mesh");
-    for mesh in [mesh, bvh.mesh_id(0).expect("there"), mesh, mesh] {
-        let x = 30.0 * bvh.instances().len() as f32;
-        bvh.add_instance(mesh, Transform::at([x, 0.0, 0.0])).expect("one");
-    }
+    // In one batch, so that their parts have places behind all four.
+    let meshes = [mesh, bvh.mesh_id(0).expect("there"), mesh, mesh];
+    let add = [0.0, 30.0, 60.0, 90.0]
+        .into_iter()
+        .zip(meshes)
+        .map(|(x, mesh)| Edit::AddInstance {
+            mesh,
+            transform: Transform::at([x, 0.0, 0.0]),
+            radiance: 1.0,
+        });
+    bvh.apply(add.collect()).expect("instances");
     bvh.set_triangles(mesh, lamps(2)).expect("as many");
     bvh.refit();
     let rebuilder = Own::new(RebuilderParams {

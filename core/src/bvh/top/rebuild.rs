@@ -48,12 +48,12 @@ impl Search {
 pub(crate) struct TopCopy {
     /// `None` for all of it.
     part: Option<Part>,
-    /// Indices of the leaves, in order.
+    /// Indices of the instances, in order.
     names: Vec<u32>,
-    /// Their records, each with the root of that place below.
+    /// The same, each with the root of that place below.
     instances: Vec<Instance>,
     roots: Vec<BlasRoot>,
-    /// The instances that are opened or could be; none of a part.
+    /// Of all of it: the instances that are opened or could be.
     openable: Vec<(u32, Instance, BlasRoot)>,
 }
 
@@ -64,10 +64,11 @@ pub(in crate::bvh) struct TopTree<N> {
     /// In depth-first order; links of nodes count from the first, the root.
     nodes: Vec<N>,
     depth: u32,
-    /// The leaves that it was built over.
+    /// The instances that it was built over.
     names: Vec<u32>,
     /// Instances to be opened, and to be closed.
-    reopened: [Vec<u32>; 2],
+    open: Vec<u32>,
+    close: Vec<u32>,
 }
 
 impl TopCopy {
@@ -78,24 +79,19 @@ impl TopCopy {
             nodes: Vec::new(),
             depth: 0,
             names: self.names,
-            reopened: [Vec::new(), Vec::new()],
+            open: Vec::new(),
+            close: Vec::new(),
         };
         if self.instances.is_empty() {
             return tree;
         }
-        let in_world =
-            |(instance, root): (&Instance, &BlasRoot)| root.summary::<N::Summary>().to_world(instance);
-        let leaves = || self.instances.iter().zip(&self.roots).map(in_world);
-        let openable = self
-            .openable
-            .iter()
-            .map(|(name, instance, root)| (*name, in_world((instance, root)), instance.part != INVALID));
-        tree.reopened = opened::wanted(leaves(), openable);
-        let params = match self.part {
-            None => super::in_full(params),
-            Some(_) => *params,
-        };
-        let mut topology: Topology<N> = build_top::<N, W>((0..).zip(leaves()), &params);
+        let leaves = self.instances.iter().zip(&self.roots);
+        let leaves = leaves.map(|(instance, root)| root.summary::<N::Summary>().to_world(instance));
+        [tree.open, tree.close] = opened::wanted(leaves, &self.openable);
+        let copies = (0..).zip(self.instances.iter().zip(&self.roots));
+        let summaries =
+            copies.map(|(k, (instance, root))| (k, root.summary::<N::Summary>().to_world(instance)));
+        let mut topology: Topology<N> = build_top::<N, W>(summaries, &super::in_full(params));
         for &node in Levels::gather(topology.leveled(0)).nodes() {
             topology.nodes[node as usize] = refit::top(&topology.nodes, &self.instances, &self.roots, node);
         }
@@ -115,12 +111,8 @@ impl TopCopy {
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// What the top level is built from.
     pub(in crate::bvh) fn copy_top(&self) -> TopCopy {
-        let openable = self.openable().into_iter().map(|name| {
-            let own = self.instances[name as usize];
-            (name, own, self.roots[own.blas as usize])
-        });
         TopCopy {
-            openable: openable.collect(),
+            openable: self.openable(),
             ..self.copy_of(None, self.leaves_of_all(&self.live))
         }
     }
@@ -256,8 +248,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             }
         }
         self.insert_instances(&newcomers);
-        let [open, close] = &tree.reopened;
-        self.reopen(open, close);
+        self.reopen(&tree.open, &tree.close);
         self.settle();
     }
 
