@@ -121,7 +121,7 @@ fn between(new: &[Range<usize>], known: &[(usize, Range<usize>)], end: usize) ->
     taken.sort_unstable_by_key(|range| range.start);
     let mut out = Vec::new();
     let mut at = 0;
-    for range in taken.into_iter().chain([end..end]) {
+    for range in taken.into_iter().chain(std::iter::once(end..end)) {
         if at < range.start.min(end) {
             out.push(at..range.start.min(end));
         }
@@ -190,6 +190,8 @@ fn changes<T: Pod>(then: &[T], now: &[T]) -> Vec<Range<usize>> {
 }
 
 #[cfg(test)]
+// Lists of one range are meant.
+#[allow(clippy::single_range_in_vec_init)]
 mod tests {
     use super::*;
 

@@ -50,6 +50,9 @@ struct Sample {
     counts: Counts,
 }
 
+/// A unit, and how much of it a frame took.
+type Quantity = (&'static str, fn(&Sample) -> f64);
+
 /// Measures frames of `instances` lamps on each device.
 ///
 /// # Errors
@@ -102,7 +105,7 @@ fn moving(opened: &Opened, instances: u32, moved: u32) -> Result<Vec<DeviceRow>,
         samples.push(Sample { handed, done, counts });
     }
     samples.drain(..WARM);
-    let row = |(unit, quantity): (&'static str, fn(&Sample) -> f64)| {
+    let row = |(unit, quantity): Quantity| {
         let mut values: Vec<f64> = samples.iter().map(quantity).collect();
         values.sort_by(f64::total_cmp);
         let at = |share: f64| values[((values.len() - 1) as f64 * share).ceil() as usize];
@@ -117,7 +120,7 @@ fn moving(opened: &Opened, instances: u32, moved: u32) -> Result<Vec<DeviceRow>,
             most: at(1.0),
         }
     };
-    let units: [(&'static str, fn(&Sample) -> f64); 6] = [
+    let units: [Quantity; 6] = [
         ("ns", |it| it.handed),
         ("ns-done", |it| it.done),
         ("bytes", |it| it.counts.bytes as f64),
