@@ -136,10 +136,7 @@ fn whatever_changes<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(s
             4 => bvh
                 .set_triangles(meshes[0], ring(300, 1.0 + random.unit() * 5.0, random.unit()))
                 .expect("as many"),
-            5 => rebuilds.push(bvh.rebuild(&RebuildParams {
-                top: true,
-                drift: 1.0,
-            })),
+            5 => rebuilds.push(bvh.rebuild(&RebuildParams { top: 1.0, drift: 1.0 })),
             6 if !rebuilds.is_empty() => {
                 let one = rebuilds.swap_remove(below(random, rebuilds.len() as u32) as usize);
                 bvh.install(one.run()).expect("its own");
