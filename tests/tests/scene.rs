@@ -119,7 +119,7 @@ fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32, r
         check_lights(&model, &scene);
         if flying.is_none() && random.below(2) == 0 {
             let params = RebuildParams {
-                top: random.below(4) != 0,
+                top: if random.below(4) != 0 { 1.0 } else { f64::INFINITY },
                 drift: 1.0001,
             };
             flying = Some((1 + random.below(3), scene.rebuild(&params).run()));
