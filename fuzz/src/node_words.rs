@@ -40,8 +40,9 @@ pub fn node_words(data: &[u8], forms: Forms) {
         let (random, light, instance): (u32, u32, u32) = u.arbitrary()?;
         let instances: Vec<Instance> = (0..u.int_in_range(0..=3)?)
             .map(|_| {
-                let (first, last): ([u32; 32], u32) = u.arbitrary()?;
-                let mut words = [last; 33];
+                let (first, last): ([u32; 32], [u32; 2]) = u.arbitrary()?;
+                let mut words = [last[0]; 34];
+                words[33] = last[1];
                 words[..32].copy_from_slice(&first);
                 Ok(bytemuck::cast(words))
             })

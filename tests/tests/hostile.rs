@@ -165,7 +165,7 @@ fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32) {
         .map(|_| {
             let mut instance = Instance::IDENTITY;
             if random.below(2) == 0 {
-                instance = bytemuck::cast::<[u32; 33], _>(std::array::from_fn(|_| random.bits()));
+                instance = bytemuck::cast::<[u32; 34], _>(std::array::from_fn(|_| random.bits()));
             }
             Instance {
                 root: link(random, nodes_count),
@@ -296,7 +296,7 @@ fn cycles() {
 fn maps_of_any_words() {
     let mut random = Random::new(10);
     for _ in 0..20_000 {
-        let instance: Instance = bytemuck::cast::<[u32; 33], _>(std::array::from_fn(|_| random.bits()));
+        let instance: Instance = bytemuck::cast::<[u32; 34], _>(std::array::from_fn(|_| random.bits()));
         let point = generate::point(&mut random, 10.0);
         let local = instance.to_local(&point);
         // Bounded, or no number: never infinite.

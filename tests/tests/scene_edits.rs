@@ -1,7 +1,7 @@
 //! Single edits of scenes: what they cost, what they leave, and what is refused.
 
 use lightbvh::bvh::{EditReason, RebuildParams};
-use lightbvh::{Bvh, CompactNode, Edit, Eq4, INVALID, Transform};
+use lightbvh::{Bvh, CompactNode, Edit, Eq4, INVALID, InstanceId, Transform};
 use lightbvh_tests::edits::{add_instance, add_mesh, mesh};
 use lightbvh_tests::generate::{self, Random};
 use lightbvh_tests::placing::{self, Kind};
@@ -45,11 +45,27 @@ fn motion_costs_one_way_up_and_no_bottom_level() {
         scene.refit();
         let work = scene.work();
         assert!(work.bottom.nodes().is_empty() && work.roots.is_empty());
+        assert!(work.written_triangles.is_empty() && work.written_trails.is_empty());
+        // Far from where it was it is put in elsewhere, and at most the 512 instances around both places are built anew.
+        let most = 2 * 512 + 4 * stats.depth as usize;
+        let written: usize = work.written_instances.iter().map(ExactSizeIterator::len).sum();
+        assert!(work.top.nodes().len() < most && written < 2 * most, "{kind:?}");
+        assert_eq!(scene.validate().expect("valid").blases, 1);
+    }
+    for _ in 0..6 {
+        let mut transform = scene_transform(&scene, instance);
+        transform.translation[0] += 0.001;
+        scene
+            .apply(vec![Edit::SetTransform { instance, transform }])
+            .expect("moved");
+        scene.refit();
+        let work = scene.work();
+        assert!(work.bottom.nodes().is_empty() && work.roots.is_empty());
         assert_eq!(work.written_instances.len(), 1);
         assert!(work.written_instances[0].clone().eq([instance.index()]));
         assert!(
-            work.top.nodes().len() < stats.depth as usize,
-            "{kind:?}: {} nodes",
+            work.top.nodes().len() <= stats.depth as usize + 2,
+            "{} nodes",
             work.top.nodes().len()
         );
         assert!(
@@ -57,7 +73,15 @@ fn motion_costs_one_way_up_and_no_bottom_level() {
                 && work.written_triangles.is_empty()
                 && work.written_trails.is_empty()
         );
-        assert_eq!(scene.validate().expect("valid").blases, 1);
+    }
+}
+
+/// The map of an instance, as its record has it.
+fn scene_transform(scene: &Tree, instance: InstanceId) -> Transform {
+    let own = &scene.instances()[instance.index() as usize];
+    Transform {
+        columns: own.columns,
+        translation: own.translation,
     }
 }
 

@@ -149,7 +149,7 @@ fn check_trees<N: LightNode<W>, const W: usize>(count: u32) {
         }
     }
     let expected = bytemuck::cast_slice::<N, u32>(&expected);
-    let roots: Vec<u32> = bvh.roots().iter().map(|root| root.node).collect();
+    let roots: Vec<u32> = plan.trees.iter().map(|tree| tree.start).collect();
     let together = words(&bare, |nodes| sweep::bottom_sweep(nodes, 0, triangles, &roots));
     assert!(together == expected, "{} {W}: together", N::NAME);
     let apart = words(&bare, |nodes| {

@@ -210,6 +210,9 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             self.placed[moved as usize].listed = listed;
             self.list(listed);
         }
+        let end = self.live.len() as u32;
+        self.instances[end as usize].listed = NO_INSTANCE.listed;
+        self.changes.new.written_instances.push(end);
         let old = self.instances[index as usize];
         self.instances[index as usize] = Instance {
             listed: old.listed,

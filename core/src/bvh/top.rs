@@ -145,6 +145,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         old.retain(|&node| node != INVALID);
         old.sort_unstable();
         for &node in &old {
+            self.set_above(node, INVALID);
             self.top.number_of[node as usize] = INVALID;
         }
         for run in old.chunk_by(|a, b| a + 1 == *b) {

@@ -7,7 +7,9 @@ use core::ops::Range;
 
 pub(super) use self::walk::Found;
 use self::walk::{bad, listed};
+use super::apply::NO_INSTANCE;
 use super::{Bvh, Trails};
+use crate::instance::Instance;
 use crate::node::{LightNode, kind};
 use crate::refit;
 use crate::trail::place;
@@ -105,6 +107,26 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             let own = self.arrays().path_of(INVALID, link).top;
             equal(node, slot, What::TrailLow, trail.low, own.low)?;
             equal(node, slot, What::TrailHigh, trail.high, own.high)?;
+            let at = place::<W>(self.top.number(node), slot);
+            equal(node, slot, What::Place, at, self.instances[link as usize].place)?;
+        }
+        for (index, record) in (0..).zip(&self.instances) {
+            if !self.is_leaf(index) {
+                equal(INVALID, index, What::Place, INVALID, record.place)?;
+            }
+            if index as usize >= self.live.len() {
+                equal(INVALID, index, What::Listed, NO_INSTANCE.listed, record.listed)?;
+            }
+            let placed = &self.placed[index as usize];
+            if !placed.live && placed.part_of == INVALID {
+                let nothing = Instance {
+                    place: record.place,
+                    above: record.above,
+                    listed: record.listed,
+                    ..NO_INSTANCE
+                };
+                same_words(INVALID, index, &nothing, record)?;
+            }
         }
         self.refit_again(&found, &mut again, true);
 
@@ -227,7 +249,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             count,
             placed.lights.end - placed.lights.start,
         )?;
-        let expected = crate::instance::Instance {
+        let expected = Instance {
             root: found.root,
             place: found.place,
             above: found.above,
@@ -262,7 +284,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 index,
                 self.placed[part as usize].part_of,
             )?;
-            let words = crate::instance::Instance {
+            let words = Instance {
                 root: self.roots[blas as usize].node,
                 blas,
                 count: 0,
@@ -340,6 +362,12 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             equal(node, INVALID, What::Listed, count, top.counts[number as usize])?;
             if node != top.root {
                 equal(node, INVALID, What::Children, children.max(2), children)?;
+            }
+        }
+        for (number, record) in (0..).zip(&self.instances) {
+            let node = top.nodes.get(number as usize).copied().unwrap_or(INVALID);
+            if node == INVALID || node == top.root {
+                equal(INVALID, number, What::Place, INVALID, record.above)?;
             }
         }
         Ok(())

@@ -4,9 +4,10 @@ use lightbvh::bvh::RefitPlan;
 
 use super::batch::Touched;
 
-/// Nodes of the top level for each level of each path that an edit touches: the node itself, and where it is built anew over 64 subtrees
-/// as many as those take.
-const BESIDE: usize = 1 + 63;
+/// Leaves of an instance: the parts that it is opened into, and itself.
+const LEAVES: usize = 17;
+/// Nodes of a subtree that an edit builds anew, which has at most 512 leaves and in each node at least two children.
+const SUBTREE: usize = 511;
 /// Paths of an instance that moves: from where it was, and to where it goes.
 const PATHS: usize = 2;
 /// A range of more than this part of a mesh is the whole mesh.
@@ -19,7 +20,7 @@ const ROOT: usize = 1;
 /// # Panics
 /// If there are more.
 pub fn check(plan: &RefitPlan, touched: &Touched, depth: u32) {
-    let paths = PATHS * BESIDE * depth as usize * (touched.instances + ROOT);
+    let paths = PATHS * (SUBTREE + depth as usize) * (LEAVES * touched.instances + ROOT);
     // A node of a bottom level holds a triangle, or two nodes at least; more than a sixteenth of a mesh is refitted with all of it.
     let bottom = touched.triangles + touched.single * WHOLE.max(depth as usize);
     let computed = plan.top.nodes().len();
@@ -33,7 +34,8 @@ pub fn check(plan: &RefitPlan, touched: &Touched, depth: u32) {
         "{computed} nodes of bottom levels for {touched:?}"
     );
     let computed = plan.roots.len();
-    assert!(computed <= touched.meshes, "{computed} roots for {touched:?}");
+    let roots = LEAVES * (touched.meshes + touched.instances);
+    assert!(computed <= roots, "{computed} roots for {touched:?}");
     let written = plan
         .written_nodes
         .iter()

@@ -157,18 +157,18 @@ fn bvh<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: [u64; 3
 #[test]
 fn compact_nodes() {
     bvh::<CompactNode<2>, Eq4, 2>([
-        0xe60a_5938_840b_9613,
-        0x1ff0_dca4_b0db_b1cf,
+        0x43e5_4931_55ee_5731,
+        0x53ee_a8f6_ed37_c70d,
         0x0388_23c6_e9ba_d285,
     ]);
     bvh::<CompactNode<4>, Eq4, 4>([
-        0x02bd_4845_b4d9_a598,
-        0x8c66_483b_de62_65e6,
+        0xc9ee_c31c_0f6b_20ea,
+        0x2f0f_3222_b289_d70e,
         0xafae_d1a5_adbd_fa4c,
     ]);
     bvh::<CompactNode<16>, Defensive<Eq4, 5>, 16>([
-        0x4281_1ba6_0925_0bf4,
-        0x928c_b30d_590f_dbf7,
+        0x02a4_a3ec_f14f_5844,
+        0x6a83_8250_b59a_0137,
         0xe05a_6a04_fddf_6d0c,
     ]);
 }
@@ -176,13 +176,13 @@ fn compact_nodes() {
 #[test]
 fn full_nodes() {
     bvh::<FullNode<2>, Eq4, 2>([
-        0x7074_e1d9_1954_71c8,
-        0x02d8_d984_288b_6953,
+        0x31ba_dab0_2ea7_9042,
+        0x8d8a_20b6_6661_8679,
         0x6e39_ddc4_23c0_6ca5,
     ]);
     bvh::<FullNode<8>, Eq4, 8>([
-        0x33e5_f066_4a35_9990,
-        0xd97d_486a_1dd5_0dd8,
+        0x0bbf_586c_95e2_5502,
+        0x4033_a72a_e9a3_4334,
         0xb0c3_c4d2_5004_60d0,
     ]);
 }
@@ -190,13 +190,13 @@ fn full_nodes() {
 #[test]
 fn moment_nodes() {
     bvh::<MomentNode<4>, Moments, 4>([
-        0x131f_5ab0_888c_00ef,
-        0x10b2_5453_a021_024e,
+        0xcc71_c173_f253_92a2,
+        0x2fc0_3236_b405_9fe2,
         0xf869_a053_4ab2_5673,
     ]);
     bvh::<MomentNode<8>, Defensive<Moments, 6>, 8>([
-        0xbac4_67be_2d28_4c60,
-        0x5b4c_ad19_23ba_961f,
+        0x65f4_b062_1026_7d64,
+        0xf76a_5e57_ddf4_c595,
         0xe4a5_0810_372d_ee6c,
     ]);
 }

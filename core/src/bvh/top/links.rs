@@ -35,6 +35,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Takes a node out of the top level whose children hang elsewhere.
     pub(super) fn free_top_node(&mut self, node: u32) {
         let number = self.top.number(node);
+        self.set_above(node, INVALID);
         self.top.number_of[node as usize] = INVALID;
         self.top.nodes[number as usize] = INVALID;
         self.top.numbers.give(number..number + 1);

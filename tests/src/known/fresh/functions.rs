@@ -245,7 +245,7 @@ pub fn bounds() -> (&'static str, Vec<Table>) {
         placed_moments.extend([&own[..], &moments_of(i)].concat());
         vertices.extend([&own[..], &triangles[i].p[i % 3].map(f32::to_bits)].concat());
     }
-    let instance = "instance (33 words, see tree_instances.txt)";
+    let instance = "instance (34 words, see tree_instances.txt)";
     let tables = vec![
         Table::new(
             "triangle_bounds",
@@ -421,7 +421,7 @@ pub fn importance() -> (&'static str, Vec<Table>) {
         ),
         Table::new(
             "to_local",
-            "instance (33 words, see tree_instances.txt), p[3] n[3] -> p[3] n[3] in the mesh's space",
+            "instance (34 words, see tree_instances.txt), p[3] n[3] -> p[3] n[3] in the mesh's space",
             INSTANCE + 6,
             6,
             &local,
