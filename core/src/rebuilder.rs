@@ -238,7 +238,7 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
 
     /// Starts the next rebuild, unless one is under way or there is nothing to build. Comes after the frame's
     /// [`Bvh::refit`]. Takes time in proportion to the meshes refitted since the last rebuild started, to the instances of the part of the
-    /// top level that is rebuilt, at most 2048, and to the triangles of small meshes that are built anew.
+    /// top level that is rebuilt, at most 1536, and to the triangles of small meshes that are built anew.
     pub fn end_frame<I, T: Trails>(&mut self, scene: &Bvh<N, I, W, T>) {
         let now = scene.now();
         if self.taken != Some(now) {

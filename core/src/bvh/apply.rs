@@ -73,7 +73,9 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 Edit::SetRadiance { instance, radiance } => {
                     self.placed[instance.index as usize].radiance = radiance;
                     self.place(instance.index);
-                    moved.push(instance.index);
+                    if self.is_otherwise_bright(instance.index) {
+                        moved.push(instance.index);
+                    }
                 }
                 Edit::SetTriangles { mesh, triangles } => {
                     let blas = self.meshes[mesh.index as usize].blas;
@@ -163,6 +165,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             slot: 0,
             hung: self.epoch,
             hung_radiance: radiance,
+            hung_center: [f32::NAN; 3],
             mark: 0,
             changed: self.epoch,
             parts: 0..0,

@@ -269,6 +269,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 .placed
                 .get(part as usize)
                 .map_or(0.0, |old| old.hung_radiance),
+            hung_center: [f32::NAN; 3],
             mark: 0,
             changed: self.epoch,
             parts: 0..0,

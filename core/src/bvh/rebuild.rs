@@ -17,7 +17,7 @@ use crate::node::LightNode;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RebuildParams {
     /// The top level is once it is worse than when it was built by this factor, as below: 1 for whenever something has changed, infinite
-    /// for never. Of a top level of more than 2048 instances a [`Rebuilder`](crate::Rebuilder) builds parts, one at a time.
+    /// for never. Of a top level of more than 1536 instances a [`Rebuilder`](crate::Rebuilder) builds parts, one at a time.
     pub top: f64,
     /// A bottom level is once it is worse than when it was built by more than this factor; infinite for never. The factor is
     /// 1 / (1 - l), where l is the mean by flux, over the nodes, of how much more of their lights' variance of position lies within their

@@ -37,6 +37,8 @@ pub(super) struct InstanceState {
     pub hung: u64,
     /// Its radiance then.
     pub hung_radiance: f32,
+    /// Its centre then, metres; NaN before it is moved for the first time.
+    pub hung_center: [f32; 3],
     /// The last search that came by.
     pub mark: u32,
     /// When its words changed last.
@@ -45,6 +47,14 @@ pub(super) struct InstanceState {
     pub parts: Range<u32>,
     /// The instance that this is a part of, or [`INVALID`](crate::INVALID).
     pub part_of: u32,
+}
+
+impl InstanceState {
+    /// It was put where it is in the top level as it is now.
+    pub fn settle(&mut self) {
+        self.hung_radiance = self.radiance;
+        self.hung_center = [f32::NAN; 3];
+    }
 }
 
 /// The number by which a BVH tells its own ids and rebuilds from another's. A copy has another.

@@ -134,7 +134,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.top.nodes = range.collect();
         self.top.edits.clear();
         for placed in &mut self.placed {
-            placed.hung_radiance = placed.radiance;
+            placed.settle();
         }
         self.index_top();
     }

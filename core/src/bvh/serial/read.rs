@@ -139,6 +139,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 slot: 0,
                 hung: 0,
                 hung_radiance: 0.0,
+                hung_center: [f32::NAN; 3],
                 mark: 0,
                 changed: 0,
                 parts: 0..0,
@@ -161,6 +162,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 placed.lights = first..end;
                 placed.radiance = f32::from_bits(words.one()?);
                 placed.hung_radiance = f32::from_bits(words.one()?);
+                placed.hung_center = words.array::<3>()?.map(f32::from_bits);
                 let entries = words.array::<12>()?.map(f32::from_bits);
                 let column = |k: usize| [entries[3 * k], entries[3 * k + 1], entries[3 * k + 2]];
                 placed.transform = Transform {

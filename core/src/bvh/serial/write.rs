@@ -91,6 +91,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             } = *placed;
             words.extend([mesh, user, listed, placed.lights.start, placed.radiance.to_bits()]);
             words.push(placed.hung_radiance.to_bits());
+            words.extend(placed.hung_center.map(f32::to_bits));
             let transform = &placed.transform;
             let entries = transform.columns.iter().flatten().chain(&transform.translation);
             words.extend(entries.map(|x| x.to_bits()));

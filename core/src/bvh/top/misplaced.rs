@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use super::cost::Cluster;
 use crate::bvh::{Bvh, Trails};
 use crate::node::LightNode;
+use crate::summary::Summary;
 use crate::tree::INVALID;
 
 /// An instance is put in elsewhere once it adds this part to what its node costs.
@@ -22,17 +23,19 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     pub(in crate::bvh) fn take_misplaced(&mut self, mut moved: Vec<u32>, out: &mut Vec<u32>) {
         moved.sort_unstable();
         moved.dedup();
-        // An opened instance's first part stands for all: they move together.
-        let leaves = moved.into_iter().flat_map(|index| {
-            let leaves = self.leaves_of(index);
-            if leaves.len() > 1 && self.excess(leaves.start) <= 0.0 {
-                leaves.start..leaves.start
-            } else {
-                leaves
+        let mut misplaced: Vec<(f64, u32)> = Vec::new();
+        for index in moved {
+            for leaf in self.leaves_of(index) {
+                self.note_center(leaf);
+                let excess = self.excess(leaf);
+                if excess > 0.0 {
+                    misplaced.push((excess, leaf));
+                } else if leaf == self.leaves_of(index).start {
+                    // An opened instance's first part stands for all: they move together.
+                    break;
+                }
             }
-        });
-        let excess = leaves.into_iter().map(|index| (self.excess(index), index));
-        let mut misplaced: Vec<(f64, u32)> = excess.filter(|&(excess, _)| excess > 0.0).collect();
+        }
         let most = MOST + self.live.len() / MOST;
         if misplaced.len() > most {
             misplaced.select_nth_unstable_by(most, |a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
@@ -66,12 +69,38 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         };
         let own = Cluster::new(&self.in_world(index), 1);
         let added = own.merging(&around);
-        let share = around.cost() + added;
-        if added > ADDED * around.cost() && share > SHARE * whole.cost() {
+        if self.is_otherwise_bright(index) {
             return added;
         }
+        // What lies far from the others in a tree as it was built stays there.
+        let moved = own.merging(&Cluster {
+            center: placed.hung_center.map(f64::from),
+            ..around
+        });
+        let least = ADDED * around.cost();
+        let share = around.cost() + added;
+        if added > least && moved > least && share > SHARE * whole.cost() {
+            added
+        } else {
+            0.0
+        }
+    }
+
+    /// Whether an instance's radiance is another than when it was put where it is, by a factor that matters.
+    pub(in crate::bvh) fn is_otherwise_bright(&self, index: u32) -> bool {
+        let placed = &self.placed[index as usize];
         let (was, is) = (placed.hung_radiance, placed.radiance);
-        let changed = is > FACTOR * was || was > FACTOR * is;
-        if changed { added } else { 0.0 }
+        is > FACTOR * was || was > FACTOR * is
+    }
+
+    /// Notes where an instance was before it moved for the first time since it was put where it is, as the last refit saw it.
+    fn note_center(&mut self, index: u32) {
+        let placed = &self.placed[index as usize];
+        if placed.node != INVALID && placed.hung_center[0].is_nan() {
+            let center = self.nodes[placed.node as usize]
+                .summary(placed.slot as usize)
+                .center();
+            self.placed[index as usize].hung_center = center.to_array();
+        }
     }
 }

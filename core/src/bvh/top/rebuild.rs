@@ -16,7 +16,7 @@ use crate::trail::max_levels;
 use crate::tree::INVALID;
 
 /// Most instances of a part: copied in 0.1 ms, put in place in 0.2 ms (measured: `docs/dynamics.md`).
-pub(in crate::bvh) const PART: u32 = 2048;
+pub(in crate::bvh) const PART: u32 = 1536;
 /// Nodes that one search for a part looks at.
 const LOOKED_AT: usize = 4096;
 
@@ -271,7 +271,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             let placed = &mut self.placed[link as usize];
             if placed.mark == listed {
                 placed.mark = found;
-                placed.hung_radiance = placed.radiance;
+                placed.settle();
             } else {
                 placed.node = INVALID;
                 newcomers.push(link);
