@@ -45,7 +45,10 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             if count == 1 {
                 return self.give_way(node, slot);
             }
-            self.dissolve(node);
+            // Where all of several instances have gone at once, what is dissolved may be empty, too.
+            if self.dissolve(node) {
+                continue;
+            }
             let Some(below) = self.raise(node) else {
                 return node;
             };
@@ -71,8 +74,10 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Puts the children of nodes below `node` in their place as long as there is room for them, those of the costliest first.
-    pub(super) fn dissolve(&mut self, node: u32) {
+    /// Puts the children of nodes below `node` in their place as long as there is room for them, those of the costliest first. Returns
+    /// whether there were any.
+    pub(super) fn dissolve(&mut self, node: u32) -> bool {
+        let mut is_changed = false;
         loop {
             let free = W - self.children_of(node);
             let fits = |&slot: &usize| {
@@ -80,8 +85,9 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 self.children_of(below) <= free + 1
             };
             let Some(slot) = self.costliest(node, fits) else {
-                return;
+                return is_changed;
             };
+            is_changed = true;
             let below = self.nodes[node as usize].link(slot);
             let lower = self.nodes[below as usize];
             self.free_top_node(below);
