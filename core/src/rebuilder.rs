@@ -9,6 +9,7 @@
 mod clock;
 mod handover;
 mod meshes;
+mod queue;
 mod worker;
 
 use alloc::string::String;
@@ -244,12 +245,13 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
         if self.taken != Some(now) {
             scene.search_again(&mut self.search);
         }
-        if self.flight.is_some() || (self.taken == Some(now) && self.search.is_done()) {
+        if self.flight.is_some()
+            || (self.taken == Some(now) && self.search.is_done() && !self.meshes.has_small())
+        {
             return;
         }
         let worn = scene.worn_since(&self.params.rebuild, self.taken);
-        let (small, large) = meshes::parted(worn, scene, &self.params);
-        self.meshes.await_turn(large);
+        let small = self.meshes.await_turn(worn, scene, &self.params);
         let top = scene.copy_worn_part(self.params.rebuild.top, &mut self.search);
         let job = scene.rebuild_of(top, &small);
         self.taken = Some(now);

@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 
 use super::clock::Clock;
+use super::queue::Queue;
 use super::worker::{Built, Job, Product, Worker, build};
 use super::{FrameStart, RebuildError, RebuilderParams, Swap};
 use crate::bvh::{Bvh, MeshJob, MeshTree, StageId, Trails};
@@ -18,7 +19,9 @@ const LEAST: u32 = 1 << 14;
 pub(super) struct Meshes<N, const W: usize> {
     under_way: Vec<Flight<N, W>>,
     /// Bottom levels that are still to begin.
-    waiting: Vec<u32>,
+    waiting: Queue,
+    /// Small ones, which are put in place at once, as many as a frame has room for.
+    small: Queue,
     /// Threads that have nothing to do, and those that give memory back.
     idle: Vec<Worker<N, W>>,
     freeing: Vec<Worker<N, W>>,
@@ -51,26 +54,15 @@ enum At<N, const W: usize> {
     Over,
 }
 
-/// Meshes that are put in place at once, and those that are not.
-pub(super) fn parted<N: LightNode<W>, I, const W: usize, T: Trails>(
-    worn: Vec<u32>,
-    scene: &Bvh<N, I, W, T>,
-    params: &RebuilderParams,
-) -> (Vec<u32>, Vec<u32>) {
-    let mut room = (params.bytes.max(LEAST) / SWEPT) as usize;
-    worn.into_iter().partition(|&blas| {
-        let count = scene.blas_len(blas);
-        let fits = count <= room || scene.is_single_level();
-        room -= if fits { count.min(room) } else { 0 };
-        fits
-    })
-}
+/// Most waiting meshes that a frame looks at.
+const LOOKED_AT: usize = 256;
 
 impl<N, const W: usize> Default for Meshes<N, W> {
     fn default() -> Self {
         Self {
             under_way: Vec::new(),
-            waiting: Vec::new(),
+            waiting: Queue::default(),
+            small: Queue::default(),
             idle: Vec::new(),
             freeing: Vec::new(),
             is_lost: false,
@@ -80,18 +72,50 @@ impl<N, const W: usize> Default for Meshes<N, W> {
 
 impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
     pub fn is_busy(&self) -> bool {
-        !self.under_way.is_empty() || !self.waiting.is_empty()
+        !self.under_way.is_empty() || !self.waiting.is_empty() || !self.small.is_empty()
     }
 
-    /// These are to be built, once others are done.
-    pub fn await_turn(&mut self, blases: Vec<u32>) {
-        for blas in blases {
-            let is_known =
-                self.waiting.contains(&blas) || self.under_way.iter().any(|flight| flight.blas == blas);
-            if !is_known {
+    /// Whether small meshes wait.
+    pub fn has_small(&self) -> bool {
+        !self.small.is_empty()
+    }
+
+    /// `worn` are to be built, once others are done. Returns those that are put in place at once, in no more triangles than a frame
+    /// may take: all of a single level.
+    pub fn await_turn<I, T: Trails>(
+        &mut self,
+        worn: Vec<u32>,
+        scene: &Bvh<N, I, W, T>,
+        params: &RebuilderParams,
+    ) -> Vec<u32> {
+        let all = (params.bytes.max(LEAST) / SWEPT) as usize;
+        for blas in worn {
+            if scene.blas_len(blas) <= all || scene.is_single_level() {
+                self.small.push(blas);
+            } else if !self.under_way.iter().any(|flight| flight.blas == blas) {
                 self.waiting.push(blas);
             }
         }
+        let (mut room, mut now) = (all, Vec::new());
+        for _ in 0..LOOKED_AT {
+            let Some(blas) = self.small.first() else { break };
+            // It may have gone, or been built by another.
+            let count = if scene.is_worn(blas, &params.rebuild) {
+                scene.blas_len(blas)
+            } else {
+                0
+            };
+            if count > room && !scene.is_single_level() {
+                break;
+            }
+            self.small.pop();
+            if count > 0 {
+                room -= count.min(room);
+                now.push(blas);
+            }
+        }
+        now.sort_unstable();
+        now
     }
 
     /// Brings all of them on, by no more than the frame may take.
@@ -111,9 +135,10 @@ impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
         }
         let most = params.meshes.max(1) as usize;
         let free = most.saturating_sub(self.under_way.len());
-        let mut begun = 0;
-        while begun < free && !self.waiting.is_empty() {
-            let blas = self.waiting.remove(0);
+        let (mut begun, mut looked_at) = (0, 0);
+        while begun < free && looked_at < LOOKED_AT {
+            let Some(blas) = self.waiting.pop() else { break };
+            looked_at += 1;
             // It may have gone, or been built by another.
             let is_worn = scene.is_worn(blas, &params.rebuild);
             match is_worn.then(|| scene.begin_stage(blas)).flatten() {
@@ -137,7 +162,7 @@ impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
         flights.retain(|flight| !matches!(flight.at, At::Over));
         self.under_way = flights;
         start.copied = (all - bytes) as u32;
-        start.under_way = (self.under_way.len() + self.waiting.len()) as u32;
+        start.under_way = (self.under_way.len() + self.waiting.len() + self.small.len()) as u32;
         result
     }
 

@@ -129,7 +129,7 @@ fn large_top_levels_are_built_in_parts() {
         transform: place(random),
         radiance: 1.0,
     };
-    let all = (0..7000).map(|_| add(random)).collect();
+    let all = (0..18_000).map(|_| add(random)).collect();
     let mut ids = bvh.apply(all).expect("instances").instances;
     bvh.refit();
     let mut rebuilder = Own::new(RebuilderParams {
@@ -162,9 +162,10 @@ fn large_top_levels_are_built_in_parts() {
         }
         rebuilder.end_frame(&bvh);
     }
+    // What parts can mend: the levels above them stay as they are.
     let after = drift(&bvh);
     assert!(
-        swapped > 5 && after < 1.0 + (before - 1.0) / 4.0,
+        swapped > 5 && after < 1.0 + (before - 1.0) / 2.0,
         "{swapped} swaps: {before} to {after}"
     );
     let mut last = 0;

@@ -17,6 +17,11 @@ use crate::tree::INVALID;
 
 /// Most instances of a part: copied in 0.1 ms, put in place in 0.2 ms (measured: `docs/dynamics.md`).
 pub(in crate::bvh) const PART: u32 = 1536;
+/// A top level of at most so many instances that has lost [`MUCH`] is built as a whole: parts do not put the levels above them in order.
+/// Its copy and its coming take some ten frames' bounds of 0.3 ms, once.
+const WHOLE: u32 = 16_384;
+/// How many times worse such a top level is than when its nodes were built.
+const MUCH: f64 = 1.1;
 /// Nodes that one search for a part looks at.
 const LOOKED_AT: usize = 4096;
 
@@ -122,9 +127,10 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     pub(crate) fn copy_worn_part(&self, worse: f64, search: &mut Search) -> Option<TopCopy> {
         let drift = |node: u32| self.quality(node).drift();
         let root = self.top.number(self.top.root) as usize;
-        if self.top.counts[root] <= PART {
+        let (count, whole) = (self.top.counts[root], drift(self.top.root));
+        if count <= PART || (count <= WHOLE && whole >= MUCH && whole >= worse) {
             search.left = 0;
-            return (drift(self.top.root) >= worse).then(|| self.copy_top());
+            return (whole >= worse).then(|| self.copy_top());
         }
         for _ in 0..LOOKED_AT.min(search.left as usize) {
             search.left -= 1;

@@ -187,3 +187,110 @@ fn an_edit_writes_what_is_on_its_path() {
         scene.validate().expect("valid");
     }
 }
+
+/// Most instances go while a top level is built: nodes that lose all they had, beside others that do.
+#[test]
+fn a_tree_most_of_whose_instances_are_gone_comes_in() {
+    fn check<N: LightNode<W>, I, const W: usize>(seed: u32) {
+        let random = &mut Random(seed);
+        let mut scene = Bvh::<N, I, W>::default();
+        let mesh = lamp(&mut scene);
+        let add = |random: &mut Random| Edit::AddInstance {
+            mesh,
+            transform: Transform::at((random.vector() * 10.0).to_array()),
+            radiance: 1.0,
+        };
+        let all = (0..400).map(|_| add(random)).collect();
+        let ids = scene.apply(all).expect("instances").instances;
+        scene.refit();
+        for part in [0.5, 0.1, 0.02, 0.0] {
+            let rebuild = scene.rebuild(&RebuildParams::default());
+            let gone = ids
+                .iter()
+                .filter(|&&id| scene.mesh_of(id).is_some() && random.unit() >= part);
+            let gone = gone.map(|&id| Edit::RemoveInstance(id)).collect();
+            scene.apply(gone).expect("there");
+            scene.install(rebuild.run()).expect("its own");
+            scene.refit();
+            scene
+                .validate()
+                .unwrap_or_else(|violation| panic!("{seed}, {part}: {violation}"));
+        }
+    }
+    for seed in 0..20 {
+        check::<crate::MomentNode<8>, crate::Moments, 8>(seed);
+        check::<crate::FullNode<4>, crate::Eq4, 4>(seed);
+        check::<CompactNode<2>, crate::Eq4, 2>(seed);
+    }
+}
+
+/// A grid of lamps, refitted.
+fn grid(side: u16) -> (LightBvh, vec::Vec<InstanceId>) {
+    let mut scene = LightBvh::default();
+    let mesh = lamp(&mut scene);
+    let place = |k: u16| {
+        [
+            f32::from(k % side) * 4.0,
+            f32::from(k / side % side) * 4.0,
+            f32::from(k / side / side) * 4.0,
+        ]
+    };
+    let all = (0..side * side * side).map(|k| Edit::AddInstance {
+        mesh,
+        transform: Transform::at(place(k)),
+        radiance: 1.0,
+    });
+    let ids = scene.apply(all.collect()).expect("instances").instances;
+    scene.refit();
+    (scene, ids)
+}
+
+/// Whether an instance is put in elsewhere by what `edit` does: links of nodes are written then.
+fn is_put_elsewhere(scene: &LightBvh, edit: impl FnOnce(&mut LightBvh)) -> bool {
+    let mut scene = scene.clone();
+    scene.plan();
+    edit(&mut scene);
+    !scene.plan().written_nodes.is_empty()
+}
+
+/// On each side of what decides it.
+#[test]
+fn what_is_misplaced_is_put_in_elsewhere() {
+    let (scene, ids) = grid(10);
+    let id = |scene: &LightBvh, k: usize| scene.instance_id(ids[k].index()).expect("there");
+    for k in [0, 99, 500, 555, 999] {
+        let from = scene.placed[ids[k].index() as usize].transform;
+        let moved = |by: f32| {
+            is_put_elsewhere(&scene, |scene| {
+                let mut to = from;
+                to.translation[0] += by;
+                scene.set_transform(id(scene, k), to).expect("there");
+            })
+        };
+        assert!(!moved(0.5) && !moved(-0.5), "{k}: nearby");
+        assert!(moved(200.0) && moved(-200.0), "{k}: far off");
+        let dimmed = |to: f32| {
+            is_put_elsewhere(&scene, |scene| {
+                scene.set_radiance(id(scene, k), to).expect("there")
+            })
+        };
+        assert!(!dimmed(1.9) && !dimmed(0.6), "{k}: about as bright");
+        assert!(dimmed(2.5) && dimmed(0.3), "{k}: another brightness");
+    }
+}
+
+/// As many as one call may put in elsewhere, and no more, however many are misplaced.
+#[test]
+fn no_call_puts_all_in_elsewhere() {
+    let (mut scene, ids) = grid(20);
+    let stamp = scene.epoch;
+    let brighter = ids.iter().map(|&instance| Edit::SetRadiance {
+        instance,
+        radiance: 8.0,
+    });
+    scene.apply(brighter.collect()).expect("there");
+    let put = scene.placed.iter().filter(|placed| placed.hung > stamp).count();
+    assert_eq!(put, 64 + ids.len() / 64);
+    scene.refit();
+    scene.validate().expect("valid");
+}

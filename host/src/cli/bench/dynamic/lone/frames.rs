@@ -117,7 +117,8 @@ fn beside(
     let mut changed = false;
     while rebuilder.is_busy() {
         let began = Instant::now();
-        let swapped = rebuilder.begin_frame(&mut scene.bvh).expect("no panic").swapped;
+        let start = rebuilder.begin_frame(&mut scene.bvh).expect("no panic");
+        let swapped = start.swapped || start.adopted > 0;
         let mut begin = began.elapsed();
         if swapped {
             // Nothing else happens in this frame.
