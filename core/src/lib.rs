@@ -7,8 +7,8 @@
 //! there is flux, so no light is lost (`docs/walk.md`).
 //!
 //! **Two levels** make it fit for moving lights (Moreau, Pharr & Clarberg 2019; Freire & Pereira 2023): each emissive
-//! mesh has a bottom-level tree over its triangles that is only refitted, and a small top-level tree over the meshes is
-//! refitted or rebuilt every frame.
+//! mesh has a bottom-level tree over its triangles that is refitted, and a top-level tree over the instances changes leaf by leaf;
+//! what has lost quality is built anew beside the frames.
 //!
 //! **The bits agree.** Nodes, refit and traversal are written with operations that Vulkan defines exactly ([`exact`]), in
 //! a fixed order, so the same source compiled by rust-gpu gives the same words on a device as natively.

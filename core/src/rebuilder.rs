@@ -26,8 +26,7 @@ use crate::node::{DefaultNode, LightNode};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Swap {
-    /// In the frame that is due or the first one after it that finds the worker done; never waits. Where frames are shorter than a
-    /// rebuild, the top level grows by one node in depth with each batch of added instances until then, and samples get slower with it.
+    /// In the frame that is due or the first one after it that finds the worker done; never waits.
     #[default]
     WhenReady,
     /// In the very frame that is due, waiting for the worker if it is not done: trees depend on the edits alone, never on
@@ -45,7 +44,7 @@ pub struct RebuilderParams {
     pub swap: Swap,
     /// What is built anew.
     pub rebuild: RebuildParams,
-    /// Bytes that the start of a frame copies of meshes that are built anew, at least 16 KiB; 512 KiB, the default, take 0.1 to 0.3 ms. A
+    /// Bytes that the start of a frame copies of meshes that are built anew, at least 16 KiB; 256 KiB, the default, take 0.1 ms as a rule. A
     /// mesh of less than a 256th as many triangles is put in place at once, as is a single level, whose lights are its triangles; a
     /// larger one over the frames that it takes, 112 bytes for a triangle before it is built, and its nodes and trails after it. In the
     /// frame in which its tree takes its place, each instance of the mesh is told; where arrays grow, the system may move them.
@@ -61,7 +60,7 @@ impl Default for RebuilderParams {
             after: 1,
             swap: Swap::WhenReady,
             rebuild: RebuildParams::default(),
-            bytes: 1 << 19,
+            bytes: 1 << 18,
             meshes: 2,
         }
     }

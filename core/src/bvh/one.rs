@@ -30,8 +30,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         Ok(added.instances[0])
     }
 
-    /// Moves an instance. One that jumps away from those around it makes samples worse until the next rebuild, for its node of the top
-    /// level then spans both places: remove it and add it instead.
+    /// Moves an instance, anywhere: it keeps its id and its lights' numbers. One that goes away from those around it is put in elsewhere
+    /// in the top level.
     ///
     /// # Errors
     /// [`EditReason`]; nothing is changed then.

@@ -74,9 +74,8 @@ impl Ranges {
             return;
         }
         let (mut start, mut length) = (range.start, range.end - range.start);
-        if let Some((before, size)) = self.free.before(start)
-            && before + size == start
-        {
+        let before = self.free.before(start);
+        if let Some((before, size)) = before.filter(|&(before, size)| before + size == start) {
             self.free.remove(before);
             start = before;
             length += size;

@@ -65,7 +65,11 @@ fn what_is_not_whole_is_replaced() {
                 "{}",
                 info.probe.name
             );
-            assert_eq!(files(directory), [file.clone()], "nothing is left beside it");
+            assert_eq!(
+                files(directory),
+                std::slice::from_ref(&file),
+                "nothing is left beside it"
+            );
         }
         fs::remove_dir_all(directory).expect("removed");
     }

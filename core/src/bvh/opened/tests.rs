@@ -18,7 +18,7 @@ fn ring(count: u32, radius: f32, shift: f32) -> Vec<EmissiveTriangle> {
     let at = |k: u32| {
         let t = (k as f32 + shift) / count as f32;
         // Round enough: a square's corners cut.
-        let tent = |t: f32| 4.0 * ((t - (t + 0.5) as u32 as f32).abs() - 0.25);
+        let tent = |t: f32| 4.0 * (crate::exact::abs(t - (t + 0.5) as u32 as f32) - 0.25);
         [radius * tent(t), 0.0, radius * tent(t + 0.25)]
     };
     (0..count)
@@ -77,7 +77,7 @@ fn is_exact<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 ) {
     bvh.validate().unwrap_or_else(|violation| panic!("{violation}"));
     let mut n = random.vector();
-    n *= 1.0 / n.length().max(1e-3);
+    n *= crate::exact::rsqrt(crate::exact::max(n.length_squared(), 1e-6));
     let point = ShadingPoint {
         p: (random.vector() * 6.0).to_array(),
         n: n.to_array(),

@@ -104,9 +104,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let number = self.top.number(node);
         // There are more records than nodes, unless there are none: then nothing asks.
         debug_assert!(at == INVALID || (number as usize) < self.instances.len());
-        if let Some(record) = self.instances.get_mut(number as usize)
-            && record.above != at
-        {
+        let record = self.instances.get_mut(number as usize);
+        if let Some(record) = record.filter(|record| record.above != at) {
             record.above = at;
             self.changes.new.written_instances.push(number);
         }

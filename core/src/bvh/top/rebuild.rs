@@ -264,10 +264,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.top.mark += 2;
         let (listed, found) = (self.top.mark - 1, self.top.mark);
         for &name in names {
-            if let Some(placed) = self.placed.get_mut(name as usize)
-                && placed.node != INVALID
-                && placed.hung <= since
-            {
+            let there = self.placed.get_mut(name as usize);
+            if let Some(placed) = there.filter(|placed| placed.node != INVALID && placed.hung <= since) {
                 placed.mark = listed;
             }
         }
