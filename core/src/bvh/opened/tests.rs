@@ -77,7 +77,7 @@ fn is_exact<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 ) {
     bvh.validate().unwrap_or_else(|violation| panic!("{violation}"));
     let mut n = random.vector();
-    n *= crate::exact::rsqrt(crate::exact::max(n.length_squared(), 1e-6));
+    n *= crate::exact::rsqrt(crate::exact::max(crate::vector::length_squared(n), 1e-6));
     let point = ShadingPoint {
         p: (random.vector() * 6.0).to_array(),
         n: n.to_array(),

@@ -473,7 +473,7 @@ fn a_plan_that_does_not_say_all_is_not_trusted() {
         // The next plan may say some of it again; what follows is small: as bright as that, an instance stays where it is.
         scene.plan();
         device.follow(&scene);
-        shine(&mut scene, 5, 1.0 + f32::from(k) / 8.0);
+        shine(&mut scene, 15, 1.0 + f32::from(k) / 8.0);
         scene.plan();
         let frame = device.follow(&scene);
         assert!(copied(&frame) < everything(&scene) / 4, "{what}, the frame after");
