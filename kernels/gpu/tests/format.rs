@@ -124,7 +124,7 @@ macro_rules! record {
 #[test]
 fn records_have_their_fields() {
     record!(Instance: root, place, above, blas, first, first_triangle, count, listed, columns, translation, inverse, per_inverse,
-        flux, radiance, mirrored);
+        flux, radiance, mirrored, part);
     record!(BlasRoot: node, words);
     record!(EmissiveTriangle: p, radiance, mesh, flags);
     record!(SampledLight: light, instance, pmf);
@@ -200,8 +200,8 @@ fn files_begin_with_their_header() {
     assert_eq!(at("`FORMAT`"), lightbvh::bvh::FORMAT);
     assert_eq!(at("number of all words"), words.len() as u32);
     assert_eq!((at("`W`"), at("length of the array of nodes")), (8, 1));
-    // Behind it the one range of the top level, and the kinds of its one node.
-    assert_eq!(words.len(), header + 2 + 1);
+    // Behind it the one node of the top level with its edits and quality, and its kinds.
+    assert_eq!(words.len(), header + 3 + 1);
     let versions = [
         "lightbvh::node::NODE_FORMAT`, now ",
         "lightbvh::bvh::FORMAT`, now ",
