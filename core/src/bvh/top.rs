@@ -15,8 +15,10 @@ mod settle;
 
 use alloc::vec::Vec;
 
+#[cfg(feature = "std")]
+pub(crate) use self::rebuild::Search;
+pub(crate) use self::rebuild::TopCopy;
 pub(super) use self::rebuild::TopTree;
-pub(crate) use self::rebuild::{Search, TopCopy};
 pub(super) use self::settle::MOST as MOST_EDITS;
 use super::ranges::Ranges;
 use super::{Bvh, Trails};

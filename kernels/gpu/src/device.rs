@@ -1,5 +1,8 @@
 //! What a device must have to run the kernels.
 
+#[doc(inline)]
+pub use crate::frame::Region;
+
 pub use crate::memory_model::without_vulkan_memory_model;
 
 /// Major and minor version of Vulkan: the modules are SPIR-V 1.5.

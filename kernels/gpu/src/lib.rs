@@ -29,7 +29,7 @@ pub mod spirv;
 pub mod table;
 
 pub use buffer::Buffer;
-pub use frame::{Copy, Frame, Mirror, Region};
+pub use frame::{Copy, Frame, Mirror};
 pub use query::{Query, query_push};
 pub use refit::{Dispatch, Pass, Refit};
 #[cfg(feature = "kernels")]
@@ -44,6 +44,8 @@ pub use table::{KERNELS, LIGHT_POINTS};
 pub use device::{PUSH_CONSTANTS, REQUIRED_FEATURES, STORAGE_BUFFERS, VULKAN, without_vulkan_memory_model};
 #[doc(hidden)]
 pub use float_modes::{FloatControls, FloatEnvironment, with_float_modes};
+#[doc(hidden)]
+pub use frame::Region;
 #[doc(hidden)]
 pub use kernel::{Access, Binding, Kernel, ROW_GROUPS, groups};
 #[doc(hidden)]

@@ -16,13 +16,17 @@ use crate::trail::max_levels;
 use crate::tree::INVALID;
 
 /// Most instances of a part: copied in 0.1 ms, put in place in 0.2 ms (measured: `docs/dynamics.md`).
+#[cfg(feature = "std")]
 pub(in crate::bvh) const PART: u32 = 1536;
 /// A top level of at most so many instances that has lost [`MUCH`] is built as a whole: parts do not put the levels above them in order.
 /// Its copy and its coming take some ten frames' bounds of 0.3 ms, once.
+#[cfg(feature = "std")]
 const WHOLE: u32 = 16_384;
 /// How many times worse such a top level is than when its nodes were built.
+#[cfg(feature = "std")]
 const MUCH: f64 = 1.1;
 /// Nodes that one search for a part looks at.
+#[cfg(feature = "std")]
 const LOOKED_AT: usize = 4096;
 
 /// Which subtree: its root's number, and when that node came into the tree.
@@ -33,6 +37,7 @@ pub(in crate::bvh) struct Part {
 }
 
 /// How far the top level's nodes have been looked at.
+#[cfg(feature = "std")]
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Search {
     /// The next number.
@@ -41,6 +46,7 @@ pub(crate) struct Search {
     left: u32,
 }
 
+#[cfg(feature = "std")]
 impl Search {
     /// Whether all have been.
     pub fn is_done(&self) -> bool {
@@ -124,6 +130,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// What the next part is built from that is worse than when it was built by the factor `worse` or more; all of the top level, where
     /// that is no more than a part. Time in proportion to [`PART`].
+    #[cfg(feature = "std")]
     pub(crate) fn copy_worn_part(&self, worse: f64, search: &mut Search) -> Option<TopCopy> {
         let drift = |node: u32| self.quality(node).drift();
         let root = self.top.number(self.top.root) as usize;
@@ -155,6 +162,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// All nodes are to be looked at again.
+    #[cfg(feature = "std")]
     pub(crate) fn search_again(&self, search: &mut Search) {
         search.left = self.top.nodes.len() as u32;
     }
