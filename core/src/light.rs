@@ -7,6 +7,7 @@ use glam::Vec3;
 
 pub use point::{LightPoint, uniform_point};
 
+use crate::error::Number;
 use crate::exact;
 
 /// "No such index."
@@ -35,7 +36,8 @@ pub struct EmissiveTriangle {
     pub p: [[f32; 3]; 3],
     /// Radiance, W/(m² sr), linear RGB; zero or in [`MIN_RADIANCE`]`..=`[`MAX_RADIANCE`].
     pub radiance: [f32; 3],
-    /// Index of the mesh light that owns the triangle.
+    /// Index of the mesh light that owns the triangle: what [`Lights`](crate::Lights) takes, and what a light in the world has. Not looked
+    /// at where a mesh is given to a [`Bvh`](crate::Bvh).
     pub mesh: u32,
     /// [`TWO_SIDED`](Self::TWO_SIDED) or 0.
     pub flags: u32,
@@ -133,14 +135,16 @@ impl core::fmt::Display for LightError {
         match *self {
             Self::Coordinate { vertex, axis, value } => write!(
                 f,
-                "coordinate {} of vertex {vertex} is {value:e}, expected a finite number of magnitude at most 2^40 (1.1e12); \
+                "coordinate {} of vertex {vertex} is {}, expected a finite number of magnitude at most 2^40 (1.1e12); \
                  scale the scene or repair the mesh",
-                ['x', 'y', 'z'][axis]
+                ['x', 'y', 'z'][axis],
+                Number(value)
             ),
             Self::Radiance { channel, value } => write!(
                 f,
-                "{} radiance is {value:e}, expected 0 or a number from 2^-100 to 2^100 (7.9e-31 to 1.3e30); repair the material's emission",
-                ["red", "green", "blue"][channel]
+                "{} radiance is {}, expected 0 or a number from 2^-100 to 2^100 (7.9e-31 to 1.3e30); repair the material's emission",
+                ["red", "green", "blue"][channel],
+                Number(value)
             ),
             Self::Flags { flags } => write!(
                 f,

@@ -7,6 +7,7 @@ pub use glossy::GlossyPoint;
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
+use crate::error::Number;
 use crate::exact;
 use crate::instance::Instance;
 use crate::light::{MAX_COORDINATE, MIN_COORDINATE};
@@ -135,9 +136,10 @@ impl core::fmt::Display for PointError {
         match *self {
             Self::Coordinate { axis, value } => write!(
                 f,
-                "coordinate {} of a shading point is {value:e}, expected a finite number of magnitude at most 2^40 (1.1e12); \
+                "coordinate {} of a shading point is {}, expected a finite number of magnitude at most 2^40 (1.1e12); \
                  bring the scene nearer to its origin",
-                ['x', 'y', 'z'][axis]
+                ['x', 'y', 'z'][axis],
+                Number(value)
             ),
             Self::Normal { n: [x, y, z] } => write!(
                 f,

@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 use core::fmt;
 
+use crate::error::Number;
 use crate::light::{EmissiveTriangle, LightError};
 use crate::transform::{Transform, TransformError};
 use crate::tree::INVALID;
@@ -241,7 +242,8 @@ impl fmt::Display for EditReason {
             Self::Transform(error) => write!(f, "{error}"),
             Self::Radiance { value } => write!(
                 f,
-                "factor on radiance {value:e}, expected 0 or a number from 2^-60 to 2^60 (8.7e-19 to 1.2e18); put the rest into the mesh"
+                "factor on radiance {}, expected 0 or a number from 2^-60 to 2^60 (8.7e-19 to 1.2e18); put the rest into the mesh",
+                Number(*value)
             ),
             Self::Count { expected, found } => write!(
                 f,

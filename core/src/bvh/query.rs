@@ -1,5 +1,6 @@
 //! Samples and their probabilities.
 
+use super::edit::InstanceId;
 use super::trails::Sampled;
 use super::{Bvh, Trails};
 use crate::importance::ImportanceModel;
@@ -82,11 +83,10 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
 impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
     /// Probability with which [`sample`](Self::sample) returns `light` of `instance`, as a [`SampledLight`] names them, at `point`:
-    /// to the bit the one that comes with the sample. 0 where there is no such light. A single level has one instance, whichever is
-    /// named.
+    /// to the bit the one that comes with the sample. 0 where there is no such light, and where it is not that instance's. A single level has
+    /// one instance, whichever is named.
     ///
-    /// For multiple importance sampling, where a ray of the caller's hits triangle `k` of an instance's mesh, the light is
-    /// [`lights_of`](Self::lights_of)`(id).start + k`, and the instance `id.index()`.
+    /// For a triangle of a mesh that a ray of the caller's hits, [`pmf_of`](Self::pmf_of) asks by the instance's id.
     #[must_use]
     pub fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {
         debug_assert!(
@@ -94,5 +94,54 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
             "not a shading point: {point:?}; `ShadingPoint::checked` says why"
         );
         self.tree().pmf(point, light, instance)
+    }
+
+    /// [`pmf`](Self::pmf) of triangle `triangle`, as the mesh was given, of an instance: what multiple importance sampling asks where a
+    /// ray hits it. `None` where there is no such instance, or its mesh has no such triangle.
+    #[must_use]
+    pub fn pmf_of(&self, point: &ShadingPoint, instance: InstanceId, triangle: u32) -> Option<f32> {
+        let lights = self.lights_of(instance)?;
+        let light = lights.start.checked_add(triangle)?;
+        lights
+            .contains(&light)
+            .then(|| self.pmf(point, light, instance.index()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kit::triangle;
+    use crate::{LightBvh, Transform};
+
+    #[test]
+    fn the_mesh_s_own_numbers_ask_for_the_same_probability() {
+        let mut bvh = LightBvh::default();
+        let lamp = |x: f32| triangle([[x, 3.0, 0.0], [x + 1.0, 3.0, 0.0], [x, 3.0, 1.0]]);
+        let mesh = bvh.add_mesh((0..40).map(|k| lamp(k as f32)).collect()).unwrap();
+        let ids = [0.0, 5.0, 50.0].map(|z| bvh.add_instance(mesh, Transform::at([0.0, 0.0, z])).unwrap());
+        bvh.refit();
+        let point = ShadingPoint {
+            p: [3.0, 0.0, 4.0],
+            n: [0.0, 1.0, 0.0],
+        };
+        let mut sum = 0.0;
+        for id in ids {
+            let lights = bvh.lights_of(id).unwrap();
+            for triangle in 0..40 {
+                let pmf = bvh.pmf_of(&point, id, triangle).unwrap();
+                let light = lights.start + triangle;
+                assert_eq!(pmf.to_bits(), bvh.pmf(&point, light, id.index()).to_bits());
+                sum += f64::from(pmf);
+            }
+            assert_eq!(bvh.pmf_of(&point, id, 40), None);
+            assert_eq!(bvh.pmf_of(&point, id, u32::MAX), None);
+        }
+        assert!((sum - 1.0).abs() < 1e-6, "{sum}");
+        // A light of another instance has none.
+        let first = bvh.lights_of(ids[0]).unwrap().start;
+        assert_eq!(bvh.pmf(&point, first, ids[1].index()), 0.0);
+        bvh.remove_instance(ids[1]).unwrap();
+        assert_eq!(bvh.pmf_of(&point, ids[1], 0), None);
     }
 }

@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use crate::error::Number;
+
 /// Why a transform is refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -33,8 +35,9 @@ impl fmt::Display for TransformError {
                 }
                 write!(
                     f,
-                    " of a transform is {value:e}, expected a finite number of magnitude at most 2^40 (1.1e12); repair the \
-                     animation"
+                    " of a transform is {}, expected a finite number of magnitude at most 2^40 (1.1e12); repair the \
+                     animation",
+                    Number(value)
                 )
             }
             Self::TooFar { metres } => write!(

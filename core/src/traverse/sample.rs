@@ -37,6 +37,13 @@ impl SampledLight {
     };
 }
 
+impl Default for SampledLight {
+    /// [`NONE`](Self::NONE).
+    fn default() -> Self {
+        Self::NONE
+    }
+}
+
 /// See [`LightTree::sample`].
 #[inline(always)]
 pub(super) fn sample<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(

@@ -40,7 +40,9 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// the same edits, refits and rebuilds the same words if it was refitted when it was written. Places of its arrays that are not in use hold the words of nothing.
     ///
     /// It is another BVH, so it has ids of its own: [`mesh_id`](Self::mesh_id) and [`instance_id`](Self::instance_id) give them by
-    /// the indices, which stay. What was planned for a mirror is not written: one takes all arrays over, as
+    /// the indices, which stay; a program that keeps ids in a file keeps [`InstanceId::index`](super::InstanceId::index) and
+    /// [`MeshId::index`](super::MeshId::index) in their place. A `Rebuilder` of the one that was written knows nothing of it: it starts with a
+    /// new one. What was planned for a mirror is not written: one takes all arrays over, as
     /// `lightbvh_gpu::Mirror` does by itself.
     ///
     /// The words may be anything that gives a sound light BVH, damaged ones too: there is no checksum, and a turned bit may be another
