@@ -21,7 +21,7 @@ pub(crate) struct Number(pub f32);
 
 impl core::fmt::Display for Number {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let magnitude = self.0.abs();
+        let magnitude = crate::exact::abs(self.0);
         if (1e-3..1e6).contains(&magnitude) || magnitude == 0.0 {
             write!(f, "{}", self.0)
         } else {
