@@ -5,16 +5,16 @@
 //! changed meanwhile is refitted there; then the instances are told of the new root and triangles, all at once. The order of lights
 //! is a hint: what is exact comes from the refit. Edits meanwhile write both places.
 
+mod dirty;
 mod job;
 mod place;
 mod settle;
 
 use alloc::boxed::Box;
-use alloc::vec::Vec;
 use core::ops::Range;
 
+use self::dirty::Dirty;
 pub(crate) use self::job::{MeshJob, MeshTree};
-use super::changes::merged;
 use super::{Bvh, Trails};
 use crate::levels::Levels;
 use crate::node::LightNode;
@@ -44,26 +44,29 @@ pub(super) struct Staged {
     is_placed: bool,
     depth: u32,
     levels: Levels,
-    /// Triangles, where they will stand, that changed since they were copied.
-    changed: Vec<Range<u32>>,
-    /// How many since the last frame began.
+    /// Triangles, by their places in the mesh, that changed since they were copied, and whose nodes are not marked yet.
+    changed: Dirty,
+    /// How many changed since the last frame began.
     fresh: usize,
-    /// Whether all nodes from the first to that of index `swept` are to be computed.
-    is_whole: bool,
-    swept: u32,
+    /// Nodes, once they are there, that are to be computed.
+    dirty: Dirty,
 }
 
 impl Staged {
-    /// Whether so much changed that paths are no less work than all nodes.
-    fn is_worn(&self) -> bool {
-        let changed: usize = self.changed.iter().map(ExactSizeIterator::len).sum();
-        changed * MOST > self.triangles.len()
+    /// All nodes are to be computed.
+    fn mark_all(&mut self) {
+        self.changed = Dirty::none(self.triangles.len());
+        self.dirty.mark_all(self.nodes.len());
     }
 
-    fn sweep_all(&mut self) {
-        self.is_whole = true;
-        self.swept = self.nodes.len() as u32;
-        self.changed.clear();
+    /// Its nodes and trails are there. So much may have changed meanwhile that ways down are no less work than all nodes.
+    fn place(&mut self) {
+        self.is_placed = true;
+        self.fresh = 0;
+        self.dirty = Dirty::none(self.nodes.len());
+        if self.changed.count() as usize * MOST > self.triangles.len() {
+            self.mark_all();
+        }
     }
 }
 
@@ -89,10 +92,9 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             is_placed: false,
             depth: 0,
             levels: Levels::default(),
-            changed: Vec::new(),
+            changed: Dirty::none(count),
             fresh: 0,
-            is_whole: false,
-            swept: 0,
+            dirty: Dirty::default(),
         };
         self.blases[blas as usize].staged = Some(Box::new(staged));
         self.staging.push(blas);
@@ -196,14 +198,11 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             return;
         }
         let to = staged.triangles.start + first..staged.triangles.start + end;
-        if count as usize == staged.triangles.len() {
-            staged.sweep_all();
+        if staged.is_placed && count as usize == staged.triangles.len() {
+            staged.mark_all();
         } else {
-            staged.changed.push(to.clone());
-            staged.fresh += to.len();
-            if staged.changed.len() > 2 * staged.triangles.len() / MOST + 64 {
-                staged.changed = merged(core::mem::take(&mut staged.changed));
-            }
+            (first..end).for_each(|triangle| staged.changed.mark(triangle));
+            staged.fresh += (end - first) as usize;
         }
         let start = own.triangles.start;
         let from = (start + first) as usize..(start + end) as usize;

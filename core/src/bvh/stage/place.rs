@@ -50,9 +50,6 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             let nodes = self.node_ranges.take(count);
             let staged = self.staged(id)?;
             staged.nodes = nodes;
-            if staged.is_whole {
-                staged.sweep_all();
-            }
         }
         let staged = self.staged(id)?;
         let (nodes, triangles) = (staged.nodes.clone(), staged.triangles.clone());
@@ -68,8 +65,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             let staged = self.staged(id)?;
             staged.depth = depth;
             staged.levels = levels;
-            staged.fresh = 0;
-            staged.is_placed = true;
+            staged.place();
         }
         Some(is_done)
     }

@@ -1,70 +1,75 @@
-//! What changed while a tree was built is refitted in it, until it may take its place.
+//! What changed while a tree was built is computed in it, until it may take its place.
 
-use alloc::vec::Vec;
-use core::ops::Range;
 
 use super::{MOST, StageId};
 use crate::bvh::changes::merged;
 use crate::bvh::{Bvh, Trails};
-use crate::node::LightNode;
+use crate::node::{LightNode, kind};
 use crate::sweep;
 
-/// Bytes that take about the time of a node in a sweep, and of a path to a triangle.
+/// Bytes that take about the time of a node, and of a way down to a triangle.
 const NODE: usize = 2048;
-const PATH: usize = 16384;
+const PATH: usize = 4096;
+/// Few enough nodes for one thread, which takes them in order.
+const IN_ORDER: usize = 1024;
 
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Refits more of what changed since the triangles were copied, and lets the new tree take the place of the old where nothing is
+    /// Computes more of what changed since the triangles were copied, and lets the new tree take the place of the old where nothing is
     /// left; whether it has. `None` where the stage is gone.
+    ///
+    /// However much changes, and however often, it ends: more triangles are looked for than have changed since the last frame, and more
+    /// nodes are computed than those newly marked, by the bytes at least.
     pub(crate) fn settle_stage(&mut self, id: StageId, bytes: &mut usize) -> Option<bool> {
         let staged = self.staged(id)?;
         let fresh = core::mem::take(&mut staged.fresh);
-        // Where more come from frame to frame, paths are sure to end.
-        let is_worn = fresh == 0 && staged.is_worn();
-        if !staged.is_whole && (is_worn || (!T::KEPT && !staged.changed.is_empty())) {
-            staged.sweep_all();
-        }
-        if staged.is_whole {
-            self.sweep_stage(id, bytes)?;
-        }
-        let staged = self.staged(id)?;
-        if !staged.is_whole {
-            // Never fewer than come, so that it ends.
-            let paths = (*bytes / PATH).max(2 * fresh).max(1);
-            *bytes = bytes.saturating_sub(paths * PATH);
-            let some = first_of(&mut staged.changed, paths);
-            let (root, depth) = (staged.nodes.start, staged.depth);
-            if !some.is_empty() {
-                let levels = self.paths(root, depth, some);
-                for range in levels.ranges() {
-                    sweep::bottom(&mut self.nodes, &self.triangles, &levels.nodes()[range]);
-                }
-                self.judge_list(levels.nodes());
-                let written = levels.nodes().iter().map(|&node| node..node + 1);
-                self.changes.new.written_nodes.extend(written);
-            }
+        let before = staged.dirty.count();
+        if staged.changed.count() > 0 && !T::KEPT {
+            staged.mark_all();
+        } else {
+            let some = staged.changed.take_last((*bytes / PATH).max(2 * fresh).max(1) as u32);
+            *bytes = bytes.saturating_sub(some.len() * PATH);
+            self.mark_paths(id, &some)?;
         }
         let staged = self.staged(id)?;
-        let is_settled = !staged.is_whole && staged.changed.is_empty();
+        let marked = staged.dirty.count().saturating_sub(before);
+        let count = ((*bytes / NODE).max(1) as u32).max(2 * marked);
+        let base = staged.nodes.start;
+        let mut list = staged.dirty.take_last(count);
+        *bytes = bytes.saturating_sub(list.len() * NODE);
+        list.iter_mut().for_each(|node| *node += base);
+        for some in list.chunks(IN_ORDER) {
+            sweep::bottom(&mut self.nodes, &self.triangles, some);
+        }
+        self.judge_list(&list);
+        let written = list.iter().map(|&node| node..node + 1).collect();
+        self.changes.new.written_nodes.extend(merged(written));
+        let staged = self.staged(id)?;
+        let is_settled = staged.dirty.count() == 0 && staged.changed.count() == 0;
         if is_settled {
             self.adopt_stage(id.blas);
         }
         Some(is_settled)
     }
 
-    /// Computes more of the nodes, from the last to the first.
-    fn sweep_stage(&mut self, id: StageId, bytes: &mut usize) -> Option<()> {
+    /// Marks the nodes on the ways to some triangles of a stage, which count from its first.
+    fn mark_paths(&mut self, id: StageId, triangles: &[u32]) -> Option<()> {
         let staged = self.staged(id)?;
-        // Few enough for one thread, which takes them in order.
-        let count = ((*bytes / NODE).clamp(1, 1024) as u32).min(staged.swept);
-        *bytes = bytes.saturating_sub(count as usize * NODE);
-        let end = staged.nodes.start + staged.swept;
-        staged.swept -= count;
-        staged.is_whole = staged.swept > 0;
-        let list: Vec<u32> = (end - count..end).rev().collect();
-        sweep::bottom(&mut self.nodes, &self.triangles, &list);
-        self.judge_list(&list);
-        self.changes.new.written_nodes.push(end - count..end);
+        let (root, first, depth) = (staged.nodes.start, staged.triangles.start, staged.depth);
+        let mut dirty = core::mem::take(&mut staged.dirty);
+        for triangle in triangles {
+            let trail = self.trail_of(first + triangle);
+            let mut node = root;
+            for level in 0..depth {
+                dirty.mark(node - root);
+                let slot = trail.slot::<W>(level) as usize;
+                let own = &self.nodes[node as usize];
+                if own.kind(slot) != kind::INNER {
+                    break;
+                }
+                node = own.link(slot);
+            }
+        }
+        self.staged(id)?.dirty = dirty;
         Some(())
     }
 
@@ -87,23 +92,4 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             }
         }
     }
-}
-
-/// Takes the first `count` indices, or all there are.
-pub(super) fn first_of(ranges: &mut Vec<Range<u32>>, count: usize) -> Vec<Range<u32>> {
-    let mut all = merged(core::mem::take(ranges)).into_iter();
-    let (mut some, mut left) = (Vec::new(), count as u32);
-    for range in all.by_ref() {
-        let end = range.end.min(range.start + left);
-        left -= end - range.start;
-        some.push(range.start..end);
-        if left == 0 {
-            if end < range.end {
-                ranges.push(end..range.end);
-            }
-            break;
-        }
-    }
-    ranges.extend(all);
-    some
 }

@@ -4,7 +4,6 @@ extern crate std;
 
 use std::vec::Vec;
 
-use super::settle::first_of;
 use crate::bvh::{FrameStart, RebuildParams, RebuilderParams, Swap};
 use crate::exact::hash;
 use crate::kit::Random;
@@ -241,12 +240,23 @@ fn what_comes_to_nothing_leaves_nothing() {
     }
 }
 
+/// Parts of it that change again and again, each time more than are left when the next change comes, put it off for a while only.
 #[test]
-fn indices_are_taken_in_order() {
-    let mut ranges = std::vec![7..9, 1..4, 3..5];
-    assert!(first_of(&mut ranges, 3).iter().eq([&(1..4)]));
-    assert_eq!(ranges, [4..5, 7..9]);
-    assert_eq!(first_of(&mut ranges, 2), [4..5, 7..8]);
-    assert!(first_of(&mut ranges, 9).iter().eq([&(8..9)]));
-    assert!(ranges.is_empty() && first_of(&mut ranges, 9).is_empty());
+fn what_changes_in_parts_now_and_then_does_not_put_it_off() {
+    for (every, share) in [(20, 20), (7, 40), (3, 17)] {
+        let (mut bvh, mesh, mut rebuilder) = scene();
+        let count = COUNT / share;
+        let frames = until_adopted(&mut bvh, &mut rebuilder, |bvh, frame| {
+            if frame % every == 0 {
+                let first = frame / every * count % (COUNT - count);
+                let mut some = lamps(2)[first as usize..(first + count) as usize].to_vec();
+                for lamp in &mut some {
+                    lamp.radiance = [1.0 + hash(frame) as f32 * 1e-10; 3];
+                }
+                bvh.set_triangle_range(mesh, first, some).expect("its own");
+            }
+        });
+        assert!(frames < 400, "{every}: {frames}");
+        assert!(drift(&bvh, mesh) < 1.01, "{}", drift(&bvh, mesh));
+    }
 }
