@@ -78,6 +78,12 @@ pub struct FrameStart {
     pub built: Duration,
     /// Number of large meshes whose new trees took their places since the last frame began.
     pub adopted: u32,
+    /// Number of large meshes whose new trees came to nothing since then: the mesh is gone or was built by other means, or building failed.
+    /// Deformation drops none: what changes meanwhile is computed in the new tree.
+    pub dropped: u32,
+    /// Whether large meshes wait because another `Rebuilder` has some of the same light BVH under way. One for each light BVH is enough: a
+    /// second one begins no large mesh as long as the first has one under way.
+    pub is_second: bool,
     /// Number of large meshes that are under way or wait for it.
     pub under_way: u32,
     /// Bytes copied of them, or time as much.

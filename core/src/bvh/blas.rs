@@ -181,7 +181,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             &[nodes.start],
         );
         self.roots[index as usize] = refit::root(&self.nodes, nodes.start);
-        self.judge_range(nodes, true);
+        self.judge_range(nodes.clone(), true);
+        self.note_size(self.blas_len(index), nodes.len());
         self.changes.new.mark_built(index);
     }
 

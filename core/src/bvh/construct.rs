@@ -48,6 +48,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             added.push(bvh.insert_instance(mesh, Transform::IDENTITY, 1.0).index());
         }
         bvh.insert_instances(&added);
+        bvh.reserve_room();
         bvh.refit();
         bvh
     }

@@ -35,6 +35,11 @@ mod ranges;
 mod rebuild;
 mod records;
 mod refit;
+#[cfg_attr(
+    not(feature = "std"),
+    allow(dead_code, reason = "the `Rebuilder` asks for it")
+)]
+mod room;
 mod serial;
 #[cfg_attr(not(feature = "std"), allow(dead_code, reason = "the `Rebuilder` drives it"))]
 mod stage;
@@ -60,7 +65,7 @@ pub use rebuild::{Due, Foreign, Rebuild, RebuildParams, Rebuilt};
 pub use refit::RefitPlan;
 pub use serial::{FORMAT, ReadError};
 #[cfg(feature = "std")]
-pub(crate) use stage::{MeshJob, MeshTree, StageId};
+pub(crate) use stage::{Builder, MeshJob, MeshTree, StageId};
 pub use static_bvh::StaticBvh;
 pub use static_mesh::StaticMeshBvh;
 #[cfg(feature = "std")]
@@ -143,6 +148,10 @@ pub struct Bvh<N, I, const W: usize, T = WithTrails> {
     quality: Vec<quality::Quality>,
     /// Bottom levels whose trees are being put in place piece by piece.
     staging: Vec<u32>,
+    /// Lists that adopted trees replaced: giving their memory back takes longer than a frame may.
+    retired: Vec<Levels>,
+    /// Triangles and nodes of the largest bottom levels so far.
+    largest: [usize; 2],
     /// When bottom levels were refitted, and which.
     refitted: Vec<(u64, u32)>,
     /// Nodes of bottom levels that a search came by.
@@ -209,6 +218,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             quality: Vec::new(),
             refitted: Vec::new(),
             staging: Vec::new(),
+            retired: Vec::new(),
+            largest: [0; 2],
             marks: touched::Marks::default(),
             importance: PhantomData,
             asked: PhantomData,

@@ -11,6 +11,8 @@ mod place;
 mod settle;
 
 use alloc::boxed::Box;
+use alloc::sync::{Arc, Weak};
+use alloc::vec::Vec;
 use core::ops::Range;
 
 use self::dirty::Dirty;
@@ -35,7 +37,11 @@ pub(crate) struct StageId {
 #[derive(Clone, Debug)]
 pub(super) struct Staged {
     number: u64,
-    /// Where the triangles will stand; the first `copied` of them do.
+    /// Which light BVH it is of: a copy of one is another.
+    tree: u32,
+    /// Who builds it.
+    builder: Weak<()>,
+    /// Where the triangles will stand, empty until there is room; the first `copied` of them do.
     triangles: Range<u32>,
     copied: u32,
     /// Where the nodes will stand; empty until they are built.
@@ -52,7 +58,20 @@ pub(super) struct Staged {
     dirty: Dirty,
 }
 
+/// Who builds beside the frames of a light BVH: what is under way ends with it.
+#[derive(Debug, Default)]
+pub(crate) struct Builder(Arc<()>);
+
 impl Staged {
+    /// Whether anyone will bring it to an end.
+    fn is_built(&self, tree: u32) -> bool {
+        self.tree == tree && self.builder.strong_count() > 0
+    }
+
+    fn is_by(&self, builder: &Builder) -> bool {
+        self.builder.as_ptr() == Arc::as_ptr(&builder.0)
+    }
+
     /// All nodes are to be computed.
     fn mark_all(&mut self) {
         self.changed = Dirty::none(self.triangles.len());
@@ -77,7 +96,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// Begins a stage for bottom level `blas`; `None` where there is no such, and in a single level, whose lights are its triangles.
-    pub(crate) fn begin_stage(&mut self, blas: u32) -> Option<(StageId, MeshJob<N>)> {
+    pub(crate) fn begin_stage(&mut self, blas: u32, builder: &Builder) -> Option<(StageId, MeshJob<N>)> {
         if self.single || self.blases.get(blas as usize)?.nodes.is_empty() {
             return None;
         }
@@ -86,7 +105,9 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let count = self.blas_len(blas);
         let staged = Staged {
             number: self.epoch,
-            triangles: self.triangle_ranges.take(count as u32),
+            tree: self.id.0,
+            builder: Arc::downgrade(&builder.0),
+            triangles: 0..0,
             copied: 0,
             nodes: 0..0,
             is_placed: false,
@@ -134,12 +155,14 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         own.created = self.epoch;
         own.adopted = staged.number;
         own.depth = staged.depth;
-        own.levels = staged.levels;
+        self.retired
+            .push(core::mem::replace(&mut own.levels, staged.levels));
         let nodes = core::mem::replace(&mut own.nodes, staged.nodes);
         let triangles = core::mem::replace(&mut own.triangles, staged.triangles);
         let (root, first) = (own.nodes.start, own.triangles.start);
         self.node_ranges.give(nodes);
         self.triangle_ranges.give(triangles);
+        self.note_size(0, self.blases[blas as usize].nodes.len());
         self.roots[blas as usize] = refit::root(&self.nodes, root);
         let mesh = self.blases[blas as usize].mesh;
         for k in 0..self.meshes[mesh as usize].users.len() {
@@ -169,22 +192,39 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Gives up all that is under way but `kept`.
-    pub(crate) fn drop_stages_but(&mut self, kept: impl Fn(StageId) -> bool) {
+    /// Gives up what nobody will bring to an end: all that is under way of builders that are gone, and what `builder` does not keep. Whether
+    /// another builder has any.
+    pub(crate) fn drop_stages_but(&mut self, builder: &Builder, kept: impl Fn(StageId) -> bool) -> bool {
+        let mut is_shared = false;
         for blas in self.staging.clone() {
-            let number = self.blases[blas as usize]
-                .staged
-                .as_ref()
-                .map_or(0, |staged| staged.number);
+            let Some(staged) = &self.blases[blas as usize].staged else {
+                continue;
+            };
             let id = StageId {
                 tree: self.id.0,
                 blas,
-                number,
+                number: staged.number,
             };
-            if !kept(id) {
+            let is_own = staged.is_by(builder);
+            if !staged.is_built(self.id.0) || (is_own && !kept(id)) {
                 self.drop_stage(blas);
+            } else {
+                is_shared |= !is_own;
             }
         }
+        is_shared
+    }
+
+    /// Gives up one.
+    pub(crate) fn give_up(&mut self, id: StageId) {
+        if self.staged(id).is_some() {
+            self.drop_stage(id.blas);
+        }
+    }
+
+    /// Lists that are not needed any more.
+    pub(crate) fn take_retired(&mut self) -> Vec<Levels> {
+        core::mem::take(&mut self.retired)
     }
 
     /// Triangles that were written also go to where they will stand, as far as they are there.

@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::changes::{Pending, merged};
+use super::room::reserve;
 use super::{Bvh, Trails};
 use crate::levels::Levels;
 use crate::node::{LightNode, kind};
@@ -29,15 +30,25 @@ impl Marks {
             self.by_node.fill(0);
             self.search = 1;
         }
-        if self.by_node.len() < nodes {
-            self.by_node.resize(nodes, 0);
-        }
+        self.cover(nodes);
     }
 
     /// Whether the search has not come by before.
     fn is_first(&mut self, node: u32) -> bool {
         let mark = &mut self.by_node[node as usize];
         core::mem::replace(mark, self.search) != self.search
+    }
+
+    /// Makes room for marks of so many nodes.
+    pub fn reserve(&mut self, nodes: usize) {
+        reserve(&mut self.by_node, nodes);
+    }
+
+    /// Has marks for so many nodes.
+    pub fn cover(&mut self, nodes: usize) {
+        if self.by_node.len() < nodes {
+            self.by_node.resize(nodes, 0);
+        }
     }
 
     pub fn bytes(&self) -> usize {

@@ -120,6 +120,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             quality: self.quality,
             refitted: self.refitted,
             staging: self.staging,
+            retired: self.retired,
+            largest: self.largest,
             marks: self.marks,
             importance: self.importance,
         }

@@ -4,9 +4,10 @@ use alloc::vec::Vec;
 
 use super::clock::Clock;
 use super::queue::Queue;
-use super::worker::{Built, Job, Product, Worker, build};
+use super::worker::{Built, Job, Product, Waste, Worker, build};
 use super::{FrameStart, RebuildError, RebuilderParams, Swap};
-use crate::bvh::{Bvh, MeshJob, MeshTree, StageId, Trails};
+use crate::bvh::{Builder, Bvh, MeshJob, MeshTree, StageId, Trails};
+use crate::levels::Levels;
 use crate::node::LightNode;
 
 /// A mesh with at most one triangle for so many bytes is put in place at once: a sweep takes as long for a triangle as so many bytes.
@@ -22,9 +23,13 @@ pub(super) struct Meshes<N, const W: usize> {
     waiting: Queue,
     /// Small ones, which are put in place at once, as many as a frame has room for.
     small: Queue,
-    /// Threads that have nothing to do, and those that give memory back.
+    /// Threads that have nothing to do, and those whose results nobody waits for.
     idle: Vec<Worker<N, W>>,
-    freeing: Vec<Worker<N, W>>,
+    leaving: Vec<Worker<N, W>>,
+    /// What a thread is to give back.
+    waste: Vec<Waste<N>>,
+    /// By which the light BVH knows whose stages are whose.
+    builder: Builder,
     /// Whether one came to nothing that may still be wanted.
     pub is_lost: bool,
 }
@@ -40,8 +45,10 @@ struct Flight<N, const W: usize> {
 /// How far it is.
 #[derive(Debug)]
 enum At<N, const W: usize> {
-    /// Its triangles are copied.
-    Copied(MeshJob<N>),
+    /// Room is made for its triangles, here and, after so many frames, by a thread.
+    Room(u32, Worker<N, W>),
+    /// Its triangles are copied, for a thread if any could be started.
+    Copied(MeshJob<N>, Option<Worker<N, W>>),
     /// It is built by a thread, and due after so many frames.
     Built(u32, Worker<N, W>),
     /// It was built here, for no thread could be started.
@@ -64,7 +71,9 @@ impl<N, const W: usize> Default for Meshes<N, W> {
             waiting: Queue::default(),
             small: Queue::default(),
             idle: Vec::new(),
-            freeing: Vec::new(),
+            leaving: Vec::new(),
+            waste: Vec::new(),
+            builder: Builder::default(),
             is_lost: false,
         }
     }
@@ -126,24 +135,26 @@ impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
         thread: fn() -> std::io::Result<Worker<N, W>>,
         start: &mut FrameStart,
     ) -> Result<(), RebuildError> {
-        scene.drop_stages_but(|id| self.under_way.iter().any(|flight| flight.id == id));
-        for worker in core::mem::take(&mut self.freeing) {
-            match worker.outcome(false) {
-                Some(_) => self.idle.push(worker),
-                None => self.freeing.push(worker),
-            }
-        }
+        let flights = &self.under_way;
+        let is_shared =
+            scene.drop_stages_but(&self.builder, |id| flights.iter().any(|flight| flight.id == id));
+        self.clear_up(scene.take_retired());
         let most = params.meshes.max(1) as usize;
-        let free = most.saturating_sub(self.under_way.len());
+        let mut free = most.saturating_sub(self.under_way.len());
+        if is_shared && !self.waiting.is_empty() {
+            // Those of the other come first; its trees may be what these wait for.
+            start.is_second = true;
+            free = 0;
+        }
         let (mut begun, mut looked_at) = (0, 0);
         while begun < free && looked_at < LOOKED_AT {
             let Some(blas) = self.waiting.pop() else { break };
             looked_at += 1;
             // It may have gone, or been built by another.
             let is_worn = scene.is_worn(blas, &params.rebuild);
-            match is_worn.then(|| scene.begin_stage(blas)).flatten() {
+            match is_worn.then(|| scene.begin_stage(blas, &self.builder)).flatten() {
                 Some((id, job)) => {
-                    let at = At::Copied(job);
+                    let at = self.make_room(job, params.after, thread);
                     self.under_way.push(Flight { id, blas, at });
                     begun += 1;
                 }
@@ -155,7 +166,7 @@ impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
         let mut result = Ok(());
         let mut flights = core::mem::take(&mut self.under_way);
         for flight in &mut flights {
-            if let Err(error) = self.step(flight, scene, params, thread, &mut bytes, start) {
+            if let Err(error) = self.step(flight, scene, params, &mut bytes, start) {
                 result = Err(error);
             }
         }
@@ -171,17 +182,38 @@ impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
         flight: &mut Flight<N, W>,
         scene: &mut Bvh<N, I, W, T>,
         params: &RebuilderParams,
-        thread: fn() -> std::io::Result<Worker<N, W>>,
         bytes: &mut usize,
         start: &mut FrameStart,
     ) -> Result<(), RebuildError> {
         let id = flight.id;
         let mut result = Ok(());
         flight.at = match core::mem::replace(&mut flight.at, At::Over) {
-            At::Copied(mut job) => match scene.copy_stage(id, &mut job, bytes) {
-                Some(true) => self.submit(job, params.after, thread),
-                Some(false) => At::Copied(job),
-                None => At::Over,
+            At::Room(left, worker) => match scene.find_room(id, bytes) {
+                None => {
+                    self.leaving.push(worker);
+                    At::Over
+                }
+                Some(_) if left > 1 => At::Room(left - 1, worker),
+                Some(false) => At::Room(0, worker),
+                Some(true) => {
+                    let began = Clock::start();
+                    let made = worker.outcome(params.swap == Swap::Deterministic);
+                    start.waited += began.elapsed();
+                    match made {
+                        Some(Ok((Product::Room(job), _))) => At::Copied(job, Some(worker)),
+                        Some(made) => taken(made, &mut result),
+                        None => At::Room(0, worker),
+                    }
+                }
+            },
+            At::Copied(mut job, worker) => match scene.copy_stage(id, &mut job, bytes) {
+                Some(true) => submit(job, params.after, worker),
+                Some(false) => At::Copied(job, worker),
+                None => {
+                    self.waste.push(Waste::Job(job));
+                    self.idle.extend(worker);
+                    At::Over
+                }
             },
             At::Built(left, worker) if left > 1 => At::Built(left - 1, worker),
             At::Inline(left, built) if left > 1 => At::Inline(left - 1, built),
@@ -204,7 +236,7 @@ impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
             At::Placed(mut tree) => match scene.place_stage(id, &mut tree, bytes) {
                 Some(false) => At::Placed(tree),
                 placed => {
-                    self.free(tree);
+                    self.waste.push(Waste::Tree(tree));
                     placed.map_or(At::Over, |_| At::Settled)
                 }
             },
@@ -215,39 +247,77 @@ impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
             At::Over => At::Over,
         };
         if result.is_err() {
-            scene.drop_stages_but(|other| other != id);
+            scene.give_up(id);
         }
         if matches!(flight.at, At::Over) {
             let is_adopted = scene.is_adopted(id);
             start.adopted += u32::from(is_adopted);
+            start.dropped += u32::from(!is_adopted);
             self.is_lost |= !is_adopted;
         }
         result
     }
 
-    /// Gives the memory of a tree back, beside the frames where a thread has nothing else to do.
-    fn free(&mut self, tree: MeshTree<N>) {
+    /// Has memory given back beside the frames, by a thread that has nothing else to do.
+    fn clear_up(&mut self, lists: Vec<Levels>) {
+        for worker in core::mem::take(&mut self.leaving) {
+            match worker.outcome(false) {
+                Some(Ok((product, _))) => {
+                    self.waste.extend(product.waste());
+                    self.idle.push(worker);
+                }
+                // One that has seen a panic is replaced.
+                Some(Err(_)) => {}
+                None => self.leaving.push(worker),
+            }
+        }
+        if !lists.is_empty() {
+            self.waste.push(Waste::Lists(lists));
+        }
+        if self.waste.is_empty() {
+            return;
+        }
         if let Some(worker) = self.idle.pop() {
-            match worker.handover().submit(Job::Free(tree)) {
-                Ok(()) => self.freeing.push(worker),
+            let waste = core::mem::take(&mut self.waste);
+            match worker.handover().submit(Job::Free(waste)) {
+                Ok(()) => self.leaving.push(worker),
                 Err(_) => self.idle.push(worker),
             }
         }
     }
 
-    fn submit(
+    /// A thread that makes room for what is to be copied.
+    fn make_room(
         &mut self,
         job: MeshJob<N>,
         after: u32,
         thread: fn() -> std::io::Result<Worker<N, W>>,
     ) -> At<N, W> {
         let Some(worker) = self.idle.pop().or_else(|| thread().ok()) else {
-            return At::Inline(after, build(Job::Mesh(job)));
+            return At::Copied(job, None);
         };
-        match worker.handover().submit(Job::Mesh(job)) {
-            Ok(()) => At::Built(after, worker),
-            Err(job) => At::Inline(after, build(job)),
+        match worker.handover().submit(Job::Room(job)) {
+            Ok(()) => At::Room(after, worker),
+            Err(job) => match build(job) {
+                Ok((Product::Room(job), _)) => At::Copied(job, None),
+                _ => At::Over,
+            },
         }
+    }
+}
+
+/// Has what was copied built by a thread, or here where there is none.
+fn submit<N: LightNode<W>, const W: usize>(
+    job: MeshJob<N>,
+    after: u32,
+    worker: Option<Worker<N, W>>,
+) -> At<N, W> {
+    let Some(worker) = worker else {
+        return At::Inline(after, build(Job::Mesh(job)));
+    };
+    match worker.handover().submit(Job::Mesh(job)) {
+        Ok(()) => At::Built(after, worker),
+        Err(job) => At::Inline(after, build(job)),
     }
 }
 
@@ -255,7 +325,7 @@ impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
 fn taken<N, const W: usize>(built: Built<N, W>, result: &mut Result<(), RebuildError>) -> At<N, W> {
     match built {
         Ok((Product::Mesh(tree), _)) => At::Placed(tree),
-        Ok((Product::Frame(_) | Product::Nothing, _)) => At::Over,
+        Ok((Product::Frame(_) | Product::Room(_) | Product::Nothing, _)) => At::Over,
         Err(message) => {
             *result = Err(RebuildError::Panicked { message });
             At::Over

@@ -1,6 +1,7 @@
 //! The thread that builds.
 
 use alloc::string::String;
+use alloc::vec::Vec;
 use core::any::Any;
 use core::time::Duration;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -10,6 +11,7 @@ use std::thread::{self, JoinHandle};
 use super::clock::Clock;
 use super::handover::{Handover, Outcome};
 use crate::bvh::{MeshJob, MeshTree, Rebuild, Rebuilt};
+use crate::levels::Levels;
 use crate::node::LightNode;
 
 /// What is to be built.
@@ -19,8 +21,22 @@ pub(super) enum Job<N, const W: usize> {
     Frame(Rebuild<N, W>),
     /// A bottom level that is put in place piece by piece.
     Mesh(MeshJob<N>),
-    /// A tree that is in place: giving its memory back takes longer than a frame may.
-    Free(MeshTree<N>),
+    /// Memory for the triangles of such a bottom level.
+    Room(MeshJob<N>),
+    /// What is not needed any more: giving its memory back takes longer than a frame may.
+    Free(Vec<Waste<N>>),
+}
+
+/// What is not needed any more, and is only dropped.
+#[derive(Debug)]
+#[expect(dead_code, reason = "its memory is all that matters")]
+pub(super) enum Waste<N> {
+    /// Copied triangles that nobody wants built.
+    Job(MeshJob<N>),
+    /// A tree that is in place, or not wanted.
+    Tree(MeshTree<N>),
+    /// Lists of bottom levels that were replaced.
+    Lists(Vec<Levels>),
 }
 
 /// What was.
@@ -30,8 +46,21 @@ pub(super) enum Product<N, const W: usize> {
     Frame(Rebuilt<N, W>),
     /// Of [`Job::Mesh`].
     Mesh(MeshTree<N>),
+    /// Of [`Job::Room`].
+    Room(MeshJob<N>),
     /// Of [`Job::Free`].
     Nothing,
+}
+
+impl<N, const W: usize> Product<N, W> {
+    /// What nobody wants any more, if it is large.
+    pub fn waste(self) -> Option<Waste<N>> {
+        match self {
+            Self::Mesh(tree) => Some(Waste::Tree(tree)),
+            Self::Room(job) => Some(Waste::Job(job)),
+            Self::Frame(_) | Self::Nothing => None,
+        }
+    }
 }
 
 /// What was built and the time it took, or what the panic said that ended it.
@@ -46,8 +75,9 @@ pub(super) fn build<N: LightNode<W>, const W: usize>(job: Job<N, W>) -> Built<N,
     let rebuilt = catch_unwind(AssertUnwindSafe(|| match job {
         Job::Frame(rebuild) => Product::Frame(rebuild.run()),
         Job::Mesh(mesh) => Product::Mesh(mesh.run::<W>()),
-        Job::Free(tree) => {
-            drop(tree);
+        Job::Room(mesh) => Product::Room(mesh.with_room()),
+        Job::Free(waste) => {
+            drop(waste);
             Product::Nothing
         }
     }));

@@ -4,7 +4,7 @@ extern crate std;
 
 use std::vec::Vec;
 
-use crate::bvh::stage::{MeshJob, MeshTree, StageId};
+use crate::bvh::stage::{Builder, MeshJob, MeshTree, StageId};
 use crate::bvh::{Rebuild, RebuildParams, RefitPlan};
 use crate::exact::{hash, pow2};
 use crate::refit::{self, BlasRoot, Instance};
@@ -209,6 +209,7 @@ fn random_frames<N: LightNode<W>, I: Clone, const W: usize>(seed: u32, refits: u
     let mut mirror = Mirror::<N, W>::empty();
     let mut built: Vec<Rebuild<N, W>> = Vec::new();
     let mut stages: Vec<Stage<N>> = Vec::new();
+    let builder = Builder::default();
     bvh.plan();
     mirror.follow(&bvh, &plan_of_all(&bvh));
     for _ in 0..400 {
@@ -216,7 +217,7 @@ fn random_frames<N: LightNode<W>, I: Clone, const W: usize>(seed: u32, refits: u
             stages.extend(brought_on(&mut bvh, stage, random));
         }
         if random.below(6) == 0 {
-            let begun = bvh.begin_stage(random.below(12));
+            let begun = bvh.begin_stage(random.below(12), &builder);
             stages.extend(begun.map(|(id, job)| Stage::Copied(id, job)));
         }
         match random.below(10) {

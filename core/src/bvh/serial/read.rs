@@ -54,6 +54,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         bvh.read_triangles(words, &header)?;
         bvh.restore(&header)?;
         bvh.restore_changes(refitted, built)?;
+        bvh.note_sizes();
+        bvh.reserve_room();
         bvh.restore_top_quality(&top_built);
         Ok(bvh)
     }

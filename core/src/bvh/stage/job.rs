@@ -12,11 +12,22 @@ use crate::sweep;
 use crate::trail::BitTrail;
 use crate::tree::INVALID;
 
+/// What stands where no triangle has been copied to yet.
+const DARK: EmissiveTriangle = EmissiveTriangle {
+    p: [[0.0; 3]; 3],
+    radiance: [0.0; 3],
+    mesh: INVALID,
+    flags: 0,
+};
+
 /// A bottom level's triangles as they were when they were copied.
 #[derive(Clone, Debug)]
 pub(crate) struct MeshJob<N> {
     params: BuildParams,
     pub(super) triangles: Vec<EmissiveTriangle>,
+    /// How many there will be, and how many are copied.
+    count: usize,
+    copied: usize,
     layout: PhantomData<N>,
 }
 
@@ -39,8 +50,30 @@ impl<N> MeshJob<N> {
     pub(super) fn new(params: &BuildParams, count: usize) -> Self {
         Self {
             params: *params,
-            triangles: Vec::with_capacity(count),
+            triangles: Vec::new(),
+            count,
+            copied: 0,
             layout: PhantomData,
+        }
+    }
+
+    /// Has memory for all triangles that has been written before: where that is done on a thread, no frame pays for its pages.
+    #[must_use]
+    pub fn with_room(mut self) -> Self {
+        self.triangles.resize(self.count, DARK);
+        self
+    }
+
+    /// Copies more of them.
+    pub(super) fn copy(&mut self, some: &[EmissiveTriangle]) {
+        let from = self.copied;
+        self.copied += some.len();
+        match self.triangles.get_mut(from..self.copied) {
+            Some(room) => room.copy_from_slice(some),
+            None => {
+                self.triangles.reserve_exact(self.count - from);
+                self.triangles.extend_from_slice(some);
+            }
         }
     }
 

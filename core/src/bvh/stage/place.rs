@@ -10,14 +10,29 @@ use crate::node::{LightNode, kind};
 use crate::tree::INVALID;
 
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Copies more of the triangles, by at most `bytes`, of which what it takes is subtracted; whether all are copied. `None` where the
+    /// Makes more room for the triangles, by at most `bytes`, of which what it takes is subtracted; whether there is enough. `None` where the
     /// stage is gone.
+    pub(crate) fn find_room(&mut self, id: StageId, bytes: &mut usize) -> Option<bool> {
+        if self.staged(id)?.triangles.is_empty() {
+            let count = self.blas_len(id.blas) as u32;
+            let Some(range) = self.take_triangles(count, bytes) else {
+                return Some(false);
+            };
+            self.staged(id)?.triangles = range;
+        }
+        Some(true)
+    }
+
+    /// Copies more of the triangles, as [`find_room`](Self::find_room) does.
     pub(crate) fn copy_stage(
         &mut self,
         id: StageId,
         job: &mut MeshJob<N>,
         bytes: &mut usize,
     ) -> Option<bool> {
+        if !self.find_room(id, bytes)? {
+            return Some(false);
+        }
         let size = 2 * size_of::<EmissiveTriangle>();
         let staged = self.staged(id)?;
         let from = staged.copied;
@@ -29,8 +44,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             *bytes -= count as usize * size;
             let start = (self.blases[id.blas as usize].triangles.start + from) as usize;
             let own = start..start + count as usize;
-            job.triangles.extend_from_slice(&self.triangles[own.clone()]);
-            self.cover_triangles(to + count);
+            job.copy(&self.triangles[own.clone()]);
             self.triangles.copy_within(own, to as usize);
             self.changes.new.written_triangles.push(to..to + count);
         }
@@ -44,12 +58,11 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         tree: &mut MeshTree<N>,
         bytes: &mut usize,
     ) -> Option<bool> {
-        let count = tree.nodes.len() as u32;
-        let staged = self.staged(id)?;
-        if staged.nodes.is_empty() {
-            let nodes = self.node_ranges.take(count);
-            let staged = self.staged(id)?;
-            staged.nodes = nodes;
+        if self.staged(id)?.nodes.is_empty() {
+            let Some(range) = self.take_nodes(tree.nodes.len() as u32, bytes) else {
+                return Some(false);
+            };
+            self.staged(id)?.nodes = range;
         }
         let staged = self.staged(id)?;
         let (nodes, triangles) = (staged.nodes.clone(), staged.triangles.clone());
@@ -85,10 +98,6 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         *bytes -= (to - from) * size;
         let base = nodes.start;
-        self.cover_nodes(base + to as u32);
-        if self.quality.len() < self.nodes.len() {
-            self.quality.resize(self.nodes.len(), Quality::default());
-        }
         for k in from..to {
             let mut node = tree.nodes[k];
             for slot in 0..W {
@@ -125,7 +134,6 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         *bytes -= (to - from) * 4 * words;
         let start = triangles.start;
-        self.reserve_trails(tree.depth, start + to as u32);
         for k in from..to {
             let at = (start as usize + k) * words;
             self.trails[at] = tree.trails[k].low;

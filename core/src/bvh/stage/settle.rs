@@ -1,6 +1,5 @@
 //! What changed while a tree was built is computed in it, until it may take its place.
 
-
 use super::{MOST, StageId};
 use crate::bvh::changes::merged;
 use crate::bvh::{Bvh, Trails};
@@ -26,7 +25,9 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if staged.changed.count() > 0 && !T::KEPT {
             staged.mark_all();
         } else {
-            let some = staged.changed.take_last((*bytes / PATH).max(2 * fresh).max(1) as u32);
+            let some = staged
+                .changed
+                .take_last((*bytes / PATH).max(2 * fresh).max(1) as u32);
             *bytes = bytes.saturating_sub(some.len() * PATH);
             self.mark_paths(id, &some)?;
         }

@@ -94,6 +94,8 @@ fn a_large_mesh_comes_in_piece_by_piece() {
     let before = bvh.lights_of(bvh.instance_id(2).expect("there"));
     let world = bvh.world_lights();
     let copied = (COUNT * 112).div_ceil(BYTES);
+    // Memory that is new takes three times as long.
+    let fresh = (3 * COUNT * 60).div_ceil(BYTES);
     let frames = until_adopted(&mut bvh, &mut rebuilder, |bvh, _| {
         let written: usize = bvh
             .changes
@@ -112,7 +114,10 @@ fn a_large_mesh_comes_in_piece_by_piece() {
             .sum();
         assert!(written * size_of::<MomentNode<8>>() <= BYTES as usize);
     });
-    assert!((copied..3 * copied).contains(&frames), "{frames}");
+    assert!(
+        (copied + fresh..3 * copied + 2 * fresh).contains(&frames),
+        "{frames}"
+    );
     assert_eq!(drift(&bvh, mesh), 1.0);
     assert!(bvh.due(&RebuildParams::default()).is_empty() && !rebuilder.is_busy());
     // The lights are those that they were, and the tree is that of a mesh that comes in as it is.
@@ -155,11 +160,11 @@ fn what_changed_as_a_whole_and_rests_is_swept_in_pieces() {
             .bottom
             .nodes()
             .len()
-            .max(if frame > 10 { computed } else { 0 });
-        if frame == 10 {
+            .max(if frame > 50 { computed } else { 0 });
+        if frame == 50 {
             bvh.set_triangles(mesh, lamps(4)).expect("as many");
         }
-        if frame == 70 {
+        if frame == 120 {
             bvh.set_triangle_range(mesh, 40, lamps(5)[..3].to_vec())
                 .expect("its own");
         }
@@ -259,4 +264,64 @@ fn what_changes_in_parts_now_and_then_does_not_put_it_off() {
         assert!(frames < 400, "{every}: {frames}");
         assert!(drift(&bvh, mesh) < 1.01, "{}", drift(&bvh, mesh));
     }
+}
+
+/// Of two rebuilders of one light BVH the second waits, and says so, until the first is done or gone.
+#[test]
+fn two_rebuilders_do_not_hold_each_other_up() {
+    for leaves in [false, true] {
+        let (mut bvh, mesh, rebuilder) = scene();
+        let (.., mut second) = scene();
+        let mut first = Some(rebuilder);
+        let (mut adopted, mut waited) = ([0, 0], 0);
+        for frame in 0..400 {
+            if leaves && frame == 30 {
+                first = None;
+            }
+            if let Some(first) = &mut first {
+                let start = first.begin_frame(&mut bvh).expect("no panic");
+                assert!(!start.is_second && start.dropped == 0, "{start:?}");
+                adopted[0] += start.adopted;
+            }
+            let start = second.begin_frame(&mut bvh).expect("no panic");
+            assert_eq!(start.dropped, 0);
+            adopted[1] += start.adopted;
+            waited += u32::from(start.is_second);
+            bvh.refit();
+            if let Some(first) = &mut first {
+                first.end_frame(&bvh);
+            }
+            second.end_frame(&bvh);
+        }
+        assert_eq!(adopted, if leaves { [0, 1] } else { [1, 0] });
+        assert!(waited >= 28, "{waited}");
+        assert_eq!(drift(&bvh, mesh), 1.0);
+        assert!(!second.is_busy());
+        // A copy is another, for which nobody builds.
+        let (mut bvh, mesh, mut rebuilder) = scene();
+        rebuilder.end_frame(&bvh);
+        rebuilder.begin_frame(&mut bvh).expect("no panic");
+        assert_eq!(bvh.staging.len(), 1);
+        let mut copy = bvh.clone();
+        until_adopted(&mut copy, &mut second, |_, _| ());
+        assert_eq!(copy.drift(bvh.meshes[mesh.index() as usize].blas), 1.0);
+    }
+}
+
+/// What comes to nothing is told.
+#[test]
+fn a_mesh_that_goes_is_told_of() {
+    let (mut bvh, mesh, mut rebuilder) = scene();
+    rebuilder.end_frame(&bvh);
+    for _ in 0..9 {
+        let start = rebuilder.begin_frame(&mut bvh).expect("no panic");
+        assert!(start.dropped == 0 && start.under_way == 1, "{start:?}");
+    }
+    for k in [0, 2, 3] {
+        let id = bvh.instance_id(k).expect("there");
+        bvh.remove_instance(id).expect("its own");
+    }
+    bvh.remove_mesh(mesh).expect("unused");
+    let start = rebuilder.begin_frame(&mut bvh).expect("no panic");
+    assert!(start.dropped == 1 && start.under_way == 0, "{start:?}");
 }

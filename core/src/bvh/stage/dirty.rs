@@ -1,0 +1,92 @@
+//! Which nodes of a tree that is put in place are still to be computed.
+
+use alloc::vec::Vec;
+
+/// Nodes by their places in the tree, which is in depth-first order: the last of them has none below it. Where a node is marked, so are
+/// those above it; taken from the last on, each is computed after those below it, and once, however often it was marked.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Dirty {
+    words: Vec<u64>,
+    /// How many are marked.
+    count: u32,
+    /// None is marked in the words from here on.
+    end: usize,
+}
+
+impl Dirty {
+    /// None of `nodes`.
+    pub fn none(nodes: usize) -> Self {
+        Self {
+            words: alloc::vec![0; nodes.div_ceil(64)],
+            count: 0,
+            end: 0,
+        }
+    }
+
+    /// Marks all of `nodes`.
+    pub fn mark_all(&mut self, nodes: usize) {
+        self.words.fill(u64::MAX);
+        if let Some(last) = self.words.last_mut().filter(|_| nodes % 64 != 0) {
+            *last = (1 << (nodes % 64)) - 1;
+        }
+        self.count = nodes as u32;
+        self.end = self.words.len();
+    }
+
+    /// Marks one.
+    pub fn mark(&mut self, node: u32) {
+        let (word, bit) = (node as usize / 64, 1 << (node % 64));
+        self.count += u32::from(self.words[word] & bit == 0);
+        self.words[word] |= bit;
+        self.end = self.end.max(word + 1);
+    }
+
+    /// How many are marked.
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// Takes the last `count`, or all there are, from the last on.
+    pub fn take_last(&mut self, count: u32) -> Vec<u32> {
+        let count = count.min(self.count);
+        let mut taken = Vec::with_capacity(count as usize);
+        while taken.len() < count as usize {
+            let word = &mut self.words[self.end - 1];
+            if *word == 0 {
+                self.end -= 1;
+                continue;
+            }
+            let bit = 63 - word.leading_zeros();
+            *word &= !(1 << bit);
+            taken.push((self.end as u32 - 1) * 64 + bit);
+        }
+        self.count -= count;
+        taken
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_come_first_and_once() {
+        for nodes in [1, 63, 64, 65, 200] {
+            let mut dirty = Dirty::none(nodes);
+            assert!(dirty.take_last(9).is_empty());
+            dirty.mark_all(nodes);
+            assert_eq!(dirty.count(), nodes as u32);
+            let first = dirty.take_last(3);
+            dirty.mark(0);
+            dirty.mark(nodes as u32 - 1);
+            let mut all = dirty.take_last(u32::MAX);
+            assert_eq!(all.first(), Some(&(nodes as u32 - 1)));
+            assert_eq!(dirty.count(), 0);
+            assert!(all.is_sorted_by(|a, b| a > b));
+            all.extend(first);
+            all.sort_unstable();
+            all.dedup();
+            assert_eq!(all.len(), nodes);
+        }
+    }
+}
