@@ -13,6 +13,7 @@ mod queue;
 mod worker;
 
 use alloc::string::String;
+use alloc::vec::Vec;
 use core::fmt;
 use core::time::Duration;
 
@@ -137,6 +138,8 @@ pub struct Rebuilder<N = DefaultNode, const W: usize = 8> {
     taken: Option<Taken>,
     /// For the next part of a large top level.
     search: Search,
+    /// Whether small meshes that are many had the last turn.
+    is_tops_turn: bool,
     /// How a worker is started.
     start: fn() -> std::io::Result<Worker<N, W>>,
 }
@@ -167,6 +170,7 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
             meshes: Meshes::default(),
             taken: None,
             search: Search::default(),
+            is_tops_turn: false,
             start: Worker::start,
         }
     }
@@ -256,8 +260,22 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
             return;
         }
         let worn = scene.worn_since(&self.params.rebuild, self.taken);
-        let small = self.meshes.await_turn(worn, scene, &self.params);
-        let top = scene.copy_worn_part(self.params.rebuild.top, &mut self.search);
+        self.meshes.await_turn(worn, scene, &self.params);
+        let takes_turns = scene.is_top_large() && self.meshes.has_small();
+        let is_tops_turn = takes_turns && core::mem::replace(&mut self.is_tops_turn, false);
+        let mut top = None;
+        if is_tops_turn {
+            top = scene.copy_worn_part(self.params.rebuild.top, &mut self.search);
+        }
+        let (mut small, mut is_much) = (Vec::new(), false);
+        if top.is_none() {
+            (small, is_much) = self.meshes.next_small(scene, &self.params);
+        }
+        if takes_turns && is_much {
+            self.is_tops_turn = true;
+        } else if top.is_none() {
+            top = scene.copy_worn_part(self.params.rebuild.top, &mut self.search);
+        }
         let job = scene.rebuild_of(top, &small);
         self.taken = Some(now);
         if job.is_empty() {

@@ -105,7 +105,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             self.insert_instances(&added);
         }
         self.settle();
-        if !updated.meshes.is_empty() {
+        if !updated.meshes.is_empty() || !updated.instances.is_empty() {
             self.reserve_room();
         }
         self.bound_changes();

@@ -34,6 +34,10 @@ impl Default for RebuildParams {
     }
 }
 
+/// A top level of more instances takes turns with small meshes that are many.
+#[cfg(feature = "std")]
+const LARGE: usize = 512;
+
 /// A mesh whose bottom level is to be built anew.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -158,6 +162,12 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         };
         let is_worn = |&blas: &u32| self.is_worn(blas, params);
         refitted.into_iter().filter(is_worn).collect()
+    }
+
+    /// Whether putting a part of the top level in place takes much of what a frame has for that.
+    #[cfg(feature = "std")]
+    pub(crate) fn is_top_large(&self) -> bool {
+        self.live.len() > LARGE
     }
 
     /// Whether a bottom level is to be built anew.

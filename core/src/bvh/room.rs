@@ -17,8 +17,8 @@ use crate::node::LightNode;
 const FRESH: usize = 3;
 /// So many of the largest mesh find room beside what there is.
 const MESHES: usize = 2;
-/// So many nodes more, where there are as many, for parts of the top level.
-const FEW: usize = 4096;
+/// And a part of all nodes, for what is built in the place of small trees and of parts of the top level and fits into no hole.
+const PART: usize = 4;
 
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// A bottom level of so many triangles and nodes is there.
@@ -35,11 +35,12 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Reserves room for [`MESHES`] new trees of the largest mesh; in no time where there is some. A new tree may have a few nodes more.
+    /// Reserves room for [`MESHES`] new trees of the largest mesh and a few small ones; in no time where there is some. A new tree may have
+    /// a few nodes more.
     pub(super) fn reserve_room(&mut self) {
         let [triangles, nodes] = self.largest;
         let triangles = self.triangle_ranges.end() as usize + MESHES * triangles;
-        let nodes = self.nodes.len() + MESHES * (nodes + nodes / 8) + FEW.min(self.nodes.len());
+        let nodes = self.nodes.len() + MESHES * (nodes + nodes / 8) + self.nodes.len() / PART;
         reserve(&mut self.triangles, triangles);
         if T::KEPT {
             reserve(&mut self.trails, triangles * self.trail_words as usize);

@@ -89,22 +89,30 @@ impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
         !self.small.is_empty()
     }
 
-    /// `worn` are to be built, once others are done. Returns those that are put in place at once, in no more triangles than a frame
-    /// may take: all of a single level.
+    /// `worn` are to be built, once others are done.
     pub fn await_turn<I, T: Trails>(
         &mut self,
         worn: Vec<u32>,
         scene: &Bvh<N, I, W, T>,
         params: &RebuilderParams,
-    ) -> Vec<u32> {
-        let all = (params.bytes.max(LEAST) / SWEPT) as usize;
+    ) {
         for blas in worn {
-            if scene.blas_len(blas) <= all || scene.is_single_level() {
+            if scene.blas_len(blas) <= most_at_once(params) || scene.is_single_level() {
                 self.small.push(blas);
             } else if !self.under_way.iter().any(|flight| flight.blas == blas) {
                 self.waiting.push(blas);
             }
         }
+    }
+
+    /// Those that are put in place at once next, in no more triangles than a frame may take, all of a single level; and whether they are so
+    /// many that nothing else should be.
+    pub fn next_small<I, T: Trails>(
+        &mut self,
+        scene: &Bvh<N, I, W, T>,
+        params: &RebuilderParams,
+    ) -> (Vec<u32>, bool) {
+        let all = most_at_once(params);
         let (mut room, mut now) = (all, Vec::new());
         for _ in 0..LOOKED_AT {
             let Some(blas) = self.small.first() else { break };
@@ -124,7 +132,7 @@ impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
             }
         }
         now.sort_unstable();
-        now
+        (now, room < all / 2)
     }
 
     /// Brings all of them on, by no more than the frame may take.
@@ -319,6 +327,11 @@ fn submit<N: LightNode<W>, const W: usize>(
         Ok(()) => At::Built(after, worker),
         Err(job) => At::Inline(after, build(job)),
     }
+}
+
+/// Triangles of small meshes that are put in place at once.
+fn most_at_once(params: &RebuilderParams) -> usize {
+    (params.bytes.max(LEAST) / SWEPT) as usize
 }
 
 /// What a thread has built, to be put in place.
