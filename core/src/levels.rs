@@ -46,6 +46,29 @@ impl Levels {
         all
     }
 
+    /// Of a tree whose nodes, from `first` on, stand in these levels.
+    pub(crate) fn of_each(levels: &[u32], first: u32) -> Self {
+        let depth = levels.iter().max().map_or(0, |&deepest| deepest as usize + 1);
+        let mut ends = alloc::vec![0; depth];
+        for &level in levels {
+            ends[depth - 1 - level as usize] += 1;
+        }
+        let mut next = Vec::with_capacity(depth);
+        let mut end = 0;
+        for count in &mut ends {
+            next.push(end);
+            end += *count;
+            *count = end;
+        }
+        let mut nodes = alloc::vec![0; levels.len()];
+        for (node, &level) in (first..).zip(levels) {
+            let place: &mut u32 = &mut next[depth - 1 - level as usize];
+            nodes[*place as usize] = node;
+            *place += 1;
+        }
+        Self { nodes, ends }
+    }
+
     /// Gathers (level, node) pairs.
     pub(crate) fn gather(mut pairs: Vec<(u32, u32)>) -> Self {
         pairs.sort_unstable_by_key(|&(level, node)| (core::cmp::Reverse(level), node));

@@ -79,8 +79,10 @@ pub struct FrameStart {
     pub built: Duration,
     /// Number of large meshes whose new trees took their places since the last frame began.
     pub adopted: u32,
-    /// Number of large meshes whose new trees came to nothing since then: the mesh is gone or was built by other means, or building failed.
-    /// Deformation drops none: what changes meanwhile is computed in the new tree.
+    /// Number of parts of large meshes that were built anew, the rest of their trees being as good as it was, and put in place since then.
+    pub parts: u32,
+    /// Number of large meshes, and of parts of them, whose new trees came to nothing since then: the mesh is gone or was built by other means,
+    /// building failed, or a part found no tree of as many nodes. Deformation drops none: what changes meanwhile is computed in the new tree.
     pub dropped: u32,
     /// Whether large meshes wait because another `Rebuilder` has some of the same light BVH under way. One for each light BVH is enough: a
     /// second one begins no large mesh as long as the first has one under way.
@@ -260,7 +262,8 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
             return;
         }
         let worn = scene.worn_since(&self.params.rebuild, self.taken);
-        self.meshes.await_turn(worn, scene, &self.params);
+        let strained = scene.strained_since(&self.params.rebuild, self.taken);
+        self.meshes.await_turn(worn, strained, scene, &self.params);
         let takes_turns = scene.is_top_large() && self.meshes.has_small();
         let is_tops_turn = takes_turns && core::mem::replace(&mut self.is_tops_turn, false);
         let mut top = None;

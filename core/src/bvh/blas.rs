@@ -25,8 +25,11 @@ pub(super) struct Blas {
     pub triangles: Range<u32>,
     /// The mesh that it belongs to.
     pub mesh: u32,
-    /// Its nodes.
+    /// Its nodes, unless `is_unlisted`: then they have to be listed first.
     pub levels: Levels,
+    pub is_unlisted: bool,
+    /// Nodes for whose subtrees none of as many nodes was found.
+    pub misfits: Vec<u32>,
     pub depth: u32,
     pub extent: Extent,
     /// When its topology was made.
@@ -58,6 +61,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             triangles: range.clone(),
             mesh,
             levels: Levels::default(),
+            is_unlisted: false,
+            misfits: Vec::new(),
             depth: 0,
             extent: Extent::of(triangles),
             created: 0,
@@ -93,6 +98,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         blas.nodes = 0..0;
         blas.triangles = 0..0;
         blas.levels = Levels::default();
+        blas.is_unlisted = false;
+        blas.misfits = Vec::new();
         blas.changed = blas.created;
         self.changes.forget_blas(index);
         self.node_ranges.give(nodes);
@@ -169,6 +176,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let blas = &mut self.blases[index as usize];
         blas.nodes = nodes.clone();
         blas.levels = levels;
+        blas.is_unlisted = false;
+        blas.misfits.clear();
         blas.depth = topology.depth;
         blas.created = created;
         self.roots[index as usize].node = nodes.start;

@@ -39,6 +39,11 @@ impl Quality {
         }
     }
 
+    /// What is lost on the ways down, for a unit of flux.
+    pub fn loss(&self) -> f64 {
+        f64::from(self.lost)
+    }
+
     /// Those of the nodes of a tree in depth-first order, links counting from its root.
     pub fn as_built<N: LightNode<W>, const W: usize>(nodes: &[N]) -> Vec<Self> {
         let mut known = alloc::vec![Self::default(); nodes.len()];
@@ -105,6 +110,13 @@ impl Quality {
     }
 }
 
+/// Looks at nodes that were refitted, children before parents.
+pub(super) fn judge<N: LightNode<W>, const W: usize>(nodes: &[N], known: &mut [Quality], list: &[u32]) {
+    for &index in list {
+        known[index as usize] = Quality::of(nodes, known, index, false);
+    }
+}
+
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Looks at nodes in depth-first order, all below each of them among them; as built with `is_new`.
     pub(super) fn judge_range(&mut self, range: Range<u32>, is_new: bool) {
@@ -125,9 +137,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Looks at nodes that were refitted, children before parents.
     pub(super) fn judge_list(&mut self, list: &[u32]) {
         self.quality.resize(self.nodes.len(), Quality::default());
-        for &index in list {
-            self.quality[index as usize] = Quality::of(&self.nodes, &self.quality, index, false);
-        }
+        judge(&self.nodes, &mut self.quality, list);
     }
 
     /// Looks at a node of the top level that was just built.

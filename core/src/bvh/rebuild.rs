@@ -151,17 +151,27 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.quality(self.top.root).drift()
     }
 
+    /// The bottom levels refitted since then that lost something, but are not to be built anew.
+    #[cfg(feature = "std")]
+    pub(crate) fn strained_since(&self, params: &RebuildParams, since: Option<Taken>) -> Vec<u32> {
+        let mut found = self.refitted_since_taken(params, since);
+        found.retain(|&blas| self.drift(blas) > 1.0 && !self.is_worn(blas, params));
+        found
+    }
+
     /// The bottom levels refitted since then that are to be built anew.
     pub(crate) fn worn_since(&self, params: &RebuildParams, since: Option<Taken>) -> Vec<u32> {
-        let since = since
-            .filter(|since| since.tree == self.id.0)
-            .map_or(0, |since| since.epoch);
-        let refitted = match params.drift.is_finite() {
-            true => self.refitted_since(since),
+        let mut found = self.refitted_since_taken(params, since);
+        found.retain(|&blas| self.is_worn(blas, params));
+        found
+    }
+
+    fn refitted_since_taken(&self, params: &RebuildParams, since: Option<Taken>) -> Vec<u32> {
+        let since = since.filter(|since| since.tree == self.id.0);
+        match params.drift.is_finite() {
+            true => self.refitted_since(since.map_or(0, |since| since.epoch)),
             false => Vec::new(),
-        };
-        let is_worn = |&blas: &u32| self.is_worn(blas, params);
-        refitted.into_iter().filter(is_worn).collect()
+        }
     }
 
     /// Whether putting a part of the top level in place takes much of what a frame has for that.

@@ -76,9 +76,9 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     #[must_use]
     pub fn plan_of_everything(&self) -> RefitPlan {
         let used = || (0..).zip(&self.blases).filter(|(_, blas)| !blas.nodes.is_empty());
-        let levels: Vec<&Levels> = used().map(|(_, blas)| &blas.levels).collect();
+        let levels: Vec<Levels> = used().map(|(index, _)| self.levels_of(index)).collect();
         RefitPlan {
-            bottom: Levels::join(&levels),
+            bottom: Levels::join(&levels.iter().collect::<Vec<_>>()),
             trees: used().map(|(_, blas)| blas.nodes.clone()).collect(),
             roots: used()
                 .flat_map(|(index, blas)| core::iter::once(index).chain(blas.parts.clone()))
@@ -186,6 +186,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         };
         let mut instances = pending.instances.clone();
         let (touched, parts) = self.touched(&mut pending);
+        pending.blases.iter().for_each(|&blas| self.list_levels(blas));
         let mut lists: Vec<&Levels> = parts.iter().collect();
         work.parts = Levels::join(&lists);
         for &blas in &pending.blases {

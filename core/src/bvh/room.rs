@@ -39,7 +39,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// a few nodes more.
     pub(super) fn reserve_room(&mut self) {
         let [triangles, nodes] = self.largest;
-        let triangles = self.triangle_ranges.end() as usize + MESHES * triangles;
+        let triangles = self.triangles.len() + MESHES * triangles;
         let nodes = self.nodes.len() + MESHES * (nodes + nodes / 8) + self.nodes.len() / PART;
         reserve(&mut self.triangles, triangles);
         if T::KEPT {
@@ -94,8 +94,9 @@ fn next(length: usize, end: u32, size: usize, bytes: &mut usize) -> u32 {
     end.min((length + more) as u32)
 }
 
+/// Reserves room for as many entries, where the system has it: nobody has asked for them yet.
 pub(super) fn reserve<E>(list: &mut Vec<E>, length: usize) {
-    list.reserve(length.saturating_sub(list.len()));
+    _ = list.try_reserve(length.saturating_sub(list.len()));
 }
 
 #[cfg(test)]

@@ -6,7 +6,9 @@
 //! is a hint: what is exact comes from the refit. Edits meanwhile write both places.
 
 mod dirty;
+mod fit;
 mod job;
+mod part;
 mod place;
 mod settle;
 
@@ -17,6 +19,7 @@ use core::ops::Range;
 
 use self::dirty::Dirty;
 pub(crate) use self::job::{MeshJob, MeshTree};
+use self::part::Part;
 use super::{Bvh, Trails};
 use crate::levels::Levels;
 use crate::node::LightNode;
@@ -56,6 +59,8 @@ pub(super) struct Staged {
     fresh: usize,
     /// Nodes, once they are there, that are to be computed.
     dirty: Dirty,
+    /// The part that it is of, where it is not of all: its triangles stay, and its nodes are computed apart.
+    part: Option<Part>,
 }
 
 /// Who builds beside the frames of a light BVH: what is under way ends with it.
@@ -63,6 +68,25 @@ pub(super) struct Staged {
 pub(crate) struct Builder(Arc<()>);
 
 impl Staged {
+    /// One of `count` triangles.
+    fn new(tree: u32, number: u64, builder: &Builder, count: usize) -> Self {
+        Self {
+            number,
+            tree,
+            builder: Arc::downgrade(&builder.0),
+            triangles: 0..0,
+            copied: 0,
+            nodes: 0..0,
+            is_placed: false,
+            depth: 0,
+            levels: Levels::default(),
+            changed: Dirty::none(count),
+            fresh: 0,
+            dirty: Dirty::default(),
+            part: None,
+        }
+    }
+
     /// Whether anyone will bring it to an end.
     fn is_built(&self, tree: u32) -> bool {
         self.tree == tree && self.builder.strong_count() > 0
@@ -103,28 +127,20 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.drop_stage(blas);
         self.epoch += 1;
         let count = self.blas_len(blas);
-        let staged = Staged {
-            number: self.epoch,
-            tree: self.id.0,
-            builder: Arc::downgrade(&builder.0),
-            triangles: 0..0,
-            copied: 0,
-            nodes: 0..0,
-            is_placed: false,
-            depth: 0,
-            levels: Levels::default(),
-            changed: Dirty::none(count),
-            fresh: 0,
-            dirty: Dirty::default(),
+        let staged = Staged::new(self.id.0, self.epoch, builder, count);
+        let id = self.stage(blas, staged);
+        Some((id, MeshJob::new(&self.params, count)))
+    }
+
+    fn stage(&mut self, blas: u32, staged: Staged) -> StageId {
+        let id = StageId {
+            tree: staged.tree,
+            blas,
+            number: staged.number,
         };
         self.blases[blas as usize].staged = Some(Box::new(staged));
         self.staging.push(blas);
-        let id = StageId {
-            tree: self.id.0,
-            blas,
-            number: self.epoch,
-        };
-        Some((id, MeshJob::new(&self.params, count)))
+        id
     }
 
     /// The stage of that id, while it is there.
@@ -233,6 +249,10 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let Some(staged) = own.staged.as_deref_mut() else {
             return;
         };
+        if let Some(part) = &staged.part {
+            staged.fresh += part.mark(first, first + count, &mut staged.changed);
+            return;
+        }
         let end = (first + count).min(staged.copied);
         if first >= end {
             return;

@@ -57,6 +57,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         for blas in &mut self.blases {
             blas.levels = Levels::default();
+            blas.is_unlisted = false;
             // No triangle will tell it better.
             if !blas.extent.is_exact {
                 let own = blas.triangles.start as usize..blas.triangles.end as usize;

@@ -89,7 +89,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 &self.roots[index],
             )?;
             self.check_parts(blas, &again)?;
-            listed(&blas.levels, &found)?;
+            listed(&self.levels_of(index as u32), &found)?;
             used_triangles.push(blas.triangles.clone());
         }
         disjoint(used_triangles)?;

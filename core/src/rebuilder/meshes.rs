@@ -21,6 +21,8 @@ pub(super) struct Meshes<N, const W: usize> {
     under_way: Vec<Flight<N, W>>,
     /// Bottom levels that are still to begin.
     waiting: Queue,
+    /// Those that changed and are worth keeping, of which parts may not be.
+    strained: Queue,
     /// Small ones, which are put in place at once, as many as a frame has room for.
     small: Queue,
     /// Threads that have nothing to do, and those whose results nobody waits for.
@@ -39,6 +41,8 @@ pub(super) struct Meshes<N, const W: usize> {
 struct Flight<N, const W: usize> {
     id: StageId,
     blas: u32,
+    /// Whether it is a part of one.
+    is_part: bool,
     at: At<N, W>,
 }
 
@@ -61,6 +65,9 @@ enum At<N, const W: usize> {
     Over,
 }
 
+/// Most meshes that a frame searches for a part to be built anew.
+const SEARCHED: usize = 2;
+
 /// Most waiting meshes that a frame looks at.
 const LOOKED_AT: usize = 256;
 
@@ -69,6 +76,7 @@ impl<N, const W: usize> Default for Meshes<N, W> {
         Self {
             under_way: Vec::new(),
             waiting: Queue::default(),
+            strained: Queue::default(),
             small: Queue::default(),
             idle: Vec::new(),
             leaving: Vec::new(),
@@ -81,7 +89,10 @@ impl<N, const W: usize> Default for Meshes<N, W> {
 
 impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
     pub fn is_busy(&self) -> bool {
-        !self.under_way.is_empty() || !self.waiting.is_empty() || !self.small.is_empty()
+        !self.under_way.is_empty()
+            || !self.waiting.is_empty()
+            || !self.strained.is_empty()
+            || !self.small.is_empty()
     }
 
     /// Whether small meshes wait.
@@ -89,20 +100,31 @@ impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
         !self.small.is_empty()
     }
 
-    /// `worn` are to be built, once others are done.
+    /// Of those refitted lately, `worn` are to be built, once others are done, and large ones among `strained` looked at.
     pub fn await_turn<I, T: Trails>(
         &mut self,
         worn: Vec<u32>,
+        strained: Vec<u32>,
         scene: &Bvh<N, I, W, T>,
         params: &RebuilderParams,
     ) {
+        for blas in strained {
+            if scene.blas_len(blas) > most_at_once(params) {
+                self.strained.push(blas);
+            }
+        }
         for blas in worn {
             if scene.blas_len(blas) <= most_at_once(params) || scene.is_single_level() {
                 self.small.push(blas);
-            } else if !self.under_way.iter().any(|flight| flight.blas == blas) {
+            } else if !self.is_under_way(blas, false) {
                 self.waiting.push(blas);
             }
         }
+    }
+
+    fn is_under_way(&self, blas: u32, is_part: bool) -> bool {
+        let mut flights = self.under_way.iter();
+        flights.any(|flight| flight.blas == blas && flight.is_part == is_part)
     }
 
     /// Those that are put in place at once next, in no more triangles than a frame may take, all of a single level; and whether they are so
@@ -158,16 +180,29 @@ impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
         while begun < free && looked_at < LOOKED_AT {
             let Some(blas) = self.waiting.pop() else { break };
             looked_at += 1;
+            if self.is_under_way(blas, true) {
+                // The part comes first.
+                self.waiting.push(blas);
+                break;
+            }
             // It may have gone, or been built by another.
             let is_worn = scene.is_worn(blas, &params.rebuild);
             match is_worn.then(|| scene.begin_stage(blas, &self.builder)).flatten() {
                 Some((id, job)) => {
                     let at = self.make_room(job, params.after, thread);
-                    self.under_way.push(Flight { id, blas, at });
+                    self.under_way.push(Flight {
+                        id,
+                        blas,
+                        is_part: false,
+                        at,
+                    });
                     begun += 1;
                 }
                 None => self.is_lost = true,
             }
+        }
+        if begun < free {
+            self.begin_part(scene, params, thread);
         }
         let all = params.bytes.max(LEAST) as usize;
         let mut bytes = all;
@@ -241,6 +276,13 @@ impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
                 }
             }
             At::Inline(_, built) => taken(built, &mut result),
+            At::Placed(mut tree) if flight.is_part => match scene.settle_part(id, &mut tree, bytes) {
+                Some(false) => At::Placed(tree),
+                _ => {
+                    self.waste.push(Waste::Tree(tree));
+                    At::Over
+                }
+            },
             At::Placed(mut tree) => match scene.place_stage(id, &mut tree, bytes) {
                 Some(false) => At::Placed(tree),
                 placed => {
@@ -259,11 +301,39 @@ impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
         }
         if matches!(flight.at, At::Over) {
             let is_adopted = scene.is_adopted(id);
-            start.adopted += u32::from(is_adopted);
-            start.dropped += u32::from(!is_adopted);
-            self.is_lost |= !is_adopted;
+            let count = match (is_adopted, flight.is_part) {
+                (true, false) => &mut start.adopted,
+                (true, true) => &mut start.parts,
+                (false, _) => &mut start.dropped,
+            };
+            *count += 1;
+            // A part that came to nothing is looked for again once its mesh changes.
+            self.is_lost |= !is_adopted && !flight.is_part;
         }
         result
+    }
+
+    /// Begins the next part of a mesh that has one to be built anew.
+    fn begin_part<I, T: Trails>(
+        &mut self,
+        scene: &mut Bvh<N, I, W, T>,
+        params: &RebuilderParams,
+        thread: fn() -> std::io::Result<Worker<N, W>>,
+    ) {
+        let bytes = params.bytes.max(LEAST) as usize;
+        for _ in 0..SEARCHED {
+            let Some(blas) = self.strained.pop() else { break };
+            if let Some((id, job)) = scene.begin_part(blas, &self.builder, &params.rebuild, bytes) {
+                let at = self.make_room(job, params.after, thread);
+                self.under_way.push(Flight {
+                    id,
+                    blas,
+                    is_part: true,
+                    at,
+                });
+                break;
+            }
+        }
     }
 
     /// Has memory given back beside the frames, by a thread that has nothing else to do.

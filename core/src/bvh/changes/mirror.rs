@@ -177,6 +177,8 @@ enum Stage<N> {
     Copied(StageId, MeshJob<N>),
     Placed(StageId, MeshTree<N>),
     Settled(StageId),
+    CopiedPart(StageId, MeshJob<N>),
+    PlacedPart(StageId, MeshTree<N>),
 }
 
 /// Brings it on by a few nodes or triangles; `None` where it is over.
@@ -184,6 +186,7 @@ fn brought_on<N: LightNode<W>, I, const W: usize>(
     bvh: &mut Bvh<N, I, W>,
     stage: Stage<N>,
     random: &mut Random,
+    parts: &mut usize,
 ) -> Option<Stage<N>> {
     let bytes = &mut (random.below(20_000) as usize);
     Some(match stage {
@@ -199,26 +202,46 @@ fn brought_on<N: LightNode<W>, I, const W: usize>(
             true => return None,
             false => Stage::Settled(id),
         },
+        Stage::CopiedPart(id, mut job) => match bvh.copy_stage(id, &mut job, bytes)? {
+            true => Stage::PlacedPart(id, job.run::<W>()),
+            false => Stage::CopiedPart(id, job),
+        },
+        Stage::PlacedPart(id, mut tree) => match bvh.settle_part(id, &mut tree, bytes)? {
+            true => {
+                *parts += 1;
+                return None;
+            }
+            false => Stage::PlacedPart(id, tree),
+        },
     })
 }
 
-/// Returns how many trees came in piece by piece.
-fn random_frames<N: LightNode<W>, I: Clone, const W: usize>(seed: u32, refits: u32) -> usize {
+/// Returns how many trees came in piece by piece, and how many parts of trees.
+fn random_frames<N: LightNode<W>, I: Clone, const W: usize>(seed: u32, refits: u32) -> [usize; 2] {
     let random = &mut Random(seed << 16);
     let mut bvh = Bvh::<N, I, W>::default();
     let mut mirror = Mirror::<N, W>::empty();
     let mut built: Vec<Rebuild<N, W>> = Vec::new();
     let mut stages: Vec<Stage<N>> = Vec::new();
     let builder = Builder::default();
+    let mut parts = 0;
     bvh.plan();
     mirror.follow(&bvh, &plan_of_all(&bvh));
     for _ in 0..400 {
         for stage in core::mem::take(&mut stages) {
-            stages.extend(brought_on(&mut bvh, stage, random));
+            stages.extend(brought_on(&mut bvh, stage, random, &mut parts));
         }
         if random.below(6) == 0 {
             let begun = bvh.begin_stage(random.below(12), &builder);
             stages.extend(begun.map(|(id, job)| Stage::Copied(id, job)));
+        }
+        if random.below(3) == 0 {
+            let worn = RebuildParams {
+                drift: 1.0,
+                ..RebuildParams::default()
+            };
+            let begun = bvh.begin_part(random.below(12), &builder, &worn, 1 << 20);
+            stages.extend(begun.map(|(id, job)| Stage::CopiedPart(id, job)));
         }
         match random.below(10) {
             0 => built.push(bvh.rebuild(&RebuildParams {
@@ -240,7 +263,8 @@ fn random_frames<N: LightNode<W>, I: Clone, const W: usize>(seed: u32, refits: u
     }
     bvh.refit();
     bvh.validate().expect("valid");
-    bvh.blases.iter().filter(|blas| blas.adopted > 0).count()
+    let adopted = bvh.blases.iter().filter(|blas| blas.adopted > 0).count();
+    [adopted, parts]
 }
 
 /// As a mirror begins: by all that there is.
@@ -257,12 +281,13 @@ fn plan_of_all<N: LightNode<W>, I, const W: usize>(bvh: &Bvh<N, I, W>) -> RefitP
 /// A device that alone refits, one beside the CPU, and one that is asked now and then.
 #[test]
 fn a_mirror_follows_whatever_comes_between_plans() {
-    let mut adopted = 0;
+    let mut adopted = [0; 2];
+    let mut count = |more: [usize; 2]| (0..2).for_each(|k| adopted[k] += more[k]);
     for seed in 0..12 {
         for refits in [0, 1, 4] {
-            adopted += random_frames::<MomentNode<8>, Moments, 8>(3 * seed, refits);
-            adopted += random_frames::<CompactNode<4>, Eq4, 4>(3 * seed + 1, refits);
+            count(random_frames::<MomentNode<8>, Moments, 8>(3 * seed, refits));
+            count(random_frames::<CompactNode<4>, Eq4, 4>(3 * seed + 1, refits));
         }
     }
-    assert!(adopted > 100, "{adopted}");
+    assert!(adopted[0] > 100 && adopted[1] > 40, "{adopted:?}");
 }

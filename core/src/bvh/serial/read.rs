@@ -70,6 +70,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 triangles: 0..0,
                 mesh,
                 levels: Levels::default(),
+                is_unlisted: false,
+                misfits: Vec::new(),
                 depth: 0,
                 extent: Extent::of(&[]),
                 created: 0,

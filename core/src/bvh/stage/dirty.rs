@@ -46,6 +46,21 @@ impl Dirty {
         self.count
     }
 
+    /// Those that are marked, from `first` on.
+    pub fn iter_from(&self, first: u32) -> impl Iterator<Item = u32> + '_ {
+        let start = first as usize / 64;
+        let words = self.words.get(start..self.end).unwrap_or_default().iter();
+        words.zip(start as u32..).flat_map(move |(&word, index)| {
+            let below = if index as usize == start { first % 64 } else { 0 };
+            let mut left = word >> below << below;
+            core::iter::from_fn(move || {
+                let bit = left.trailing_zeros();
+                left &= left.wrapping_sub(1);
+                (bit < 64).then_some(64 * index + bit)
+            })
+        })
+    }
+
     /// Takes the last `count`, or all there are, from the last on.
     pub fn take_last(&mut self, count: u32) -> Vec<u32> {
         let count = count.min(self.count);
@@ -79,7 +94,14 @@ mod tests {
             let first = dirty.take_last(3);
             dirty.mark(0);
             dirty.mark(nodes as u32 - 1);
+            let marked: Vec<u32> = dirty.iter_from(0).collect();
+            assert_eq!(marked.len(), dirty.count() as usize);
+            for first in [1, 64, 100, 300] {
+                let later: Vec<u32> = marked.iter().copied().filter(|&node| node >= first).collect();
+                assert!(dirty.iter_from(first).eq(later));
+            }
             let mut all = dirty.take_last(u32::MAX);
+            assert!(all.iter().rev().eq(&marked));
             assert_eq!(all.first(), Some(&(nodes as u32 - 1)));
             assert_eq!(dirty.count(), 0);
             assert!(all.is_sorted_by(|a, b| a > b));

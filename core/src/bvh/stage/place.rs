@@ -13,7 +13,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Makes more room for the triangles, by at most `bytes`, of which what it takes is subtracted; whether there is enough. `None` where the
     /// stage is gone.
     pub(crate) fn find_room(&mut self, id: StageId, bytes: &mut usize) -> Option<bool> {
-        if self.staged(id)?.triangles.is_empty() {
+        let staged = self.staged(id)?;
+        if staged.triangles.is_empty() && staged.part.is_none() {
             let count = self.blas_len(id.blas) as u32;
             let Some(range) = self.take_triangles(count, bytes) else {
                 return Some(false);
@@ -33,6 +34,9 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if !self.find_room(id, bytes)? {
             return Some(false);
         }
+        if self.staged(id)?.part.is_some() {
+            return Some(self.copy_part(id, job, bytes));
+        }
         let size = 2 * size_of::<EmissiveTriangle>();
         let staged = self.staged(id)?;
         let from = staged.copied;
@@ -49,6 +53,21 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             self.changes.new.written_triangles.push(to..to + count);
         }
         Some(is_done)
+    }
+
+    /// The same for a part, whose triangles stay where they are.
+    fn copy_part(&self, id: StageId, job: &mut MeshJob<N>, bytes: &mut usize) -> bool {
+        // They lie anywhere in the mesh.
+        let size = 2 * size_of::<EmissiveTriangle>();
+        let (from, left) = job.copied();
+        let count = left.min(*bytes / size);
+        *bytes -= count * size;
+        let start = self.blases[id.blas as usize].triangles.start;
+        for k in from..from + count {
+            let own = self.triangles[(start + job.places[k]) as usize];
+            job.copy(&[own]);
+        }
+        count == left
     }
 
     /// Puts more of what was built in place, as [`copy_stage`](Self::copy_stage) copies.

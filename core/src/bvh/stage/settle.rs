@@ -10,7 +10,7 @@ use crate::sweep;
 const NODE: usize = 2048;
 const PATH: usize = 4096;
 /// Few enough nodes for one thread, which takes them in order.
-const IN_ORDER: usize = 1024;
+pub(super) const IN_ORDER: usize = 1024;
 
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Computes more of what changed since the triangles were copied, and lets the new tree take the place of the old where nothing is
@@ -32,7 +32,11 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             self.mark_paths(id, &some)?;
         }
         let staged = self.staged(id)?;
-        let marked = staged.dirty.count().saturating_sub(before);
+        let marked = if fresh > 0 {
+            staged.dirty.count() - before
+        } else {
+            0
+        };
         let count = ((*bytes / NODE).max(1) as u32).max(2 * marked);
         let base = staged.nodes.start;
         let mut list = staged.dirty.take_last(count);

@@ -325,3 +325,136 @@ fn a_mesh_that_goes_is_told_of() {
     let start = rebuilder.begin_frame(&mut bvh).expect("no panic");
     assert!(start.dropped == 1 && start.under_way == 0, "{start:?}");
 }
+
+/// A mesh of clusters in a row, and two instances of it.
+fn clusters(shuffled: Option<u32>) -> Vec<EmissiveTriangle> {
+    let random = &mut Random(9);
+    let mut all = Vec::new();
+    for cluster in 0..30 {
+        let mut own: Vec<EmissiveTriangle> = lamps(cluster)[..100].to_vec();
+        if shuffled == Some(cluster) {
+            for k in (1..100).rev() {
+                own.swap(k, (random.unit() * (k + 1) as f32) as usize % (k + 1));
+            }
+        }
+        for lamp in &mut own {
+            lamp.p = lamp.p.map(|[x, y, z]| [x + 40.0 * cluster as f32, y, z]);
+        }
+        all.extend(own);
+    }
+    all
+}
+
+/// A part that lost its shape is built anew alone: its nodes and trails are written, no others, and all is as a new tree has it.
+#[test]
+fn a_worn_part_is_built_anew_alone() {
+    for sways in [0, 1, 3] {
+        let (mut bvh, _, mut rebuilder) = scene();
+        let mesh = bvh.add_mesh(clusters(None)).expect("a mesh");
+        for x in [0.0, 2000.0] {
+            bvh.add_instance(mesh, Transform::at([x, 50.0, 0.0]))
+                .expect("one");
+        }
+        bvh.refit();
+        until_adopted(&mut bvh, &mut rebuilder, |_, _| ());
+        let blas = bvh.meshes[mesh.index() as usize].blas;
+        let (root, nodes) = (
+            bvh.roots[blas as usize].node,
+            bvh.blases[blas as usize].nodes.clone(),
+        );
+        let triangles = bvh.blases[blas as usize].triangles.clone();
+        bvh.set_triangle_range(mesh, 1200, clusters(Some(12))[1200..1300].to_vec())
+            .expect("its own");
+        bvh.refit();
+        let before = drift(&bvh, mesh);
+        assert!(before > 1.0 && before < 1.1, "{before}");
+        assert!(bvh.due(&RebuildParams::default()).is_empty());
+        let (mut parts, mut frames) = (0, 0);
+        while parts == 0 {
+            rebuilder.end_frame(&bvh);
+            let start = rebuilder.begin_frame(&mut bvh).expect("no panic");
+            assert!(start.adopted == 0 && start.dropped == 0 && start.copied <= BYTES);
+            parts += start.parts;
+            if parts > 0 {
+                let new = &bvh.changes.new;
+                let written: usize = new.written_nodes.iter().map(ExactSizeIterator::len).sum();
+                assert!((10..40).contains(&written), "{written}");
+                assert!(
+                    new.written_nodes
+                        .iter()
+                        .all(|own| nodes.start < own.start && own.end <= nodes.end)
+                );
+                let own = triangles.start + 1200..triangles.start + 1300;
+                assert!(
+                    new.written_trails
+                        .iter()
+                        .all(|written| own.start <= written.start && written.end <= own.end)
+                );
+                assert!(new.written_triangles.is_empty());
+            } else if sways > 0 && frames % sways == 0 {
+                let mut all = clusters(Some(12));
+                for lamp in &mut all {
+                    lamp.p = lamp.p.map(|[x, y, z]| [x, y, z + 0.01 * frames as f32]);
+                }
+                if frames % 2 == 0 {
+                    bvh.set_triangles(mesh, all).expect("as many");
+                } else {
+                    bvh.set_triangle_range(mesh, 1150, all[1150..1290].to_vec())
+                        .expect("its own");
+                }
+            }
+            bvh.refit();
+            bvh.validate().expect("valid");
+            frames += 1;
+            assert!(frames < 100);
+        }
+        assert_eq!(bvh.roots[blas as usize].node, root);
+        assert_eq!(bvh.blases[blas as usize].nodes, nodes);
+        assert!(
+            drift(&bvh, mesh) < 1.0 + (before - 1.0) / 2.0,
+            "{before} to {}",
+            drift(&bvh, mesh)
+        );
+        // A sweep of the whole mesh, and files, find it as it should be.
+        for _ in 0..60 {
+            rebuilder.end_frame(&bvh);
+            rebuilder.begin_frame(&mut bvh).expect("no panic");
+            bvh.refit();
+        }
+        assert!(!rebuilder.is_busy());
+        bvh.set_triangles(mesh, clusters(None)).expect("as many");
+        let everything = bvh.plan_of_everything().bottom;
+        bvh.refit();
+        bvh.validate().expect("valid");
+        assert!(everything.nodes().len() >= bvh.work().bottom.nodes().len());
+        let again = LightBvh::from_words(&bvh.to_words()).expect("a file");
+        assert!(again.to_words() == bvh.to_words());
+    }
+}
+
+/// Without trails all nodes are computed where anything changed, in pieces too.
+#[test]
+fn without_trails_it_comes_in_pieces() {
+    let (bvh, mesh, mut rebuilder) = scene();
+    let mut bvh = bvh.without_trails();
+    let mut most = 0;
+    for frame in 0..400 {
+        let start = rebuilder.begin_frame(&mut bvh).expect("no panic");
+        let new = &bvh.changes.new.written_nodes;
+        most = most.max(new.iter().map(ExactSizeIterator::len).sum());
+        if start.adopted > 0 {
+            bvh.refit();
+            bvh.validate().expect("valid");
+            assert!((8..90).contains(&most), "{most}");
+            assert_eq!(bvh.drift(bvh.meshes[mesh.index() as usize].blas), 1.0);
+            return;
+        }
+        if frame == 60 {
+            bvh.set_triangle_range(mesh, 7, lamps(2)[7..9].to_vec())
+                .expect("its own");
+        }
+        bvh.refit();
+        rebuilder.end_frame(&bvh);
+    }
+    panic!("it does not end");
+}
