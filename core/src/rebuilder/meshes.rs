@@ -258,7 +258,10 @@ impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
                     At::Over
                 }
             },
-            At::Built(left, worker) if left > 1 => At::Built(left - 1, worker),
+            At::Built(left, worker) if left > 1 => {
+                scene.expect_nodes(id, bytes);
+                At::Built(left - 1, worker)
+            }
             At::Inline(left, built) if left > 1 => At::Inline(left - 1, built),
             At::Built(_, worker) => {
                 let began = Clock::start();
@@ -272,7 +275,10 @@ impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
                         }
                         taken(built, &mut result)
                     }
-                    None => At::Built(0, worker),
+                    None => {
+                        scene.expect_nodes(id, bytes);
+                        At::Built(0, worker)
+                    }
                 }
             }
             At::Inline(_, built) => taken(built, &mut result),

@@ -102,6 +102,16 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         Some(is_done)
     }
 
+    /// While a tree is built: makes room for about as many nodes as the old one has.
+    pub(crate) fn expect_nodes(&mut self, id: StageId, bytes: &mut usize) {
+        if self.staged(id).is_some_and(|staged| staged.part.is_none()) {
+            let count = self.blases[id.blas as usize].nodes.len() as u32;
+            if let Some(range) = self.take_nodes(count + count / 16, bytes) {
+                self.node_ranges.give(range);
+            }
+        }
+    }
+
     fn place_nodes_of(
         &mut self,
         tree: &mut MeshTree<N>,
