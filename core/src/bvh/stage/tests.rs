@@ -345,6 +345,26 @@ fn clusters(shuffled: Option<u32>) -> Vec<EmissiveTriangle> {
     all
 }
 
+/// The one mesh of a single level too.
+#[test]
+fn a_worn_part_of_a_single_level_is_built_anew() {
+    let lights = crate::Lights::new(clusters(None)).expect("lights");
+    let mut bvh = LightBvh::single_level(&lights, &crate::BuildParams::default());
+    let (.., mut rebuilder) = scene();
+    let mesh = bvh.mesh_id(0).expect("one");
+    bvh.set_triangle_range(mesh, 1200, clusters(Some(12))[1200..1300].to_vec())
+        .expect("its own");
+    bvh.refit();
+    let mut parts = 0;
+    for _ in 0..60 {
+        rebuilder.end_frame(&bvh);
+        parts += rebuilder.begin_frame(&mut bvh).expect("no panic").parts;
+        bvh.refit();
+        bvh.validate().expect("valid");
+    }
+    assert!(parts > 0 && !rebuilder.is_busy());
+}
+
 /// A part that lost its shape is built anew alone: its nodes and trails are written, no others, and all is as a new tree has it.
 #[test]
 fn a_worn_part_is_built_anew_alone() {
