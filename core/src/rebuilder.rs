@@ -251,7 +251,7 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
         }
         let worn = scene.worn_since(&self.params.rebuild, self.taken);
         let small = self.meshes.await_turn(worn, scene, &self.params);
-        let top = scene.copy_worn_part(self.params.rebuild.top, &mut self.search);
+        let top = scene.copy_worn_parts(self.params.rebuild.top, &mut self.search);
         let job = scene.rebuild_of(top, &small);
         self.taken = Some(now);
         if job.is_empty() {

@@ -49,7 +49,7 @@ pub struct Due {
 pub struct Rebuild<N, const W: usize> {
     params: BuildParams,
     taken: Taken,
-    top: Option<TopCopy>,
+    top: Vec<TopCopy<N>>,
     bottoms: Vec<Bottom>,
     layout: PhantomData<N>,
 }
@@ -74,8 +74,8 @@ struct Bottom {
 #[derive(Debug)]
 pub struct Rebuilt<N, const W: usize> {
     taken: Taken,
-    /// The top level, refitted.
-    top: Option<TopTree<N>>,
+    /// The top level or parts of it, refitted.
+    top: Vec<TopTree<N>>,
     bottoms: Vec<(Bottom, Topology<N>)>,
 }
 
@@ -98,7 +98,7 @@ impl<N: LightNode<W>, const W: usize> Rebuild<N, W> {
     /// Whether there is nothing to build.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.top.is_none() && self.bottoms.is_empty()
+        self.top.is_empty() && self.bottoms.is_empty()
     }
 
     /// The bottom levels to build.
@@ -110,7 +110,7 @@ impl<N: LightNode<W>, const W: usize> Rebuild<N, W> {
     /// Builds. The result depends on nothing but `self`: not on the thread, nor on when it runs.
     #[must_use]
     pub fn run(self) -> Rebuilt<N, W> {
-        let top = self.top.map(|copy| copy.build::<N, W>(&self.params));
+        let top = self.top.into_iter().map(|copy| copy.build::<W>(&self.params));
         let params = self.params;
         let bottoms = self.bottoms.into_iter().map(|bottom| {
             let mut topology = build_over::<N, W>(&bottom.triangles, &params);
@@ -119,7 +119,7 @@ impl<N: LightNode<W>, const W: usize> Rebuild<N, W> {
         });
         Rebuilt {
             taken: self.taken,
-            top,
+            top: top.collect(),
             bottoms: bottoms.collect(),
         }
     }
@@ -138,7 +138,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     pub(crate) fn rebuild_since(&self, params: &RebuildParams, since: Option<Taken>) -> Rebuild<N, W> {
         let is_worn = self.quality(self.top.root).drift() >= params.top;
         let top = is_worn.then(|| self.copy_top());
-        self.rebuild_of(top, &self.worn_since(params, since))
+        self.rebuild_of(Vec::from_iter(top), &self.worn_since(params, since))
     }
 
     /// How many times worse the top level is than when its nodes were built.
@@ -180,7 +180,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// Work for what is to be built anew of the top level, and a copy of the triangles of those bottom levels.
-    pub(crate) fn rebuild_of(&self, top: Option<TopCopy>, bottoms: &[u32]) -> Rebuild<N, W> {
+    pub(crate) fn rebuild_of(&self, top: Vec<TopCopy<N>>, bottoms: &[u32]) -> Rebuild<N, W> {
         let bottoms = bottoms.iter().map(|&blas| {
             let own = &self.blases[blas as usize];
             let range = own.triangles.clone();
@@ -217,8 +217,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 self.update_root(bottom.blas);
             }
         }
-        if let Some(top) = rebuilt.top {
-            self.install_top(&top, rebuilt.taken.epoch);
+        for top in &rebuilt.top {
+            self.install_top(top, rebuilt.taken.epoch);
         }
         self.bound_changes();
         Ok(())

@@ -40,7 +40,7 @@ pub(super) struct InstanceState {
     /// Its centre then, metres; NaN before it is moved for the first time.
     pub hung_center: [f32; 3],
     /// The last search that came by.
-    pub mark: u32,
+    pub mark: u64,
     /// When its words changed last.
     pub changed: u64,
     /// The records of its parts, where it is opened.
