@@ -266,6 +266,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 .placed
                 .get(part as usize)
                 .map_or(0.0, |old| old.hung_radiance),
+            flickers: self.placed.get(part as usize).is_some_and(|old| old.flickers),
             hung_center: [f32::NAN; 3],
             mark: 0,
             changed: self.epoch,
@@ -297,6 +298,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             };
             self.placed[part as usize].part_of = INVALID;
             self.placed[part as usize].node = INVALID;
+            self.placed[part as usize].flickers = false;
             self.changes.new.written_instances.push(part);
         }
         self.placed_ranges.give(parts);

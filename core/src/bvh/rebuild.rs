@@ -94,6 +94,14 @@ impl fmt::Display for Foreign {
 
 impl core::error::Error for Foreign {}
 
+#[cfg(feature = "std")]
+impl<N, const W: usize> Rebuilt<N, W> {
+    /// What nodes above parts cost over those that they replace.
+    pub(crate) fn gain_above(&self) -> Option<f64> {
+        self.top.iter().find_map(TopTree::gain_above)
+    }
+}
+
 impl<N: LightNode<W>, const W: usize> Rebuild<N, W> {
     /// Whether there is nothing to build.
     #[must_use]

@@ -60,10 +60,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         let above = (root != self.top.root).then(|| (self.parents[root as usize], self.slot_above(root)));
         let count = self.top.counts[self.top.number(root) as usize];
-        for &node in &found.nodes {
-            self.free_top_node(node);
-        }
-        let (nodes, lost) = self.link_in(tree, found.mark);
+        let nodes = self.renewed(found.nodes, tree.nodes.len());
+        let lost = self.link_in(tree, &nodes, found.mark);
         match above {
             None => self.set_root(nodes[0]),
             Some((node, slot)) => {
@@ -174,9 +172,26 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             .is_some_and(|placed| placed.mark == mark)
     }
 
-    /// Makes nodes of those of a tree, and hangs below them what is marked. Returns them, and those of them that miss a child.
-    fn link_in(&mut self, tree: &TopTree<N>, mark: u64) -> (Vec<u32>, Vec<u32>) {
-        let nodes: Vec<u32> = tree.nodes.iter().map(|_| self.new_top_node()).collect();
+    /// So many nodes of the top level, the old ones among them, which hang nowhere. To give their places and numbers back and take others
+    /// would be half of the work.
+    fn renewed(&mut self, mut nodes: Vec<u32>, count: usize) -> Vec<u32> {
+        for node in nodes.drain(count.min(nodes.len())..) {
+            self.free_top_node(node);
+        }
+        for &node in &nodes {
+            let number = self.top.number(node) as usize;
+            self.top.edits[number] = 0;
+            self.note_birth(node);
+        }
+        while nodes.len() < count {
+            nodes.push(self.new_top_node());
+        }
+        self.top.levels = None;
+        nodes
+    }
+
+    /// Makes `nodes` those of a tree, and hangs below them what is marked. Returns those of them that miss a child.
+    fn link_in(&mut self, tree: &TopTree<N>, nodes: &[u32], mark: u64) -> Vec<u32> {
         let mut lost = Vec::new();
         for ((&node, words), keeps) in nodes.iter().zip(&tree.nodes).zip(&tree.keeps) {
             let mut words = *words;
@@ -231,7 +246,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         // It was tried just now.
         let number = self.top.number(nodes[0]) as usize;
         self.top.stirred[number] = 0;
-        (nodes, lost)
+        lost
     }
 
     /// A part has nothing to gain: its nodes are as good as built.

@@ -12,7 +12,7 @@ use crate::tree::INVALID;
 const ADDED: f64 = 0.5;
 /// That node's share in what the node above costs as a whole must be this; in a tree as built it is about 1/32.
 const SHARE: f64 = 1.0 / 16.0;
-/// And once its radiance has changed by this factor since it was put where it is.
+/// And once its radiance has changed by this factor since it was put where it is; for being dimmer, once at all.
 const FACTOR: f32 = 2.0;
 /// Most instances that one call puts in elsewhere, and one more for so many instances. Where more are misplaced the rest waits for a
 /// rebuild: an animation of all instances costs what it always did.
@@ -43,6 +43,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             misplaced.sort_unstable_by_key(|&(_, index)| index);
         }
         for (_, index) in misplaced {
+            let placed = &mut self.placed[index as usize];
+            placed.flickers |= placed.hung_radiance > FACTOR * placed.radiance;
             self.remove_leaf(index);
             out.push(index);
         }
@@ -86,11 +88,12 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Whether an instance's radiance is another than when it was put where it is, by a factor that matters.
+    /// Whether an instance's radiance is another than when it was put where it is, by a factor that matters. One that was dimmer before,
+    /// as a lamp that flickers is in every other frame, costs nothing among brighter ones: it stays until it is brighter.
     pub(in crate::bvh) fn is_otherwise_bright(&self, index: u32) -> bool {
         let placed = &self.placed[index as usize];
         let (was, is) = (placed.hung_radiance, placed.radiance);
-        is > FACTOR * was || was > FACTOR * is
+        is > FACTOR * was || (was > FACTOR * is && !placed.flickers)
     }
 
     /// Notes where an instance was before it moved for the first time since it was put where it is, as the last refit saw it.

@@ -17,8 +17,11 @@ use crate::summary::{Lanes, Summary};
 /// Most leaves of a part: copied in 0.1 ms, put in place in 0.2 ms (measured: `docs/dynamics.md`).
 #[cfg(feature = "std")]
 pub(in crate::bvh) const PART: u32 = 1536;
+/// Most leaves of one that keeps subtrees, each of which is looked at, and its number told where it hangs.
+#[cfg(feature = "std")]
+const ABOVE: u32 = 1024;
 /// A tree comes in where its nodes cost at most so much of what those cost that it replaces.
-const PAYS: f64 = 0.98;
+const PAYS: f64 = 0.985;
 
 /// A copy of what a part of the top level is built from.
 #[derive(Clone, Debug)]
@@ -49,6 +52,8 @@ pub(in crate::bvh) struct TopTree<N> {
     pub(super) root: Option<Part>,
     /// Whether it is to be put in place: it costs less than what is there.
     pub(super) pays: bool,
+    /// What it costs over what it replaces.
+    cost: f64,
     /// In depth-first order; links of nodes count from the first, the root.
     pub(super) nodes: Vec<N>,
     /// Levels above each node.
@@ -65,13 +70,15 @@ pub(in crate::bvh) struct TopTree<N> {
     pub(super) close: Vec<u32>,
 }
 
-impl<N> TopCopy<N> {
-    /// Number of its leaves.
-    #[cfg(feature = "std")]
-    pub fn len(&self) -> usize {
-        self.names.len() + self.kept.len()
+#[cfg(feature = "std")]
+impl<N> TopTree<N> {
+    /// What it costs over what it replaces, where it keeps subtrees.
+    pub fn gain_above(&self) -> Option<f64> {
+        (!self.kept.is_empty()).then_some(self.cost)
     }
+}
 
+impl<N> TopCopy<N> {
     /// A tree over the copy, refitted.
     pub(in crate::bvh) fn build<const W: usize>(self, params: &BuildParams) -> TopTree<N>
     where
@@ -80,6 +87,7 @@ impl<N> TopCopy<N> {
         let mut tree = TopTree {
             root: self.root,
             pays: false,
+            cost: 1.0,
             nodes: Vec::new(),
             levels: Vec::new(),
             depth: 0,
@@ -127,6 +135,7 @@ impl<N> TopCopy<N> {
             topology.nodes[index as usize] = node;
         }
         tree.pays = self.always || cost <= PAYS * self.cost;
+        tree.cost = if self.cost > 0.0 { cost / self.cost } else { 1.0 };
         tree.nodes = topology.nodes;
         tree.levels = topology.levels;
         tree.depth = topology.depth;
@@ -154,7 +163,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// What a part is built from.
     #[cfg(feature = "std")]
     pub(super) fn copy_part(&self, root: u32, always: bool) -> TopCopy<N> {
-        let cut = self.cut(root, PART as usize);
+        let is_part = self.top.counts[self.top.number(root) as usize] <= PART;
+        let cut = self.cut(root, if is_part { PART } else { ABOVE } as usize);
         let whole = opened::cost(&self.nodes[self.top.root as usize].merged());
         let openable = match self.params.opens {
             true => self.openable(self.owners(&cut.names).into_iter()),

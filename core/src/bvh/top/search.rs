@@ -9,11 +9,17 @@ use alloc::vec::Vec;
 
 use super::rebuild::{PART, TopCopy};
 use crate::bvh::{Bvh, Trails};
-use crate::node::LightNode;
+use crate::node::{LightNode, kind};
 use crate::tree::INVALID;
 
 /// Nodes that one search looks at.
 const LOOKED_AT: usize = 4096;
+/// The highest nodes, which each search looks at.
+const HIGHEST: usize = 256;
+/// Room that is not worth looking for a part that fits in.
+const SMALL: u32 = 128;
+/// Searches that a node above parts waits for at most.
+const LONGEST: u32 = 6;
 /// What a node above parts must have lost at least, whatever the threshold: motion of everything wears it a little in each frame, and
 /// parts have to get their turn.
 const LEAST: f64 = 0.05;
@@ -25,8 +31,8 @@ pub(crate) struct Search {
     next: u32,
     /// How many are to be looked at before all have been since the last change.
     left: u32,
-    /// Whether the last that was found was of more than [`PART`] instances.
-    was_above: bool,
+    /// Searches before a node above parts has its turn, while parts are worn.
+    waits: u32,
 }
 
 impl Search {
@@ -34,44 +40,72 @@ impl Search {
     pub fn is_done(&self) -> bool {
         self.left == 0
     }
+
+    /// Notes what nodes cost that were built above parts, over what those cost that they replaced. Where the lights mix faster than they
+    /// are put in order that is near 1, and the time belongs to parts.
+    pub fn note_gain(&mut self, cost: f64) {
+        self.waits = (cost / (1.0 - cost).max(1e-3)).clamp(1.0, f64::from(LONGEST)) as u32;
+    }
+}
+
+/// What there is to build anew.
+#[derive(Clone, Copy, Debug)]
+enum Worn {
+    /// A part, and whether its tree comes in whatever it costs.
+    Part(u32, bool),
+    /// Nodes above parts.
+    Above(u32),
 }
 
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// What the next parts are built from that are worse than when they were built by the factor `worse` or more, [`PART`] leaves at
-    /// most in all; time in proportion to them.
-    pub(crate) fn copy_worn_parts(&self, worse: f64, search: &mut Search) -> Vec<TopCopy<N>> {
+    /// What the next parts are built from that are worse than when they were built by the factor `worse` or more, `most` instances in
+    /// all, or [`PART`] where that is more; time in proportion to them.
+    pub(crate) fn copy_worn_parts(&self, worse: f64, most: u32, search: &mut Search) -> Vec<TopCopy<N>> {
         let root = self.top.number(self.top.root) as usize;
         if self.top.counts[root] <= PART {
             search.left = 0;
             let is_worn = self.quality(self.top.root).drift() >= worse;
             return Vec::from_iter(is_worn.then(|| self.copy_top()));
         }
-        let mut parts: Vec<(u32, bool)> = Vec::new();
-        let (mut room, mut is_above) = (PART, false);
-        for _ in 0..LOOKED_AT.min(search.left as usize) {
-            let number = search.next as usize % self.top.nodes.len();
-            let found = self.worn_at(number as u32, worse, search.was_above);
-            if let Some((found, by_itself)) = found.filter(|found| !parts.contains(found)) {
-                let count = self.top.counts[self.top.number(found) as usize];
-                is_above = count > PART;
-                // What does not fit is found again.
-                if count > room && !parts.is_empty() {
+        let mut parts = Vec::new();
+        let highest = self.worn_above(worse);
+        let (mut above, mut stirred) = (None, Vec::new());
+        search.waits = search.waits.saturating_sub(1);
+        if search.waits > 0 || highest.is_none() {
+            let mut room = most.max(PART);
+            for _ in 0..LOOKED_AT.min(search.left as usize) {
+                let number = search.next as usize % self.top.nodes.len();
+                search.left -= 1;
+                search.next = number as u32 + 1;
+                match self.worn_at(number as u32, worse) {
+                    Some(Worn::Part(found, true)) if self.top.counts[number] <= room => {
+                        room -= self.top.counts[number];
+                        parts.push((found, true));
+                    }
+                    Some(Worn::Part(found, false)) => stirred.push((found, self.top.counts[number])),
+                    Some(Worn::Above(found)) if above.is_none() => above = Some(found),
+                    _ => {}
+                }
+                if room < SMALL {
                     break;
                 }
-                room = room.saturating_sub(count);
-                parts.push((found, by_itself));
             }
-            search.left -= 1;
-            search.next = number as u32 + 1;
-            if room == 0 {
-                break;
+            for (found, count) in stirred {
+                if count <= room {
+                    room -= count;
+                    parts.push((found, false));
+                }
             }
         }
-        search.was_above = is_above && parts.len() == 1 && room == 0;
-        parts
-            .into_iter()
-            .map(|(node, by_itself)| self.copy_part(node, by_itself))
-            .collect()
+        if parts.is_empty() {
+            parts.extend(highest.or(above).map(|node| (node, false)));
+        }
+        // What is worn and did not fit is still to be found.
+        if !parts.is_empty() {
+            self.search_again(search);
+        }
+        let copies = parts.into_iter();
+        copies.map(|(node, is_worn)| self.copy_part(node, is_worn)).collect()
     }
 
     /// All nodes are to be looked at again.
@@ -79,38 +113,57 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         search.left = self.top.nodes.len() as u32;
     }
 
-    /// The root of the part that is to be built anew for the sake of a node, and whether it comes in whatever it costs; with `is_part`,
-    /// of no more than [`PART`] instances. The highest is tried first: what it leaves to do below is less than before.
-    fn worn_at(&self, number: u32, worse: f64, is_part: bool) -> Option<(u32, bool)> {
+    /// What there is to build anew at a node. Of nodes that could be parts the largest stands for all below it.
+    fn worn_at(&self, number: u32, worse: f64) -> Option<Worn> {
         let node = self.top.nodes[number as usize];
         if node == INVALID || self.top.heights[number as usize] < 2 {
             return None;
         }
-        let count = |node: u32| self.top.counts[self.top.number(node) as usize];
-        let mut found = None;
-        let above = self.parents[node as usize];
-        if count(node) <= PART {
-            // Of a subtree that may be a part the largest such stands for all.
-            if above != INVALID && count(above) <= PART {
-                return None;
+        if self.top.counts[number as usize] > PART {
+            return (self.urgency(node, worse) > 0.0).then_some(Worn::Above(node));
+        }
+        let above = self.top.number(self.parents[node as usize]);
+        if self.top.counts[above as usize] <= PART {
+            return None;
+        }
+        let drift = self.quality(node).drift();
+        // As built, there is nothing to gain.
+        let is_worn = drift > 1.0 && drift >= worse;
+        (is_worn || self.is_stirred(node, worse)).then_some(Worn::Part(node, is_worn))
+    }
+
+    /// Of the highest nodes that have more than [`PART`] instances below, the one that has most to gain: of which most instances are
+    /// told apart least well.
+    fn worn_above(&self, worse: f64) -> Option<u32> {
+        let mut nodes = alloc::vec![self.top.root];
+        let mut best = (0.0, None);
+        let mut next = 0;
+        while let Some(&node) = nodes.get(next) {
+            next += 1;
+            let urgency = self.urgency(node, worse);
+            if urgency > best.0 {
+                best = (urgency, Some(node));
             }
-            let drift = self.quality(node).drift();
-            // As built, there is nothing to gain.
-            let is_worn = drift > 1.0 && drift >= worse;
-            if is_worn || self.is_stirred(node, worse) {
-                found = Some((node, is_worn));
+            let own = &self.nodes[node as usize];
+            for slot in (0..W).filter(|&slot| own.kind(slot) == kind::INNER) {
+                let child = own.link(slot);
+                let count = self.top.counts[self.top.number(child) as usize];
+                if count > PART && nodes.len() < HIGHEST {
+                    nodes.push(child);
+                }
             }
         }
-        let mut node = node;
-        while node != INVALID && !is_part {
-            let own = f64::from(self.quality(node).own());
-            let is_worn = own >= LEAST.max(1.0 - 1.0 / worse.max(1.0));
-            if count(node) > PART && (is_worn || self.is_stirred(node, worse)) {
-                found = Some((node, false));
-            }
-            node = self.parents[node as usize];
-        }
-        found
+        best.1
+    }
+
+    /// What there may be to gain at a node above parts: its own loss, times the instances that it is about; 0 where it is not worn.
+    fn urgency(&self, node: u32, worse: f64) -> f64 {
+        let number = self.top.number(node) as usize;
+        let own = f64::from(self.quality(node).own());
+        let is_worn = own >= LEAST.max(1.0 - 1.0 / worse.max(1.0));
+        let stirred = if self.is_stirred(node, worse) { LEAST } else { 0.0 };
+        let own = if is_worn { own } else { 0.0 };
+        own.max(stirred) * f64::from(self.top.counts[number])
     }
 
     /// Whether half of the instances below a node are in subtrees that were built since it was tried.
