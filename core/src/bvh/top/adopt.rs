@@ -50,15 +50,19 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if tree.root.is_some() && found.instances.len() + found.subtrees.len() > MOST {
             return;
         }
+        let above = (root != self.top.root).then(|| (self.parents[root as usize], self.slot_above(root)));
         for &name in &tree.names {
             if self.is_marked(name, found.mark) {
-                self.placed[name as usize].settle();
+                let placed = &mut self.placed[name as usize];
+                if above.is_none() {
+                    placed.settle();
+                }
+                placed.hung_radiance = placed.radiance;
             }
         }
         for &name in &found.instances {
             self.placed[name as usize].node = INVALID;
         }
-        let above = (root != self.top.root).then(|| (self.parents[root as usize], self.slot_above(root)));
         let count = self.top.counts[self.top.number(root) as usize];
         let nodes = self.renewed(found.nodes, tree.nodes.len());
         let lost = self.link_in(tree, &nodes, found.mark);

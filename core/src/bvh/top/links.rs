@@ -61,7 +61,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.nodes[node as usize].set_child(slot, to, link);
         self.link_up(node, slot);
         if to == kind::MESH {
-            self.placed[link as usize].settle();
+            let placed = &mut self.placed[link as usize];
+            placed.hung_radiance = placed.radiance;
         }
         self.changes.new.written_nodes.push(node..node + 1);
         self.top.levels = None;

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::cost::Cluster;
 use crate::bvh::{Bvh, Trails};
-use crate::node::LightNode;
+use crate::node::{LightNode, kind};
 use crate::summary::Summary;
 use crate::tree::INVALID;
 
@@ -18,16 +18,35 @@ const FACTOR: f32 = 2.0;
 /// rebuild: an animation of all instances costs what it always did.
 const MOST: usize = 64;
 
+/// Of so many instances that are moved in one call one is compared with what lies beside its nodes at all levels.
+const FAR_IN: u32 = 16;
+/// It has strayed where a node beside is nearer by this factor of squared distance, and it has come so far itself.
+const NEARER: f64 = 4.0;
+
+/// Squared distance, m².
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum()
+}
+
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Takes those of `moved` instances, which may repeat, out of the top level that make their nodes wide, and adds them to `out`.
     pub(in crate::bvh) fn take_misplaced(&mut self, mut moved: Vec<u32>, out: &mut Vec<u32>) {
         moved.sort_unstable();
         moved.dedup();
         let mut misplaced: Vec<(f64, u32)> = Vec::new();
+        let turn = if moved.len() < FAR_IN as usize {
+            FAR_IN
+        } else {
+            self.top.turn = (self.top.turn + 1) % FAR_IN;
+            self.top.turn
+        };
         for index in moved {
             for leaf in self.leaves_of(index) {
                 self.note_center(leaf);
-                let excess = self.excess(leaf);
+                let mut excess = self.excess(leaf);
+                if excess == 0.0 && leaf % FAR_IN == turn {
+                    excess = self.strayed(leaf);
+                }
                 if excess > 0.0 {
                     misplaced.push((excess, leaf));
                 } else if leaf == self.leaves_of(index).start {
@@ -86,6 +105,38 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         } else {
             0.0
         }
+    }
+
+    /// What an instance costs more in the node above parts that it is in than in one beside that; 0 where none is much nearer, or it was
+    /// there when it was put where it is. Parts that are built anew keep it among those around it, wherever it goes: so it is all levels
+    /// that are looked at, and not the two above it.
+    fn strayed(&self, index: u32) -> f64 {
+        let placed = &self.placed[index as usize];
+        if placed.node == INVALID || placed.hung_center[0].is_nan() {
+            return 0.0;
+        }
+        let own = Cluster::new(&self.in_world(index), 1);
+        let was = placed.hung_center.map(f64::from);
+        let mut node = placed.node;
+        let mut excess = 0.0;
+        while self.parents[node as usize] != INVALID {
+            let above = self.parents[node as usize];
+            let words = &self.nodes[above as usize];
+            let slot = self.slot_above(node);
+            let of = |slot: usize| words.summary(slot).center().to_array().map(f64::from);
+            let here = distance(own.center, of(slot));
+            if distance(own.center, was) * NEARER > here {
+                for other in (0..W).filter(|&other| other != slot && words.kind(other) == kind::INNER) {
+                    let there = distance(own.center, of(other));
+                    if there * NEARER < here {
+                        excess += own.phi * (here - there);
+                        break;
+                    }
+                }
+            }
+            node = above;
+        }
+        excess
     }
 
     /// Whether an instance's radiance is another than when it was put where it is, by a factor that matters. One that was dimmer before,

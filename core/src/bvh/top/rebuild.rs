@@ -20,16 +20,17 @@ pub(in crate::bvh) const PART: u32 = 1536;
 /// Most leaves of one that keeps subtrees, each of which is looked at, and its number told where it hangs.
 #[cfg(feature = "std")]
 const ABOVE: u32 = 1024;
-/// A tree comes in where its nodes cost at most so much of what those cost that it replaces.
-const PAYS: f64 = 0.985;
+/// A tree that nothing else asks for comes in where its nodes cost at most so much of what those cost that it replaces.
+#[cfg(feature = "std")]
+pub(super) const PAYS: f64 = 0.985;
 
 /// A copy of what a part of the top level is built from.
 #[derive(Clone, Debug)]
 pub(crate) struct TopCopy<N> {
     /// Its root; `None` for all of it, down to the instances.
     pub(super) root: Option<Part>,
-    /// Whether the tree comes in whatever it costs.
-    pub(super) always: bool,
+    /// The tree comes in where it costs at most so much of what is there.
+    pub(super) pays: f64,
     /// Indices of the instances, in order.
     names: Vec<u32>,
     /// The same, and the roots of their bottom levels.
@@ -134,8 +135,8 @@ impl<N> TopCopy<N> {
             node.set_lanes(&lanes);
             topology.nodes[index as usize] = node;
         }
-        tree.pays = self.always || cost <= PAYS * self.cost;
         tree.cost = if self.cost > 0.0 { cost / self.cost } else { 1.0 };
+        tree.pays = tree.cost <= self.pays;
         tree.nodes = topology.nodes;
         tree.levels = topology.levels;
         tree.depth = topology.depth;
@@ -153,7 +154,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         cut.names.sort_unstable();
         TopCopy {
             root: None,
-            always: true,
+            pays: f64::INFINITY,
             openable: self.openable(self.live.iter().copied()),
             whole: None,
             ..self.copy_of(cut)
@@ -162,7 +163,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// What a part is built from.
     #[cfg(feature = "std")]
-    pub(super) fn copy_part(&self, root: u32, always: bool) -> TopCopy<N> {
+    pub(super) fn copy_part(&self, root: u32, pays: f64) -> TopCopy<N> {
         let is_part = self.top.counts[self.top.number(root) as usize] <= PART;
         let cut = self.cut(root, if is_part { PART } else { ABOVE } as usize);
         let whole = opened::cost(&self.nodes[self.top.root as usize].merged());
@@ -172,7 +173,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         };
         TopCopy {
             root: Some(self.part(root)),
-            always,
+            pays,
             openable,
             whole: Some(whole),
             ..self.copy_of(cut)
@@ -195,7 +196,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     fn copy_of(&self, cut: Cut) -> TopCopy<N> {
         let mut copy = TopCopy {
             root: None,
-            always: false,
+            pays: f64::INFINITY,
             instances: Vec::with_capacity(cut.names.len()),
             roots: Vec::with_capacity(cut.names.len()),
             names: Vec::new(),

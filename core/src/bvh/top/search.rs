@@ -7,7 +7,7 @@
 
 use alloc::vec::Vec;
 
-use super::rebuild::{PART, TopCopy};
+use super::rebuild::{PART, PAYS, TopCopy};
 use crate::bvh::{Bvh, Trails};
 use crate::node::{LightNode, kind};
 use crate::tree::INVALID;
@@ -20,9 +20,13 @@ const HIGHEST: usize = 256;
 const SMALL: u32 = 128;
 /// Searches that a node above parts waits for at most.
 const LONGEST: u32 = 6;
-/// What a node above parts must have lost at least, whatever the threshold: motion of everything wears it a little in each frame, and
-/// parts have to get their turn.
+/// What a node above parts must have lost at least, whatever the threshold.
 const LEAST: f64 = 0.05;
+/// What it must have lost to be built while parts are worn. The subtrees that it keeps overlap until the parts that they then make have
+/// had their turn: many frames of a worse tree, which little is not worth.
+const HASTE: f64 = 0.25;
+/// It comes in then where it costs so much of what it replaces.
+const PAYS_AT_ONCE: f64 = 0.8;
 
 /// How far the top level's nodes have been looked at.
 #[derive(Clone, Copy, Debug, Default)]
@@ -67,45 +71,51 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             let is_worn = self.quality(self.top.root).drift() >= worse;
             return Vec::from_iter(is_worn.then(|| self.copy_top()));
         }
-        let mut parts = Vec::new();
-        let highest = self.worn_above(worse);
-        let (mut above, mut stirred) = (None, Vec::new());
         search.waits = search.waits.saturating_sub(1);
-        if search.waits > 0 || highest.is_none() {
-            let mut room = most.max(PART);
-            for _ in 0..LOOKED_AT.min(search.left as usize) {
-                let number = search.next as usize % self.top.nodes.len();
-                search.left -= 1;
-                search.next = number as u32 + 1;
-                match self.worn_at(number as u32, worse) {
-                    Some(Worn::Part(found, true)) if self.top.counts[number] <= room => {
-                        room -= self.top.counts[number];
-                        parts.push((found, true));
-                    }
-                    Some(Worn::Part(found, false)) => stirred.push((found, self.top.counts[number])),
-                    Some(Worn::Above(found)) if above.is_none() => above = Some(found),
-                    _ => {}
-                }
-                if room < SMALL {
-                    break;
-                }
-            }
-            for (found, count) in stirred {
-                if count <= room {
-                    room -= count;
-                    parts.push((found, false));
-                }
+        if search.waits == 0 {
+            if let Some(node) = self.worn_above(worse, HASTE) {
+                self.search_again(search);
+                return alloc::vec![self.copy_part(node, PAYS_AT_ONCE)];
             }
         }
-        if parts.is_empty() {
-            parts.extend(highest.or(above).map(|node| (node, false)));
+        let (mut parts, mut stirred, mut above) = (Vec::new(), Vec::new(), None);
+        let most = most.max(PART);
+        let mut room = most;
+        for _ in 0..LOOKED_AT.min(search.left as usize) {
+            let number = search.next as usize % self.top.nodes.len();
+            search.left -= 1;
+            search.next = number as u32 + 1;
+            let count = self.top.counts[number];
+            match self.worn_at(number as u32, worse) {
+                Some(Worn::Part(found, true)) if count <= room => {
+                    room -= count;
+                    parts.push((found, f64::INFINITY));
+                }
+                Some(Worn::Part(found, false)) => stirred.push((found, count)),
+                Some(Worn::Above(found)) if above.is_none() => above = Some(found),
+                _ => {}
+            }
+            if room < SMALL {
+                break;
+            }
+        }
+        for (found, count) in stirred {
+            if count <= room {
+                room -= count;
+                parts.push((found, PAYS));
+            }
+        }
+        if most - room <= PART / 4 && (search.waits == 0 || parts.is_empty()) {
+            if let Some(node) = self.worn_above(worse, LEAST).or(above) {
+                parts = alloc::vec![(node, PAYS)];
+            }
         }
         // What is worn and did not fit is still to be found.
         if !parts.is_empty() {
             self.search_again(search);
         }
         let copies = parts.into_iter();
-        copies.map(|(node, is_worn)| self.copy_part(node, is_worn)).collect()
+        copies.map(|(node, pays)| self.copy_part(node, pays)).collect()
     }
 
     /// All nodes are to be looked at again.
@@ -120,7 +130,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             return None;
         }
         if self.top.counts[number as usize] > PART {
-            return (self.urgency(node, worse) > 0.0).then_some(Worn::Above(node));
+            return (self.urgency(node, worse, LEAST) > 0.0).then_some(Worn::Above(node));
         }
         let above = self.top.number(self.parents[node as usize]);
         if self.top.counts[above as usize] <= PART {
@@ -133,14 +143,14 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// Of the highest nodes that have more than [`PART`] instances below, the one that has most to gain: of which most instances are
-    /// told apart least well.
-    fn worn_above(&self, worse: f64) -> Option<u32> {
+    /// told apart least well. What lost less than `least` is not worn.
+    fn worn_above(&self, worse: f64, least: f64) -> Option<u32> {
         let mut nodes = alloc::vec![self.top.root];
         let mut best = (0.0, None);
         let mut next = 0;
         while let Some(&node) = nodes.get(next) {
             next += 1;
-            let urgency = self.urgency(node, worse);
+            let urgency = self.urgency(node, worse, least);
             if urgency > best.0 {
                 best = (urgency, Some(node));
             }
@@ -157,11 +167,15 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// What there may be to gain at a node above parts: its own loss, times the instances that it is about; 0 where it is not worn.
-    fn urgency(&self, node: u32, worse: f64) -> f64 {
+    fn urgency(&self, node: u32, worse: f64, least: f64) -> f64 {
         let number = self.top.number(node) as usize;
         let own = f64::from(self.quality(node).own());
-        let is_worn = own >= LEAST.max(1.0 - 1.0 / worse.max(1.0));
-        let stirred = if self.is_stirred(node, worse) { LEAST } else { 0.0 };
+        let is_worn = own >= least.max(1.0 - 1.0 / worse.max(1.0));
+        let stirred = if least <= LEAST && self.is_stirred(node, worse) {
+            LEAST
+        } else {
+            0.0
+        };
         let own = if is_worn { own } else { 0.0 };
         own.max(stirred) * f64::from(self.top.counts[number])
     }
