@@ -64,8 +64,6 @@ pub(super) struct Top {
     pub marks: Vec<u64>,
     /// Counts searches; it never comes round.
     pub mark: u64,
-    /// Which of the instances that are moved are compared at all levels.
-    pub turn: u32,
     /// Its nodes by height, where nothing has changed since they were listed.
     pub levels: Option<Levels>,
 }

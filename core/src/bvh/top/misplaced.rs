@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 use super::cost::Cluster;
 use crate::bvh::{Bvh, Trails};
+use crate::exact::hash;
 use crate::node::{LightNode, kind};
 use crate::summary::Summary;
 use crate::tree::INVALID;
@@ -18,8 +19,8 @@ const FACTOR: f32 = 2.0;
 /// rebuild: an animation of all instances costs what it always did.
 const MOST: usize = 64;
 
-/// Of so many instances that are moved in one call one is compared with what lies beside its nodes at all levels.
-const FAR_IN: u32 = 16;
+/// Of so many instances that are moved one is compared with what lies beside its nodes at all levels.
+const FAR_IN: u32 = 8;
 /// It has strayed where a node beside is nearer by this factor of squared distance, and it has come so far itself.
 const NEARER: f64 = 4.0;
 
@@ -34,17 +35,11 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         moved.sort_unstable();
         moved.dedup();
         let mut misplaced: Vec<(f64, u32)> = Vec::new();
-        let turn = if moved.len() < FAR_IN as usize {
-            FAR_IN
-        } else {
-            self.top.turn = (self.top.turn + 1) % FAR_IN;
-            self.top.turn
-        };
         for index in moved {
             for leaf in self.leaves_of(index) {
                 self.note_center(leaf);
                 let mut excess = self.excess(leaf);
-                if excess == 0.0 && leaf % FAR_IN == turn {
+                if excess == 0.0 && self.has_its_turn(leaf) {
                     excess = self.strayed(leaf);
                 }
                 if excess > 0.0 {
@@ -105,6 +100,12 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         } else {
             0.0
         }
+    }
+
+    /// Whether an instance that was moved is looked at closely: now and then, by where it is, so that nothing is to be kept of it.
+    fn has_its_turn(&self, index: u32) -> bool {
+        let [x, _, z] = self.placed[index as usize].transform.translation;
+        hash(hash(index ^ x.to_bits()) ^ z.to_bits()) % FAR_IN == 0
     }
 
     /// What an instance costs more in the node above parts that it is in than in one beside that; 0 where none is much nearer, or it was

@@ -24,7 +24,7 @@ const LONGEST: u32 = 6;
 const LEAST: f64 = 0.05;
 /// What it must have lost to be built while parts are worn. The subtrees that it keeps overlap until the parts that they then make have
 /// had their turn: many frames of a worse tree, which little is not worth.
-const HASTE: f64 = 0.25;
+const HASTE: f64 = 0.12;
 /// It comes in then where it costs so much of what it replaces.
 const PAYS_AT_ONCE: f64 = 0.8;
 
