@@ -73,7 +73,10 @@ fn variances(bvh: &LightBvh, points: u32) -> Vec<f64> {
         .collect();
     let of = |k: u32| {
         let p = [SIDE * draw(k, 301), -1.0, SIDE * draw(k, 302)];
-        let point = ShadingPoint { p, n: [0.0, 1.0, 0.0] };
+        let point = ShadingPoint {
+            p,
+            n: [0.0, 1.0, 0.0],
+        };
         let (mut mean, mut square) = (0.0, 0.0);
         for &(instance, light) in &live {
             let lamp = bvh.triangle(light, instance).expect("its own");
@@ -89,10 +92,18 @@ fn variances(bvh: &LightBvh, points: u32) -> Vec<f64> {
     thread::scope(|scope| {
         let parts: Vec<_> = (0..threads)
             .map(|part| {
-                scope.spawn(move || (part..points).step_by(threads as usize).map(of).collect::<Vec<_>>())
+                scope.spawn(move || {
+                    (part..points)
+                        .step_by(threads as usize)
+                        .map(of)
+                        .collect::<Vec<_>>()
+                })
             })
             .collect();
-        parts.into_iter().flat_map(|part| part.join().expect("no panic")).collect()
+        parts
+            .into_iter()
+            .flat_map(|part| part.join().expect("no panic"))
+            .collect()
     })
 }
 
@@ -103,7 +114,12 @@ fn mean(list: &[f64]) -> f64 {
 /// Variance over that of a tree built anew over the same.
 fn worse(bvh: &LightBvh, points: u32) -> f64 {
     let mut anew = bvh.clone();
-    let built = anew.rebuild(&RebuildParams { top: 0.0, drift: f64::INFINITY }).run();
+    let built = anew
+        .rebuild(&RebuildParams {
+            top: 0.0,
+            drift: f64::INFINITY,
+        })
+        .run();
     anew.install(built).expect("its own");
     anew.refit();
     mean(&variances(bvh, points)) / mean(&variances(&anew, points))
@@ -151,13 +167,18 @@ fn run(motion: &str, count: u32, frames: u32, resting: u32, threshold: f64, leav
     });
     let ids: Vec<InstanceId> = bvh.apply(add.collect()).expect("instances").instances;
     bvh.refit();
-    let mut params = RebuilderParams { swap: Swap::Deterministic, ..RebuilderParams::default() };
+    let mut params = RebuilderParams {
+        swap: Swap::Deterministic,
+        ..RebuilderParams::default()
+    };
     params.rebuild.top = threshold;
     params.leaves = leaves;
     let mut rebuilder = Rebuilder::new(params);
     let (mut begins, mut ends, mut refits) = (vec![], vec![], vec![]);
     let (mut built, mut swaps, mut last) = (Duration::ZERO, 0, 0);
-    println!("{motion}, {count} lamps, threshold {threshold}, {leaves} leaves: {frames} frames of motion, {resting} at rest");
+    println!(
+        "{motion}, {count} lamps, threshold {threshold}, {leaves} leaves: {frames} frames of motion, {resting} at rest"
+    );
     let mut over = vec![];
     for frame in 1..=frames + resting {
         let start = now();

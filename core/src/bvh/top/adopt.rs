@@ -179,6 +179,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// So many nodes of the top level, the old ones among them, which hang nowhere. To give their places and numbers back and take others
     /// would be half of the work.
     fn renewed(&mut self, mut nodes: Vec<u32>, count: usize) -> Vec<u32> {
+        // In order, so that what a mirror copies is in few pieces.
+        nodes.sort_unstable();
         for node in nodes.drain(count.min(nodes.len())..) {
             self.free_top_node(node);
         }
