@@ -142,11 +142,13 @@ fn now() -> Duration {
 fn spread(name: &str, mut times: Vec<Duration>) {
     times.sort_unstable();
     let at = |share: f64| times[((times.len() - 1) as f64 * share) as usize].as_secs_f64() * 1e6;
+    let over = times.iter().filter(|time| time.as_micros() > 300).count();
     println!(
-        "  {name}: median {:.1} us, 99 % {:.1} us, most {:.1} us",
+        "  {name}: median {:.1} us, 99 % {:.1} us, most {:.1} us; {over} of {} beyond 300 us",
         at(0.5),
         at(0.99),
-        at(1.0)
+        at(1.0),
+        times.len()
     );
 }
 

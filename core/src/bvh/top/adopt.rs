@@ -13,7 +13,7 @@ use crate::tree::INVALID;
 
 /// Most instances and subtrees that are put into a part anew since they came while it was built. Where there are more it is given up,
 /// and tried again: a frame would take longer than it may.
-const MOST: usize = 256;
+const MOST: usize = 64;
 
 /// What is below the root of a part now, of what a tree was built over.
 #[derive(Debug, Default)]
