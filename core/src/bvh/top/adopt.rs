@@ -178,7 +178,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// So many nodes of the top level, the old ones among them, which hang nowhere. To give their places and numbers back and take others
     /// would be half of the work.
-    fn renewed(&mut self, mut nodes: Vec<u32>, count: usize) -> Vec<u32> {
+    pub(super) fn renewed(&mut self, mut nodes: Vec<u32>, count: usize) -> Vec<u32> {
         // In order, so that what a mirror copies is in few pieces.
         nodes.sort_unstable();
         for node in nodes.drain(count.min(nodes.len())..) {
@@ -187,6 +187,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         for &node in &nodes {
             let number = self.top.number(node) as usize;
             self.top.edits[number] = 0;
+            self.top.stirred[number] = 0;
             self.note_birth(node);
         }
         while nodes.len() < count {

@@ -20,7 +20,7 @@ const FACTOR: f32 = 2.0;
 const MOST: usize = 64;
 
 /// Of so many instances that are moved one is compared with what lies beside its nodes at all levels.
-const FAR_IN: u32 = 8;
+const FAR_IN: u32 = 4;
 /// It has strayed where a node beside is nearer by this factor of squared distance, and it has come so far itself.
 const NEARER: f64 = 4.0;
 

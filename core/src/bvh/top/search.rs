@@ -99,15 +99,20 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 break;
             }
         }
+        // What is only stirred has time: there are as many such as there are parts after each build above them.
+        let is_idle = parts.is_empty() && stirred.is_empty();
+        let above = match most - room <= PART / 4 && (search.waits == 0 || is_idle) {
+            true => self.worn_above(worse, LEAST).or(above),
+            false => None,
+        };
+        if let Some(node) = above {
+            parts = alloc::vec![(node, PAYS)];
+            stirred.clear();
+        }
         for (found, count) in stirred {
             if count <= room {
                 room -= count;
                 parts.push((found, PAYS));
-            }
-        }
-        if most - room <= PART / 4 && (search.waits == 0 || parts.is_empty()) {
-            if let Some(node) = self.worn_above(worse, LEAST).or(above) {
-                parts = alloc::vec![(node, PAYS)];
             }
         }
         // What is worn and did not fit is still to be found.
