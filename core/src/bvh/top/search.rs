@@ -13,7 +13,7 @@ use crate::node::{LightNode, kind};
 use crate::tree::INVALID;
 
 /// Nodes that one search looks at.
-const LOOKED_AT: usize = 4096;
+const LOOKED_AT: usize = 2048;
 /// The highest nodes, which each search looks at.
 const HIGHEST: usize = 256;
 /// Room that is not worth looking for a part that fits in.
