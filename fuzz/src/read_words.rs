@@ -73,7 +73,7 @@ fn run<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(u: &mut Unstru
         let _ = bvh.add_instance(mesh, Transform::IDENTITY);
     }
     bvh.refit();
-    let rebuilt = bvh.rebuild(&RebuildParams::default()).run();
+    let rebuilt = bvh.rebuild(&RebuildParams::eager()).run();
     bvh.install(rebuilt).expect("its own");
     bvh.refit();
     bvh.validate().unwrap_or_else(|violation| panic!("{violation}"));

@@ -7,7 +7,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use lightbvh::bvh::Swap;
+use lightbvh::bvh::{RebuildParams, Swap};
 use lightbvh::{
     Edit, EmissiveTriangle, InstanceId, LightBvh, Lights, MeshId, Rebuilder, RebuilderParams, Transform,
 };
@@ -104,6 +104,7 @@ impl World {
             bvh,
             rebuilder: Rebuilder::new(RebuilderParams {
                 swap: Swap::Deterministic,
+                rebuild: RebuildParams::eager(),
                 ..RebuilderParams::default()
             }),
             meshes: meshes.into(),

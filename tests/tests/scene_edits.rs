@@ -200,7 +200,7 @@ fn light_numbers_stay_and_removed_ones_are_told() {
     assert!(scene.removed_lights().is_empty());
     scene.refit();
     scene
-        .install(scene.rebuild(&RebuildParams::default()).run())
+        .install(scene.rebuild(&RebuildParams::eager()).run())
         .expect("its own");
     scene.refit();
     scene.validate().expect("valid");
@@ -225,7 +225,7 @@ fn the_last_light_may_go() {
     let mesh = add_mesh(&mut scene, mesh(random));
     let lamp = add_instance(&mut scene, mesh, Transform::IDENTITY);
     scene.refit();
-    let flying = scene.rebuild(&RebuildParams::default()).run();
+    let flying = scene.rebuild(&RebuildParams::eager()).run();
     scene
         .apply(vec![Edit::RemoveInstance(lamp), Edit::RemoveMesh(mesh)])
         .expect("gone");
@@ -420,7 +420,7 @@ fn plans_edits_and_rebuilds_come_in_any_order() {
         };
         for order in 0..4 {
             let lamp = ids[usize::from(n) / 2];
-            let rebuilt = scene.rebuild(&RebuildParams::default()).run();
+            let rebuilt = scene.rebuild(&RebuildParams::eager()).run();
             let shine = |radiance| Edit::SetRadiance {
                 instance: lamp,
                 radiance,

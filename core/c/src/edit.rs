@@ -243,7 +243,7 @@ pub unsafe extern "C" fn lightbvh_rebuild(bvh: *mut Handle) -> Status {
         Handle::change(bvh, |bvh| {
             // A rebuild starts from what a refit left.
             bvh.refit();
-            let rebuilt = bvh.rebuild(&RebuildParams::default()).run();
+            let rebuilt = bvh.rebuild(&RebuildParams::eager()).run();
             bvh.install(rebuilt)
                 .map_err(|foreign| Fault::new(Status::Refused, foreign))?;
             bvh.refit();

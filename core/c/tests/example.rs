@@ -59,7 +59,7 @@ fn expected() -> String {
     lamp.p[1][0] = 0.0625;
     bvh.set_triangles(mesh, vec![lamp]).unwrap();
     bvh.refit();
-    let rebuilt = bvh.rebuild(&RebuildParams::default()).run();
+    let rebuilt = bvh.rebuild(&RebuildParams::eager()).run();
     bvh.install(rebuilt).unwrap();
     bvh.refit();
     let lights = bvh.lights_of(lamps[40]).unwrap();

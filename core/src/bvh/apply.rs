@@ -170,6 +170,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             slot: 0,
             hung: self.epoch,
             hung_radiance: radiance,
+            flickers: false,
             hung_center: [f32::NAN; 3],
             mark: 0,
             changed: self.epoch,
@@ -206,6 +207,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let placed = &mut self.placed[index as usize];
         placed.live = false;
         placed.node = INVALID;
+        placed.flickers = false;
         let (mesh, user, listed, lights) = (placed.mesh, placed.user, placed.listed, placed.lights.clone());
         let users = &mut self.meshes[mesh as usize].users;
         users.swap_remove(user as usize);

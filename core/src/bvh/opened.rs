@@ -74,6 +74,13 @@ pub(super) fn cost<S: Summary>(summary: &S) -> f64 {
     f64::from(summary.phi()) * f64::from(summary.spread())
 }
 
+/// What sets of lights cost together.
+pub(super) fn cost_of<S: Summary>(sets: &[S]) -> f64 {
+    let mut whole = Together::default();
+    sets.iter().for_each(|set| whole.add(set));
+    whole.cost()
+}
+
 /// Whether an instance that costs `own` of `whole` is to be open, given whether it is.
 pub(super) fn is_to_open(own: f64, whole: f64, is_open: bool) -> bool {
     own > whole * if is_open { CLOSES } else { OPENS }
@@ -88,17 +95,8 @@ pub(super) fn parts_below<N: LightNode<W>, const W: usize>(root: &N) -> u32 {
 }
 
 /// Of the `openable` instances, each with the root of its bottom level, those that are to be opened, and those that are to be closed,
-/// the costliest first; at most [`MOST`] of both, so that no frame has much to do for them. `leaves` are what is known of all.
-pub(super) fn wanted<S: Summary>(
-    leaves: impl Iterator<Item = S>,
-    openable: &[(u32, Instance, BlasRoot)],
-) -> [Vec<u32>; 2] {
-    if openable.is_empty() {
-        return [Vec::new(), Vec::new()];
-    }
-    let mut whole = Together::default();
-    leaves.for_each(|leaf| whole.add(&leaf));
-    let whole = whole.cost();
+/// the costliest first; at most [`MOST`] of both, so that no frame has much to do for them. All lights together cost `whole`.
+pub(super) fn wanted<S: Summary>(whole: f64, openable: &[(u32, Instance, BlasRoot)]) -> [Vec<u32>; 2] {
     let mut changes: Vec<(f64, u32, bool)> = Vec::new();
     for (index, instance, root) in openable {
         let own = cost(&root.summary::<S>().to_world(instance));
@@ -117,14 +115,13 @@ pub(super) fn wanted<S: Summary>(
 }
 
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// The instances that are opened or could be.
-    pub(super) fn openable(&self) -> Vec<(u32, Instance, BlasRoot)> {
+    /// Those of some instances that are opened or could be.
+    pub(super) fn openable(&self, some: impl Iterator<Item = u32>) -> Vec<(u32, Instance, BlasRoot)> {
         if !self.params.opens {
             return Vec::new();
         }
-        let live = self.live.iter().copied();
         let found =
-            live.filter(|&index| !self.placed[index as usize].parts.is_empty() || self.can_open(index));
+            some.filter(|&index| !self.placed[index as usize].parts.is_empty() || self.can_open(index));
         found
             .map(|index| {
                 let own = self.instances[index as usize];
@@ -269,6 +266,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 .placed
                 .get(part as usize)
                 .map_or(0.0, |old| old.hung_radiance),
+            flickers: self.placed.get(part as usize).is_some_and(|old| old.flickers),
             hung_center: [f32::NAN; 3],
             mark: 0,
             changed: self.epoch,
@@ -300,6 +298,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             };
             self.placed[part as usize].part_of = INVALID;
             self.placed[part as usize].node = INVALID;
+            self.placed[part as usize].flickers = false;
             self.changes.new.written_instances.push(part);
         }
         self.placed_ranges.give(parts);

@@ -23,6 +23,8 @@ use crate::widest::widest;
 pub(super) struct Quality {
     /// r as it was built.
     pub built: f32,
+    /// What r has grown since.
+    own: f32,
     /// Mean over the lights of what the nodes on their paths have lost, the sum over each path.
     lost: f32,
     /// Mean over the lights of the number of those nodes.
@@ -42,6 +44,12 @@ impl Quality {
     /// What is lost on the ways down, for a unit of flux.
     pub fn loss(&self) -> f64 {
         f64::from(self.lost)
+    }
+
+    /// How much less than when it was built the node itself tells its children apart, 0 to 1.
+    #[cfg(feature = "std")]
+    pub fn own(&self) -> f32 {
+        self.own
     }
 
     /// Those of the nodes of a tree in depth-first order, links counting from its root.
@@ -102,9 +110,11 @@ impl Quality {
         } else {
             known[index as usize].built
         };
+        let own = max(share - built, 0.0);
         Self {
             built,
-            lost: max(share - built, 0.0) + (lost * per_phi) as f32,
+            own,
+            lost: own + (lost * per_phi) as f32,
             levels: 1.0 + (levels * per_phi) as f32,
         }
     }

@@ -13,24 +13,25 @@ use crate::build::{BuildParams, Topology, build_over};
 use crate::light::EmissiveTriangle;
 use crate::node::LightNode;
 
-/// When trees are built anew. By default the top level always, bottom levels that have lost a tenth.
+/// When trees are built anew: by default once they are 1.1 times worse than when they were built, either level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RebuildParams {
     /// The top level is once it is worse than when it was built by this factor, as below: 1 for whenever something has changed, infinite
-    /// for never. Of a top level of more than 1536 instances a [`Rebuilder`](crate::Rebuilder) builds parts, one at a time.
+    /// for never. Of a top level of more than 1536 instances a [`Rebuilder`](crate::Rebuilder) builds parts that are worse by as much,
+    /// and the nodes above them where those lost a twentieth at least. At the default of 1.1 trees were as good as at 1, for a
+    /// seventh of the time where all lamps of a scene move (`docs/dynamics.md`, "When it pays").
     pub top: f64,
     /// A bottom level is once it is worse than when it was built by more than this factor; infinite for never. The factor is
     /// 1 / (1 - l), where l is the mean by flux, over the nodes, of how much more of their lights' variance of position lies within their
     /// children: 0 as built, wherever the mesh goes, however it is scaled, and whatever happens elsewhere; 0.65 to 0.85, a factor of 3
-    /// to 7, where all triangles changed places. At the default of 1.1 samples have mostly 1.2 to 1.4 times the variance of a new tree's
-    /// (measured: `docs/dynamics.md`). What only a device has refitted is not seen to lose quality.
+    /// to 7, where all triangles changed places. What only a device has refitted is not seen to lose quality.
     pub drift: f64,
 }
 
 impl Default for RebuildParams {
-    /// The top level always, bottom levels that are 1.1 times worse than when they were built.
+    /// Trees that are 1.1 times worse than when they were built.
     fn default() -> Self {
-        Self { top: 1.0, drift: 1.1 }
+        Self { top: 1.1, drift: 1.1 }
     }
 }
 
@@ -38,14 +39,27 @@ impl Default for RebuildParams {
 #[cfg(feature = "std")]
 const LARGE: usize = 512;
 
-/// A mesh whose bottom level is to be built anew.
+impl RebuildParams {
+    /// The top level whatever it lost, as the paper does in each frame; bottom levels as by default.
+    #[must_use]
+    pub fn eager() -> Self {
+        Self {
+            top: 1.0,
+            ..Self::default()
+        }
+    }
+}
+
+/// A tree that is to be built anew, and why: `drift` is `limit` or more.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Due {
-    /// Which mesh.
-    pub mesh: MeshId,
-    /// How many times worse its bottom level is than when it was built; see [`RebuildParams::drift`].
+    /// The mesh whose bottom level it is; `None` for the top level.
+    pub mesh: Option<MeshId>,
+    /// How many times worse it is than when it was built; see [`RebuildParams::drift`].
     pub drift: f64,
+    /// From what on it is due: [`RebuildParams::top`] or [`RebuildParams::drift`].
+    pub limit: f64,
 }
 
 /// Work for any thread: a copy of what is to be built anew.
@@ -53,7 +67,7 @@ pub struct Due {
 pub struct Rebuild<N, const W: usize> {
     params: BuildParams,
     taken: Taken,
-    top: Option<TopCopy>,
+    top: Vec<TopCopy<N>>,
     bottoms: Vec<Bottom>,
     layout: PhantomData<N>,
 }
@@ -78,8 +92,8 @@ struct Bottom {
 #[derive(Debug)]
 pub struct Rebuilt<N, const W: usize> {
     taken: Taken,
-    /// The top level, refitted.
-    top: Option<TopTree<N>>,
+    /// The top level or parts of it, refitted.
+    top: Vec<TopTree<N>>,
     bottoms: Vec<(Bottom, Topology<N>)>,
 }
 
@@ -98,11 +112,19 @@ impl fmt::Display for Foreign {
 
 impl core::error::Error for Foreign {}
 
+#[cfg(feature = "std")]
+impl<N, const W: usize> Rebuilt<N, W> {
+    /// What nodes above parts cost over those that they replace.
+    pub(crate) fn gain_above(&self) -> Option<f64> {
+        self.top.iter().find_map(TopTree::gain_above)
+    }
+}
+
 impl<N: LightNode<W>, const W: usize> Rebuild<N, W> {
     /// Whether there is nothing to build.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.top.is_none() && self.bottoms.is_empty()
+        self.top.is_empty() && self.bottoms.is_empty()
     }
 
     /// The bottom levels to build.
@@ -114,7 +136,7 @@ impl<N: LightNode<W>, const W: usize> Rebuild<N, W> {
     /// Builds. The result depends on nothing but `self`: not on the thread, nor on when it runs.
     #[must_use]
     pub fn run(self) -> Rebuilt<N, W> {
-        let top = self.top.map(|copy| copy.build::<N, W>(&self.params));
+        let top = self.top.into_iter().map(|copy| copy.build::<W>(&self.params));
         let params = self.params;
         let bottoms = self.bottoms.into_iter().map(|bottom| {
             let mut topology = build_over::<N, W>(&bottom.triangles, &params);
@@ -123,7 +145,7 @@ impl<N: LightNode<W>, const W: usize> Rebuild<N, W> {
         });
         Rebuilt {
             taken: self.taken,
-            top,
+            top: top.collect(),
             bottoms: bottoms.collect(),
         }
     }
@@ -142,7 +164,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     pub(crate) fn rebuild_since(&self, params: &RebuildParams, since: Option<Taken>) -> Rebuild<N, W> {
         let is_worn = self.quality(self.top.root).drift() >= params.top;
         let top = is_worn.then(|| self.copy_top());
-        self.rebuild_of(top, &self.worn_since(params, since))
+        self.rebuild_of(Vec::from_iter(top), &self.worn_since(params, since))
     }
 
     /// How many times worse the top level is than when its nodes were built.
@@ -186,21 +208,29 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         own.is_some_and(|own| !own.nodes.is_empty()) && self.drift(blas) > params.drift
     }
 
-    /// The meshes whose bottom levels `params` wants built anew, and why; in time in proportion to those refitted since they were built.
+    /// What `params` wants built anew, and why, the top level first: it as a whole, in the mean over its lights, while a rebuilder asks
+    /// each part of a large one. A tree that is as built is not due. In time in proportion to the meshes refitted since they were built.
     #[must_use]
     pub fn due(&self, params: &RebuildParams) -> Vec<Due> {
+        let top = Due {
+            mesh: None,
+            drift: self.quality(self.top.root).drift(),
+            limit: params.top,
+        };
+        let is_worn = !self.single && top.drift > 1.0 && top.drift >= top.limit;
         let worn = self.worn_since(params, None).into_iter();
-        let due = worn.filter_map(|blas| {
+        let meshes = worn.filter_map(|blas| {
             Some(Due {
-                mesh: self.mesh_id(self.blases[blas as usize].mesh)?,
+                mesh: Some(self.mesh_id(self.blases[blas as usize].mesh)?),
                 drift: self.drift(blas),
+                limit: params.drift,
             })
         });
-        due.collect()
+        is_worn.then_some(top).into_iter().chain(meshes).collect()
     }
 
     /// Work for what is to be built anew of the top level, and a copy of the triangles of those bottom levels.
-    pub(crate) fn rebuild_of(&self, top: Option<TopCopy>, bottoms: &[u32]) -> Rebuild<N, W> {
+    pub(crate) fn rebuild_of(&self, top: Vec<TopCopy<N>>, bottoms: &[u32]) -> Rebuild<N, W> {
         let bottoms = bottoms.iter().map(|&blas| {
             let own = &self.blases[blas as usize];
             let range = own.triangles.clone();
@@ -237,8 +267,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 self.update_root(bottom.blas);
             }
         }
-        if let Some(top) = rebuilt.top {
-            self.install_top(&top, rebuilt.taken.epoch);
+        for top in &rebuilt.top {
+            self.install_top(top, rebuilt.taken.epoch);
         }
         self.bound_changes();
         Ok(())

@@ -37,10 +37,13 @@ pub(super) struct InstanceState {
     pub hung: u64,
     /// Its radiance then.
     pub hung_radiance: f32,
+    /// Whether it was put in elsewhere for being dimmer before. From then on only being brighter is a reason: a lamp that flickers stays
+    /// where its light belongs.
+    pub flickers: bool,
     /// Its centre then, metres; NaN before it is moved for the first time.
     pub hung_center: [f32; 3],
     /// The last search that came by.
-    pub mark: u32,
+    pub mark: u64,
     /// When its words changed last.
     pub changed: u64,
     /// The records of its parts, where it is opened.
@@ -54,6 +57,19 @@ impl InstanceState {
     pub fn settle(&mut self) {
         self.hung_radiance = self.radiance;
         self.hung_center = [f32::NAN; 3];
+    }
+
+    /// Radiance as it was put where it is, the sign telling of [`flickers`](Self::flickers): a word of the format.
+    pub fn hung_word(&self) -> u32 {
+        let sign = if self.flickers { -1.0 } else { 1.0 };
+        self.hung_radiance.copysign(sign).to_bits()
+    }
+
+    /// Takes what [`hung_word`](Self::hung_word) told.
+    pub fn set_hung_word(&mut self, word: u32) {
+        let radiance = f32::from_bits(word);
+        self.hung_radiance = crate::exact::abs(radiance);
+        self.flickers = radiance.is_sign_negative();
     }
 }
 

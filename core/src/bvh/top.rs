@@ -5,20 +5,24 @@
 //! one up, whatever is below it. Every node but the root has two children or more, so there are fewer nodes than instances, and
 //! enough records.
 
+mod adopt;
 mod cost;
+mod cut;
 mod insert;
 mod links;
 mod misplaced;
 mod rebuild;
 mod remove;
+#[cfg(feature = "std")]
+mod search;
 mod settle;
 
 use alloc::vec::Vec;
 
-#[cfg(feature = "std")]
-pub(crate) use self::rebuild::Search;
 pub(crate) use self::rebuild::TopCopy;
 pub(super) use self::rebuild::TopTree;
+#[cfg(feature = "std")]
+pub(crate) use self::search::Search;
 pub(super) use self::settle::MOST as MOST_EDITS;
 use super::ranges::Ranges;
 use super::{Bvh, Trails};
@@ -52,11 +56,14 @@ pub(super) struct Top {
     pub births: u64,
     /// By number: edits below since the node was built.
     pub edits: Vec<u32>,
+    /// By number: instances below in subtrees that were built since it was tried to build this one.
+    pub stirred: Vec<u32>,
     /// Nodes whose children edits have changed; they may be gone.
     pub touched: Vec<u32>,
     /// By number: the last search that came by. Instances have theirs.
-    pub marks: Vec<u32>,
-    pub mark: u32,
+    pub marks: Vec<u64>,
+    /// Counts searches; it never comes round.
+    pub mark: u64,
     /// Its nodes by height, where nothing has changed since they were listed.
     pub levels: Option<Levels>,
 }
@@ -98,6 +105,7 @@ impl Top {
             + size_of_val(&*self.counts)
             + size_of_val(&*self.edits)
             + size_of_val(&*self.born)
+            + size_of_val(&*self.stirred)
             + size_of_val(&*self.marks)
             + self
                 .levels
@@ -135,6 +143,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.top.root = range.start;
         self.top.nodes = range.collect();
         self.top.edits.clear();
+        self.top.stirred.clear();
         for placed in &mut self.placed {
             placed.settle();
         }

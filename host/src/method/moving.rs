@@ -3,7 +3,7 @@
 
 use std::time::Instant;
 
-use lightbvh::bvh::Swap;
+use lightbvh::bvh::{RebuildParams, Swap};
 use lightbvh::{BuildParams, Rebuilder, RebuilderParams};
 use lightbvh_kernels::bvh::Choice;
 
@@ -27,6 +27,8 @@ impl<C: Choice<W>, const W: usize> Moving<C, W> {
         // Every frame the same on all backends, for which it may wait.
         let mut rebuilder = Rebuilder::new(RebuilderParams {
             swap: Swap::Deterministic,
+            // As the paper does.
+            rebuild: RebuildParams::eager(),
             ..RebuilderParams::default()
         });
         rebuilder.end_frame(&scene);

@@ -41,7 +41,7 @@ fn up(instance: InstanceId, y: f32) -> Edit {
 #[test]
 fn an_older_rebuild_costs_what_changed_since() {
     let (mut bvh, ids) = lamps(1000);
-    let rebuild: Rebuild<_, 8> = bvh.rebuild(&RebuildParams::default());
+    let rebuild: Rebuild<_, 8> = bvh.rebuild(&RebuildParams::eager());
     bvh.set_transform(ids[17], Transform::at([0.0, 9.0, 0.0]))
         .expect("there");
     bvh.set_radiance(ids[400], 0.5).expect("there");
@@ -60,7 +60,7 @@ fn an_older_rebuild_costs_what_changed_since() {
 fn instances_added_since_a_rebuild_cost_their_paths() {
     let (mut bvh, _) = lamps(1000);
     let mesh = bvh.mesh_id(0).expect("there");
-    let rebuild: Rebuild<_, 8> = bvh.rebuild(&RebuildParams::default());
+    let rebuild: Rebuild<_, 8> = bvh.rebuild(&RebuildParams::eager());
     for k in 0..4_u8 {
         bvh.add_instance(mesh, Transform::at([f32::from(k), 50.0, 0.0]))
             .expect("one more");
@@ -102,7 +102,7 @@ fn a_deformed_mesh_is_told_to_an_older_rebuild() {
     let (mut bvh, _) = lamps(100);
     let mesh = bvh.mesh_id(0).expect("there");
     for refit_first in [true, false] {
-        let rebuild: Rebuild<_, 8> = bvh.rebuild(&RebuildParams::default());
+        let rebuild: Rebuild<_, 8> = bvh.rebuild(&RebuildParams::eager());
         let mut triangle = lamp();
         triangle.p[1][0] = if refit_first { 3.0 } else { 4.0 };
         bvh.set_triangles(mesh, std::vec![triangle]).expect("as many");
@@ -180,7 +180,7 @@ fn a_copy_has_ids_and_rebuilds_of_its_own() {
     bvh.set_radiance(ids[4], 0.0).expect("its own");
     copy.refit();
     bvh.refit();
-    copy.install(bvh.rebuild(&RebuildParams::default()).run())
+    copy.install(bvh.rebuild(&RebuildParams::eager()).run())
         .expect_err("another's");
     let (one, other) = (bvh.add_mesh(std::vec![lamp()]), copy.add_mesh(std::vec![lamp()]));
     assert_ne!(one, other);
@@ -259,7 +259,7 @@ fn what_is_gone_is_in_no_list() {
     // Nodes that lost children, of a top level that is no more.
     bvh.apply(ids[9..].iter().map(|&id| Edit::RemoveInstance(id)).collect())
         .expect("there");
-    let rebuild: Rebuild<_, 8> = bvh.rebuild(&RebuildParams::default());
+    let rebuild: Rebuild<_, 8> = bvh.rebuild(&RebuildParams::eager());
     bvh.remove_instance(ids[7]).expect("there");
     bvh.install(rebuild.run()).expect("its own");
     bvh.refit();

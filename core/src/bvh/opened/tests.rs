@@ -258,7 +258,7 @@ fn what_grows_is_opened_and_not_closed_at_once() {
         }
         bvh.set_transform(one, transform).expect("there");
         bvh.refit();
-        let rebuilt = bvh.rebuild(&RebuildParams::default()).run();
+        let rebuilt = bvh.rebuild(&RebuildParams::eager()).run();
         bvh.install(rebuilt).expect("its own");
         bvh.refit();
         bvh.validate().expect("valid");

@@ -127,7 +127,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
 
     fn read_instances(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
         self.placed = Vec::with_capacity(words.need(header.instances)?);
-        let mut hung_radiances = Vec::new();
+        let mut hung = Vec::new();
         for _ in 0..header.instances {
             let mesh = words.one()?;
             let mut placed = InstanceState {
@@ -143,6 +143,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 slot: 0,
                 hung: 0,
                 hung_radiance: 0.0,
+                flickers: false,
                 hung_center: [f32::NAN; 3],
                 mark: 0,
                 changed: 0,
@@ -165,7 +166,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 };
                 placed.lights = first..end;
                 placed.radiance = f32::from_bits(words.one()?);
-                placed.hung_radiance = f32::from_bits(words.one()?);
+                placed.set_hung_word(words.one()?);
                 placed.hung_center = words.array::<3>()?.map(f32::from_bits);
                 let entries = words.array::<12>()?.map(f32::from_bits);
                 let column = |k: usize| [entries[3 * k], entries[3 * k + 1], entries[3 * k + 2]];
@@ -176,13 +177,13 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 placed.parts = read_parts(words, header.instances)?;
                 words.need(placed.parts.len() as u32)?;
                 for part in placed.parts.clone() {
-                    hung_radiances.push((part, f32::from_bits(words.one()?)));
+                    hung.push((part, words.one()?));
                 }
             }
             self.placed.push(placed);
         }
-        for (part, radiance) in hung_radiances {
-            self.placed[part as usize].hung_radiance = radiance;
+        for (part, word) in hung {
+            self.placed[part as usize].set_hung_word(word);
         }
         let used = (0..).zip(&self.placed).filter(|(_, placed)| placed.live);
         let used = used.flat_map(|(i, placed)| [i..i + 1, placed.parts.clone()]);

@@ -90,14 +90,14 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 mesh, user, listed, ..
             } = *placed;
             words.extend([mesh, user, listed, placed.lights.start, placed.radiance.to_bits()]);
-            words.push(placed.hung_radiance.to_bits());
+            words.push(placed.hung_word());
             words.extend(placed.hung_center.map(f32::to_bits));
             let transform = &placed.transform;
             let entries = transform.columns.iter().flatten().chain(&transform.translation);
             words.extend(entries.map(|x| x.to_bits()));
             write_parts(words, &placed.parts);
             let parts = &self.placed[placed.parts.start as usize..placed.parts.end as usize];
-            words.extend(parts.iter().map(|part| part.hung_radiance.to_bits()));
+            words.extend(parts.iter().map(InstanceState::hung_word));
         }
     }
 

@@ -35,7 +35,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             return Some(false);
         }
         if self.staged(id)?.part.is_some() {
-            return Some(self.copy_part(id, job, bytes));
+            return Some(self.copy_triangles_of_part(id, job, bytes));
         }
         let size = 2 * size_of::<EmissiveTriangle>();
         let staged = self.staged(id)?;
@@ -56,7 +56,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// The same for a part, whose triangles stay where they are.
-    fn copy_part(&self, id: StageId, job: &mut MeshJob<N>, bytes: &mut usize) -> bool {
+    fn copy_triangles_of_part(&self, id: StageId, job: &mut MeshJob<N>, bytes: &mut usize) -> bool {
         // They lie anywhere in the mesh.
         let size = 2 * size_of::<EmissiveTriangle>();
         let (from, left) = job.copied();

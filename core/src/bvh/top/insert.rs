@@ -50,7 +50,9 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         self.epoch += 1;
         for &index in added {
-            self.placed[index as usize].hung = self.epoch;
+            let placed = &mut self.placed[index as usize];
+            placed.hung = self.epoch;
+            placed.settle();
         }
         if added.len() >= there {
             self.build_top();

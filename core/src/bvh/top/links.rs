@@ -20,6 +20,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         put(&mut self.top.nodes, number, node, &INVALID);
         self.reserve_numbers();
         self.top.edits[number as usize] = 0;
+        self.top.stirred[number as usize] = 0;
         self.top.number_of[node as usize] = number;
         self.note_birth(node);
         node
@@ -50,6 +51,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.top.counts.resize(numbers, 0);
         self.top.edits.resize(numbers, 0);
         self.top.born.resize(numbers, 0);
+        self.top.stirred.resize(numbers, 0);
         self.top.marks.resize(numbers, 0);
         self.top.number_of.resize(self.nodes.len(), INVALID);
     }
@@ -59,7 +61,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.nodes[node as usize].set_child(slot, to, link);
         self.link_up(node, slot);
         if to == kind::MESH {
-            self.placed[link as usize].settle();
+            let placed = &mut self.placed[link as usize];
+            placed.hung_radiance = placed.radiance;
         }
         self.changes.new.written_nodes.push(node..node + 1);
         self.top.levels = None;

@@ -4,7 +4,8 @@ use alloc::vec::Vec;
 
 use super::cost::Cluster;
 use crate::bvh::{Bvh, Trails};
-use crate::node::LightNode;
+use crate::exact::hash;
+use crate::node::{LightNode, kind};
 use crate::summary::Summary;
 use crate::tree::INVALID;
 
@@ -12,11 +13,21 @@ use crate::tree::INVALID;
 const ADDED: f64 = 0.5;
 /// That node's share in what the node above costs as a whole must be this; in a tree as built it is about 1/32.
 const SHARE: f64 = 1.0 / 16.0;
-/// And once its radiance has changed by this factor since it was put where it is.
+/// And once its radiance has changed by this factor since it was put where it is; for being dimmer, once at all.
 const FACTOR: f32 = 2.0;
 /// Most instances that one call puts in elsewhere, and one more for so many instances. Where more are misplaced the rest waits for a
 /// rebuild: an animation of all instances costs what it always did.
 const MOST: usize = 64;
+
+/// Of so many instances that are moved one is compared with what lies beside its nodes at all levels.
+const FAR_IN: u32 = 4;
+/// It has strayed where a node beside is nearer by this factor of squared distance, and it has come so far itself.
+const NEARER: f64 = 4.0;
+
+/// Squared distance, m².
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum()
+}
 
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Takes those of `moved` instances, which may repeat, out of the top level that make their nodes wide, and adds them to `out`.
@@ -27,7 +38,10 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         for index in moved {
             for leaf in self.leaves_of(index) {
                 self.note_center(leaf);
-                let excess = self.excess(leaf);
+                let mut excess = self.excess(leaf);
+                if excess == 0.0 && self.has_its_turn(leaf) {
+                    excess = self.strayed(leaf);
+                }
                 if excess > 0.0 {
                     misplaced.push((excess, leaf));
                 } else if leaf == self.leaves_of(index).start {
@@ -43,6 +57,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             misplaced.sort_unstable_by_key(|&(_, index)| index);
         }
         for (_, index) in misplaced {
+            let placed = &mut self.placed[index as usize];
+            placed.flickers |= placed.hung_radiance > FACTOR * placed.radiance;
             self.remove_leaf(index);
             out.push(index);
         }
@@ -86,11 +102,50 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Whether an instance's radiance is another than when it was put where it is, by a factor that matters.
+    /// Whether an instance that was moved is looked at closely: now and then, by where it is, so that nothing is to be kept of it.
+    fn has_its_turn(&self, index: u32) -> bool {
+        let [x, _, z] = self.placed[index as usize].transform.translation;
+        hash(hash(index ^ x.to_bits()) ^ z.to_bits()) % FAR_IN == 0
+    }
+
+    /// What an instance costs more in the node above parts that it is in than in one beside that; 0 where none is much nearer, or it was
+    /// there when it was put where it is. Parts that are built anew keep it among those around it, wherever it goes: so it is all levels
+    /// that are looked at, and not the two above it.
+    fn strayed(&self, index: u32) -> f64 {
+        let placed = &self.placed[index as usize];
+        if placed.node == INVALID || placed.hung_center[0].is_nan() {
+            return 0.0;
+        }
+        let own = Cluster::new(&self.in_world(index), 1);
+        let was = placed.hung_center.map(f64::from);
+        let mut node = placed.node;
+        let mut excess = 0.0;
+        while self.parents[node as usize] != INVALID {
+            let above = self.parents[node as usize];
+            let words = &self.nodes[above as usize];
+            let slot = self.slot_above(node);
+            let of = |slot: usize| words.summary(slot).center().to_array().map(f64::from);
+            let here = distance(own.center, of(slot));
+            if distance(own.center, was) * NEARER > here {
+                for other in (0..W).filter(|&other| other != slot && words.kind(other) == kind::INNER) {
+                    let there = distance(own.center, of(other));
+                    if there * NEARER < here {
+                        excess += own.phi * (here - there);
+                        break;
+                    }
+                }
+            }
+            node = above;
+        }
+        excess
+    }
+
+    /// Whether an instance's radiance is another than when it was put where it is, by a factor that matters. One that was dimmer before,
+    /// as a lamp that flickers is in every other frame, costs nothing among brighter ones: it stays until it is brighter.
     pub(in crate::bvh) fn is_otherwise_bright(&self, index: u32) -> bool {
         let placed = &self.placed[index as usize];
         let (was, is) = (placed.hung_radiance, placed.radiance);
-        is > FACTOR * was || was > FACTOR * is
+        is > FACTOR * was || (was > FACTOR * is && !placed.flickers)
     }
 
     /// Notes where an instance was before it moved for the first time since it was put where it is, as the last refit saw it.

@@ -1,301 +1,223 @@
-//! The top level, or a part of it, built anew beside the frame, and put in place of what it was built from.
+//! The top level, or a part of it, built anew beside the frame.
 //!
-//! A part is a subtree of at most [`PART`] instances, so that taking a copy and putting the tree in place take a frame a small and
-//! bounded time, however many instances there are. Levels above parts are kept in order by insertion alone.
+//! A part is a [cut](super::cut): a node of the top level, and below it at most [`PART`] leaves, instances or subtrees that stay as they
+//! are. So taking a copy and putting the tree in place take a frame a small and bounded time, however many instances there are.
 
 use alloc::vec::Vec;
 
+use super::cut::{Cut, Part};
 use crate::build::{BuildParams, Topology, build_top};
 use crate::bvh::{Bvh, Trails, opened};
 use crate::instance::Instance;
 use crate::levels::Levels;
 use crate::node::{LightNode, kind};
-use crate::refit::{self, BlasRoot};
-use crate::summary::Summary;
-use crate::trail::max_levels;
-use crate::tree::INVALID;
+use crate::refit::BlasRoot;
+use crate::summary::{Lanes, Summary};
 
-/// Most instances of a part: copied in 0.1 ms, put in place in 0.2 ms (measured: `docs/dynamics.md`).
+/// Most leaves of a part: copied in 0.1 ms, put in place in 0.2 ms (measured: `docs/dynamics.md`).
 #[cfg(feature = "std")]
 pub(in crate::bvh) const PART: u32 = 1536;
-/// A top level of at most so many instances that has lost [`MUCH`] is built as a whole: parts do not put the levels above them in order.
-/// Its copy and its coming take some ten frames' bounds of 0.3 ms, once.
+/// Most leaves of one that keeps subtrees, each of which is looked at, and its number told where it hangs.
 #[cfg(feature = "std")]
-const WHOLE: u32 = 16_384;
-/// How many times worse such a top level is than when its nodes were built.
+const ABOVE: u32 = 1024;
+/// A tree that nothing else asks for comes in where its nodes cost at most so much of what those cost that it replaces.
 #[cfg(feature = "std")]
-const MUCH: f64 = 1.1;
-/// Nodes that one search for a part looks at.
-#[cfg(feature = "std")]
-const LOOKED_AT: usize = 4096;
-
-/// Which subtree: its root's number, and when that node came into the tree.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::bvh) struct Part {
-    number: u32,
-    born: u64,
-}
-
-/// How far the top level's nodes have been looked at.
-#[cfg(feature = "std")]
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Search {
-    /// The next number.
-    next: u32,
-    /// How many are to be looked at before all have been since the last change.
-    left: u32,
-}
-
-#[cfg(feature = "std")]
-impl Search {
-    /// Whether all have been.
-    pub fn is_done(&self) -> bool {
-        self.left == 0
-    }
-}
+pub(super) const PAYS: f64 = 0.985;
 
 /// A copy of what a part of the top level is built from.
 #[derive(Clone, Debug)]
-pub(crate) struct TopCopy {
-    /// `None` for all of it.
-    part: Option<Part>,
+pub(crate) struct TopCopy<N> {
+    /// Its root; `None` for all of it, down to the instances.
+    pub(super) root: Option<Part>,
+    /// The tree comes in where it costs at most so much of what is there.
+    pub(super) pays: f64,
     /// Indices of the instances, in order.
     names: Vec<u32>,
-    /// The same, each with the root of that place below.
+    /// The same, and the roots of their bottom levels.
     instances: Vec<Instance>,
     roots: Vec<BlasRoot>,
-    /// Of all of it: the instances that are opened or could be.
+    /// The subtrees that stay, and the nodes that are to be replaced, from the root down.
+    kept: Vec<(Part, N)>,
+    inner: Vec<Part>,
+    /// What those cost.
+    cost: f64,
+    /// The instances that are opened or could be.
     openable: Vec<(u32, Instance, BlasRoot)>,
+    /// What all lights cost together, where it is more than those of the copy.
+    whole: Option<f64>,
 }
 
 /// A tree as it was built: every word of its nodes is what refit makes of the copy.
 #[derive(Debug)]
 pub(in crate::bvh) struct TopTree<N> {
-    part: Option<Part>,
+    pub(super) root: Option<Part>,
+    /// Whether it is to be put in place: it costs less than what is there.
+    pub(super) pays: bool,
+    /// What it costs over what it replaces.
+    cost: f64,
     /// In depth-first order; links of nodes count from the first, the root.
-    nodes: Vec<N>,
-    depth: u32,
-    /// The instances that it was built over.
-    names: Vec<u32>,
+    pub(super) nodes: Vec<N>,
+    /// Levels above each node.
+    pub(super) levels: Vec<u32>,
+    pub(super) depth: u32,
+    /// By node: the slots that hold subtrees that stay, as bits; their links count those in `kept`.
+    pub(super) keeps: Vec<u32>,
+    /// The instances that it was built over, the subtrees, and the nodes that it replaces.
+    pub(super) names: Vec<u32>,
+    pub(super) kept: Vec<Part>,
+    pub(super) inner: Vec<Part>,
     /// Instances to be opened, and to be closed.
-    open: Vec<u32>,
-    close: Vec<u32>,
+    pub(super) open: Vec<u32>,
+    pub(super) close: Vec<u32>,
 }
 
-impl TopCopy {
+#[cfg(feature = "std")]
+impl<N> TopTree<N> {
+    /// What it costs over what it replaces, where it keeps subtrees.
+    pub fn gain_above(&self) -> Option<f64> {
+        (!self.kept.is_empty()).then_some(self.cost)
+    }
+}
+
+impl<N> TopCopy<N> {
     /// A tree over the copy, refitted.
-    pub(in crate::bvh) fn build<N: LightNode<W>, const W: usize>(self, params: &BuildParams) -> TopTree<N> {
+    pub(in crate::bvh) fn build<const W: usize>(self, params: &BuildParams) -> TopTree<N>
+    where
+        N: LightNode<W>,
+    {
         let mut tree = TopTree {
-            part: self.part,
+            root: self.root,
+            pays: false,
+            cost: 1.0,
             nodes: Vec::new(),
+            levels: Vec::new(),
             depth: 0,
+            keeps: Vec::new(),
             names: self.names,
+            kept: self.kept.iter().map(|(part, _)| *part).collect(),
+            inner: self.inner,
             open: Vec::new(),
             close: Vec::new(),
         };
-        if self.instances.is_empty() {
-            return tree;
-        }
         let leaves = self.instances.iter().zip(&self.roots);
         let leaves = leaves.map(|(instance, root)| root.summary::<N::Summary>().to_world(instance));
-        [tree.open, tree.close] = opened::wanted(leaves, &self.openable);
-        let copies = (0..).zip(self.instances.iter().zip(&self.roots));
-        let summaries =
-            copies.map(|(k, (instance, root))| (k, root.summary::<N::Summary>().to_world(instance)));
-        let mut topology: Topology<N> = build_top::<N, W>(summaries, &super::in_full(params));
-        for &node in Levels::gather(topology.leveled(0)).nodes() {
-            topology.nodes[node as usize] = refit::top(&topology.nodes, &self.instances, &self.roots, node);
+        let leaves: Vec<N::Summary> = leaves
+            .chain(self.kept.iter().map(|(_, node)| node.merged()))
+            .collect();
+        if leaves.is_empty() {
+            return tree;
         }
-        for node in &mut topology.nodes {
+        let whole = self.whole.unwrap_or_else(|| opened::cost_of(&leaves));
+        [tree.open, tree.close] = opened::wanted::<N::Summary>(whole, &self.openable);
+        let mut topology: Topology<N> =
+            build_top::<N, W>((0..).zip(leaves.iter().copied()), &super::in_full(params));
+        tree.keeps = alloc::vec![0; topology.nodes.len()];
+        let mut cost = 0.0;
+        for &index in Levels::gather(topology.leveled(0)).nodes() {
+            let mut node = topology.nodes[index as usize];
+            let mut lanes = Lanes::<W>::all(&N::Summary::EMPTY);
             for slot in 0..W {
-                if node.kind(slot) == kind::MESH {
-                    node.relink(slot, tree.names[node.link(slot) as usize]);
+                let (to, link) = (node.kind(slot), node.link(slot));
+                if to == kind::INNER {
+                    let child = topology.nodes[link as usize].merged();
+                    cost += opened::cost(&child);
+                    lanes.set(slot, &child);
+                } else if to == kind::MESH {
+                    lanes.set(slot, &leaves[link as usize]);
+                    if let Some(&name) = tree.names.get(link as usize) {
+                        node.relink(slot, name);
+                    } else {
+                        node.set_child(slot, kind::INNER, link - tree.names.len() as u32);
+                        tree.keeps[index as usize] |= 1 << slot;
+                    }
                 }
             }
+            node.set_lanes(&lanes);
+            topology.nodes[index as usize] = node;
         }
+        tree.cost = if self.cost > 0.0 { cost / self.cost } else { 1.0 };
+        tree.pays = tree.cost <= self.pays;
         tree.nodes = topology.nodes;
+        tree.levels = topology.levels;
         tree.depth = topology.depth;
         tree
     }
 }
 
 impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// What the top level is built from.
-    pub(in crate::bvh) fn copy_top(&self) -> TopCopy {
-        TopCopy {
-            openable: self.openable(),
-            ..self.copy_of(None, self.leaves_of_all(&self.live))
-        }
-    }
-
-    /// What the next part is built from that is worse than when it was built by the factor `worse` or more; all of the top level, where
-    /// that is no more than a part. Time in proportion to [`PART`].
-    #[cfg(feature = "std")]
-    pub(crate) fn copy_worn_part(&self, worse: f64, search: &mut Search) -> Option<TopCopy> {
-        let drift = |node: u32| self.quality(node).drift();
-        let root = self.top.number(self.top.root) as usize;
-        let (count, whole) = (self.top.counts[root], drift(self.top.root));
-        if count <= PART || (count <= WHOLE && whole >= MUCH && whole >= worse) {
-            search.left = 0;
-            return (whole >= worse).then(|| self.copy_top());
-        }
-        for _ in 0..LOOKED_AT.min(search.left as usize) {
-            search.left -= 1;
-            let number = search.next as usize % self.top.nodes.len();
-            search.next = number as u32 + 1;
-            let node = self.top.nodes[number];
-            if node == INVALID || self.top.counts[number] > PART || self.top.heights[number] < 2 {
-                continue;
-            }
-            let above = self.top.number(self.parents[node as usize]);
-            // As built, there is nothing to gain.
-            if self.top.counts[above as usize] > PART && drift(node) > 1.0 && drift(node) >= worse {
-                let part = Part {
-                    number: number as u32,
-                    born: self.top.born[number],
-                };
-                let names = self.below(node).1.into_iter().map(|(name, _)| name);
-                return Some(self.copy_of(Some(part), names.collect()));
-            }
-        }
-        None
-    }
-
-    /// All nodes are to be looked at again.
-    #[cfg(feature = "std")]
-    pub(crate) fn search_again(&self, search: &mut Search) {
-        search.left = self.top.nodes.len() as u32;
-    }
-
-    fn copy_of(&self, part: Option<Part>, mut names: Vec<u32>) -> TopCopy {
-        names.sort_unstable();
-        let mut copy = TopCopy {
-            part,
-            instances: Vec::with_capacity(names.len()),
-            roots: Vec::with_capacity(names.len()),
-            names: Vec::new(),
-            openable: Vec::new(),
+    /// What the top level is built from as a whole.
+    pub(in crate::bvh) fn copy_top(&self) -> TopCopy<N> {
+        let mut cut = Cut {
+            names: self.leaves_of_all(&self.live),
+            ..Cut::default()
         };
-        for (k, &name) in (0..).zip(&names) {
+        cut.names.sort_unstable();
+        TopCopy {
+            root: None,
+            pays: f64::INFINITY,
+            openable: self.openable(self.live.iter().copied()),
+            whole: None,
+            ..self.copy_of(cut)
+        }
+    }
+
+    /// What a part is built from.
+    #[cfg(feature = "std")]
+    pub(super) fn copy_part(&self, root: u32, pays: f64) -> TopCopy<N> {
+        let is_part = self.top.counts[self.top.number(root) as usize] <= PART;
+        let cut = self.cut(root, if is_part { PART } else { ABOVE } as usize);
+        let whole = opened::cost(&self.nodes[self.top.root as usize].merged());
+        let openable = match self.params.opens {
+            true => self.openable(self.owners(&cut.names).into_iter()),
+            false => Vec::new(),
+        };
+        TopCopy {
+            root: Some(self.part(root)),
+            pays,
+            openable,
+            whole: Some(whole),
+            ..self.copy_of(cut)
+        }
+    }
+
+    /// The instances that leaves belong to, each once.
+    #[cfg(feature = "std")]
+    fn owners(&self, leaves: &[u32]) -> Vec<u32> {
+        let owner = |&leaf: &u32| match self.placed[leaf as usize].part_of {
+            crate::tree::INVALID => leaf,
+            instance => instance,
+        };
+        let mut owners: Vec<u32> = leaves.iter().map(owner).collect();
+        owners.sort_unstable();
+        owners.dedup();
+        owners
+    }
+
+    fn copy_of(&self, cut: Cut) -> TopCopy<N> {
+        let mut copy = TopCopy {
+            root: None,
+            pays: f64::INFINITY,
+            instances: Vec::with_capacity(cut.names.len()),
+            roots: Vec::with_capacity(cut.names.len()),
+            names: Vec::new(),
+            kept: Vec::with_capacity(cut.kept.len()),
+            inner: Vec::with_capacity(cut.inner.len()),
+            cost: cut.cost,
+            openable: Vec::new(),
+            whole: None,
+        };
+        for &name in &cut.names {
             let own = self.instances[name as usize];
             copy.roots.push(self.roots[own.blas as usize]);
-            copy.instances.push(Instance { blas: k, ..own });
+            copy.instances.push(own);
         }
-        copy.names = names;
+        for &node in &cut.kept {
+            copy.kept.push((self.part(node), self.nodes[node as usize]));
+        }
+        for &node in &cut.inner {
+            copy.inner.push(self.part(node));
+        }
+        copy.names = cut.names;
         copy
-    }
-
-    /// Puts a tree in place of the part of the top level that it was built from, of which it does not know what became of it since the
-    /// epoch stood at `since`: instances that have gone or were put elsewhere are taken out of it, others are put in. Nothing
-    /// is done where the part is no more.
-    pub(in crate::bvh) fn install_top(&mut self, tree: &TopTree<N>, since: u64) {
-        let root = match tree.part {
-            None => self.top.root,
-            Some(Part { number, born }) => match self.top.nodes.get(number as usize) {
-                Some(&node) if node != INVALID && self.top.born[number as usize] == born => node,
-                _ => return,
-            },
-        };
-        let level = self.level(root);
-        if tree.nodes.is_empty() || level + tree.depth > max_levels(W) {
-            return;
-        }
-        let (interior, newcomers, found) = self.sort_out(root, &tree.names, since);
-        let above = (root != self.top.root).then(|| (self.parents[root as usize], self.slot_above(root)));
-        for node in interior {
-            self.free_top_node(node);
-        }
-        let nodes: Vec<u32> = tree.nodes.iter().map(|_| self.new_top_node()).collect();
-        let mut lost = Vec::new();
-        for (&node, words) in nodes.iter().zip(&tree.nodes) {
-            let mut words = *words;
-            let mut is_whole = true;
-            for slot in 0..W {
-                let (to, link) = (words.kind(slot), words.link(slot));
-                if to == kind::INNER {
-                    words.relink(slot, nodes[link as usize]);
-                } else if to == kind::MESH && !self.is_marked(link, found) {
-                    words.set_child(slot, kind::EMPTY, 0);
-                    is_whole = false;
-                }
-            }
-            self.nodes[node as usize] = words;
-            if !is_whole {
-                lost.push(node);
-            }
-            for slot in 0..W {
-                self.link_up(node, slot);
-            }
-            self.changes.new.written_nodes.push(node..node + 1);
-        }
-        for &node in nodes.iter().rev() {
-            self.measure(node);
-            self.judge_new(node);
-        }
-        match above {
-            None => self.set_root(nodes[0]),
-            Some((node, slot)) => {
-                self.hang(node, slot, kind::INNER, nodes[0]);
-                self.update_path(node);
-            }
-        }
-        // Where a device refits in place of the CPU, the copy was of roots that are not those of the device.
-        if !self.changes.unrefitted.is_empty() {
-            self.changes.new.top_nodes.extend(&nodes);
-        }
-        // Its words are those of the copy.
-        for &name in &tree.names {
-            if !self.is_marked(name, found) {
-                continue;
-            }
-            let placed = &self.placed[name as usize];
-            let blas = self.blas_of(placed);
-            if placed.changed.max(blas.changed).max(blas.created) > since {
-                self.changes.new.instances.push(name);
-            }
-        }
-        // From the lowest: what is above may go with them.
-        for node in lost.into_iter().rev() {
-            if self.top.number(node) != INVALID {
-                let changed = self.fill(node);
-                self.update_path(changed);
-            }
-        }
-        self.insert_instances(&newcomers);
-        self.reopen(&tree.open, &tree.close);
-        self.settle();
-    }
-
-    /// Walks the tree below `root`: its nodes, and the instances that are not among `names` or were put there after `since`, in order.
-    /// The others are marked, by the last number returned.
-    fn sort_out(&mut self, root: u32, names: &[u32], since: u64) -> (Vec<u32>, Vec<u32>, u32) {
-        self.top.mark += 2;
-        let (listed, found) = (self.top.mark - 1, self.top.mark);
-        for &name in names {
-            let there = self.placed.get_mut(name as usize);
-            if let Some(placed) = there.filter(|placed| placed.node != INVALID && placed.hung <= since) {
-                placed.mark = listed;
-            }
-        }
-        let (nodes, leaves) = self.below(root);
-        let mut newcomers = Vec::new();
-        for (link, _) in leaves {
-            let placed = &mut self.placed[link as usize];
-            if placed.mark == listed {
-                placed.mark = found;
-                placed.settle();
-            } else {
-                placed.node = INVALID;
-                newcomers.push(link);
-            }
-        }
-        newcomers.sort_unstable();
-        (nodes, newcomers, found)
-    }
-
-    fn is_marked(&self, instance: u32, mark: u32) -> bool {
-        self.placed
-            .get(instance as usize)
-            .is_some_and(|placed| placed.mark == mark)
     }
 }

@@ -57,11 +57,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             return;
         }
         let above = self.parents[node as usize];
-        for &old in &interior[1..] {
-            self.free_top_node(old);
-        }
         let mut nodes = alloc::vec![node];
-        nodes.extend(topology.nodes[1..].iter().map(|_| self.new_top_node()));
+        nodes.extend(self.renewed(interior[1..].to_vec(), topology.nodes.len() - 1));
         for (&own, words) in nodes.iter().zip(&topology.nodes) {
             self.nodes[own as usize] = N::EMPTY;
             for slot in 0..W {

@@ -35,7 +35,7 @@ fn trees_are_noted_as_walked_ones() {
             .expect("they are there");
         scene.refit();
         scene.validate().expect("valid");
-        let rebuilt = scene.rebuild(&RebuildParams::default()).run();
+        let rebuilt = scene.rebuild(&RebuildParams::eager()).run();
         scene.install(rebuilt).expect("its own");
         let (noted, instances) = (
             alloc::format!("{:?}{:?}", scene.top.heights, scene.placed),
@@ -204,7 +204,7 @@ fn a_tree_most_of_whose_instances_are_gone_comes_in() {
         let ids = scene.apply(all).expect("instances").instances;
         scene.refit();
         for part in [0.5, 0.1, 0.02, 0.0] {
-            let rebuild = scene.rebuild(&RebuildParams::default());
+            let rebuild = scene.rebuild(&RebuildParams::eager());
             let gone = ids
                 .iter()
                 .filter(|&&id| scene.mesh_of(id).is_some() && random.unit() >= part);
@@ -293,4 +293,67 @@ fn no_call_puts_all_in_elsewhere() {
     assert_eq!(put, 64 + ids.len() / 64);
     scene.refit();
     scene.validate().expect("valid");
+}
+
+/// A lamp that goes dim and bright again is put in elsewhere twice, and then no more.
+#[test]
+fn a_lamp_that_flickers_stays_where_its_light_belongs() {
+    let (mut scene, ids) = grid(10);
+    for k in [0, 555] {
+        let mut put = 0;
+        for frame in 0..20 {
+            scene.plan();
+            let radiance = if frame % 2 == 0 { 0.01 } else { 1.0 };
+            scene.set_radiance(ids[k], radiance).expect("there");
+            put += u32::from(!scene.plan().written_nodes.is_empty());
+            scene.refit();
+        }
+        assert_eq!(put, 2, "{k}");
+        // Brighter than it ever was is another matter.
+        scene.plan();
+        scene.set_radiance(ids[k], 3.0).expect("there");
+        assert!(!scene.plan().written_nodes.is_empty(), "{k}");
+        // What is read again flickers on.
+        let mut again = LightBvh::from_words(&scene.to_words()).expect("its own");
+        let id = again.instance_id(ids[k].index()).expect("there");
+        again.refit();
+        again.plan();
+        again.set_radiance(id, 0.01).expect("there");
+        assert!(again.plan().written_nodes.is_empty(), "{k}");
+    }
+    scene.refit();
+    scene.validate().expect("valid");
+}
+
+/// What comes, goes and moves while a part that keeps subtrees is built is in the tree after it.
+#[cfg(feature = "std")]
+#[test]
+fn a_part_above_parts_comes_in_beside_edits() {
+    let (mut scene, mut ids) = grid(18);
+    let random = &mut Random(5);
+    let mesh = scene.mesh_of(ids[0]).expect("there");
+    for round in 0..30_usize {
+        let root = scene.top.root;
+        let copy = scene.copy_part(root, f64::INFINITY);
+        let since = scene.epoch;
+        let tree = copy.build::<8>(&scene.params);
+        for k in 0..round {
+            let at = (random.unit() * (ids.len() - 1) as f32) as usize;
+            let to = Transform::at((random.vector() * 70.0).to_array());
+            match k % 3 {
+                0 => scene.remove_instance(ids.swap_remove(at)).expect("there"),
+                1 => scene.set_transform(ids[at], to).expect("there"),
+                _ => ids.push(scene.add_instance(mesh, to).expect("one more")),
+            }
+        }
+        let births = scene.top.births;
+        scene.install_top(&tree, since);
+        let number = scene.top.number(scene.top.root) as usize;
+        assert!(scene.top.born[number] > births, "{round}: it came in");
+        scene.refit();
+        let stats = scene
+            .validate()
+            .unwrap_or_else(|violation| panic!("{round}: {violation}"));
+        assert_eq!(stats.instances as usize, ids.len());
+    }
 }

@@ -144,8 +144,7 @@ impl Followed {
             spent.rebuild = Some(start.elapsed());
             return Ok(spent);
         }
-        let rebuilt =
-            (self.update == Update::TopRebuild).then(|| bvh.rebuild(&RebuildParams::default()).run());
+        let rebuilt = (self.update == Update::TopRebuild).then(|| bvh.rebuild(&RebuildParams::eager()).run());
         spent.beside = rebuilt.is_some().then(|| start.elapsed());
         // Where nodes of the scene stand is the animation's business, not the tree's.
         let edits = self

@@ -39,7 +39,7 @@ impl World {
     pub fn step(&mut self, frame: u16) -> Result<()> {
         if frame % 4 == 3 {
             // In an engine this runs on another thread; `lightbvh::Rebuilder` does that.
-            let rebuilt = self.bvh.rebuild(&RebuildParams::default()).run();
+            let rebuilt = self.bvh.rebuild(&RebuildParams::eager()).run();
             self.bvh.install(rebuilt)?;
         }
         let time = f32::from(frame) * 0.1;

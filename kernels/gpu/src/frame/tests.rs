@@ -284,7 +284,7 @@ fn a_rebuild_swapped_in_reaches_a_device_that_alone_refits() {
             .expect("as many");
         scene.plan();
         device.follow(&scene);
-        let rebuild = scene.rebuild(&RebuildParams::default());
+        let rebuild = scene.rebuild(&RebuildParams::eager());
         // Before the copy, and after it.
         let moved = Transform::at([frame as f32, 20.0, 0.0]);
         scene.set_transform(ids[frame as usize], moved).expect("there");
@@ -448,7 +448,7 @@ fn a_plan_that_does_not_say_all_is_not_trusted() {
             shine(scene, 4, 3.0);
         }),
         ("a swap after the plan", |scene| {
-            let rebuilt = scene.rebuild(&RebuildParams::default()).run();
+            let rebuilt = scene.rebuild(&RebuildParams::eager()).run();
             scene.plan();
             scene.install(rebuilt).expect("its own");
         }),

@@ -33,7 +33,7 @@ fn harmless<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(words: &[
         let edits = batch(random, &bvh);
         let _ = bvh.apply(edits);
         bvh.refit();
-        let rebuilt = bvh.rebuild(&crate::bvh::RebuildParams::default()).run();
+        let rebuilt = bvh.rebuild(&crate::bvh::RebuildParams::eager()).run();
         bvh.install(rebuilt).expect("its own");
         bvh.refit();
         bvh.validate().unwrap_or_else(|violation| panic!("{violation}"));
