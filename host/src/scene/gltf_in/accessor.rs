@@ -135,7 +135,7 @@ impl Document<'_> {
         })
     }
 
-    /// The bytes of a view and its stride.
+    /// The bytes of a view, unpacked where they are compressed, and its stride.
     pub(super) fn view(
         &self,
         index: Index<buffer::View>,
@@ -143,23 +143,33 @@ impl Document<'_> {
     ) -> Result<(&[u8], Option<usize>), SceneError> {
         let view = self.get(&self.root.buffer_views, index, "bufferView", element)?;
         let name = format!("bufferViews[{}] (used by {element})", index.value());
-        self.get(&self.root.buffers, view.buffer, "buffer", &name)?;
-        let buffer = &self.buffers[view.buffer.value()];
+        if let Some(unpacked) = self.unpacked(index, view, &name)? {
+            return Ok(unpacked);
+        }
         let start = view.byte_offset.map_or(0, |offset| offset.0);
-        let end = start.checked_add(view.byte_length.0);
-        let Some(end) = end.filter(|&end| end <= buffer.len() as u64 && view.byte_length.0 > 0) else {
+        let bytes = self.bytes(view.buffer, (start, view.byte_length.0), &name)?;
+        Ok((bytes, view.byte_stride.map(|stride| stride.0)))
+    }
+
+    /// `length` bytes of a buffer from `start` on.
+    pub(super) fn bytes(
+        &self,
+        index: Index<json::Buffer>,
+        (start, length): (u64, u64),
+        name: &str,
+    ) -> Result<&[u8], SceneError> {
+        self.get(&self.root.buffers, index, "buffer", name)?;
+        let buffer = &self.buffers[index.value()];
+        let end = start.checked_add(length);
+        let Some(end) = end.filter(|&end| end <= buffer.len() as u64 && length > 0) else {
             let problem = format!(
-                "claims {} bytes from byte {start} of buffer {}, which has {}",
-                view.byte_length.0,
-                view.buffer.value(),
+                "claims {length} bytes from byte {start} of buffer {}, which has {}",
+                index.value(),
                 buffer.len()
             );
             return Err(self.malformed(name, problem, ADVICE));
         };
-        Ok((
-            &buffer[start as usize..end as usize],
-            view.byte_stride.map(|stride| stride.0),
-        ))
+        Ok(&buffer[start as usize..end as usize])
     }
 
     /// Replaces single elements (glTF 2.0, section 3.6.2.3).

@@ -99,6 +99,11 @@ pub(super) fn buffers<'a>(
         let bytes = match (&buffer.uri, binary) {
             (Some(uri), _) => Cow::Owned(fetch(document, uri, &element)?),
             (None, Some(binary)) if index == 0 => Cow::Borrowed(binary),
+            // Nothing is there: all its views are compressed.
+            (None, _) if document.is_fallback(buffer) => {
+                buffers.push(Cow::Borrowed(&[][..]));
+                continue;
+            }
             (None, _) => {
                 let advice = "export as .glb, or keep the .bin file beside the .gltf";
                 return Err(document.malformed(element, "has neither a uri nor a binary chunk", advice));

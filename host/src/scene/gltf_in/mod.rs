@@ -12,13 +12,15 @@
 mod accessor;
 mod animation;
 mod container;
+mod extensions;
 mod image;
 mod material;
 mod mesh;
+mod meshopt;
 mod node;
 
 use std::borrow::Cow;
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, OnceCell, RefCell};
 use std::path::Path;
 
 use gltf::json;
@@ -32,9 +34,6 @@ pub(super) const RADIANCE_ATTRIBUTE: &str = "RADIANCE";
 
 /// Key in the scene's `extras`: background radiance, three numbers.
 pub(super) const BACKGROUND_EXTRA: &str = "lightbvh_background";
-
-/// Required extensions that change nothing that is used here, besides all of `KHR_materials_`.
-const HARMLESS_EXTENSIONS: [&str; 2] = ["KHR_mesh_quantization", "KHR_lights_punctual"];
 
 /// Most elements read from accessors over the whole file: 2^27, so that many primitives that share one accessor
 /// cannot turn a small file into unbounded memory.
@@ -67,11 +66,13 @@ impl Scene {
             folder,
             root: &root,
             buffers: Vec::new(),
+            unpacked: vec![OnceCell::new(); root.buffer_views.len()],
+            unpacked_bytes: Cell::new(0),
             elements: Cell::new(0),
             pixels: Cell::new(0),
             warnings: RefCell::default(),
         };
-        document.check_required_extensions()?;
+        document.check_extensions()?;
         document.buffers = container::buffers(&document, binary)?;
         let mut data = SceneData {
             name: name.to_owned(),
@@ -91,8 +92,12 @@ struct Document<'a> {
     path: &'a str,
     folder: Option<&'a Path>,
     root: &'a json::Root,
-    /// By index; each has the length that the JSON claims.
+    /// By index; each has the length that the JSON claims, or none where it only stands in for compressed data.
     buffers: Vec<Cow<'a, [u8]>>,
+    /// What compressed views hold, by view, once it has been asked for.
+    unpacked: Vec<OnceCell<Vec<u8>>>,
+    /// Bytes in all of `unpacked`.
+    unpacked_bytes: Cell<u64>,
     /// Accessor elements read so far, against [`MAX_ELEMENTS`].
     elements: Cell<u64>,
     /// Pixels decoded so far.
@@ -155,20 +160,5 @@ impl Document<'_> {
             );
             self.malformed(element, problem, "repair the reference or export the file again")
         })
-    }
-
-    fn check_required_extensions(&self) -> Result<(), SceneError> {
-        for (index, name) in self.root.extensions_required.iter().enumerate() {
-            if !name.starts_with("KHR_materials_") && !HARMLESS_EXTENSIONS.contains(&name.as_str()) {
-                let advice = "export the file without this extension (for example without compression)";
-                return Err(self.unsupported(format!("extensionsRequired[{index}]"), name.clone(), advice));
-            }
-        }
-        for name in &self.root.extensions_used {
-            if name == "KHR_lights_punctual" || name == "KHR_texture_transform" {
-                self.warn(format!("extension {name} is ignored"));
-            }
-        }
-        Ok(())
     }
 }
