@@ -126,6 +126,20 @@ pub fn png_white_black() -> Vec<u8> {
     png
 }
 
+/// Appends to a list of a file.
+///
+/// # Panics
+/// Where `list` is none.
+pub fn push(list: &mut Value, value: Value) {
+    list.as_array_mut().expect("a list").push(value);
+}
+
+/// `bytes` as the uri of an embedded buffer or picture.
+#[must_use]
+pub fn embedded(bytes: &[u8]) -> String {
+    format!("data:;base64,{}", base64(bytes))
+}
+
 /// Two nodes, one swinging on the other, every interpolation, a camera, radiance per triangle, a matrix node.
 #[must_use]
 pub fn busy() -> SceneData {

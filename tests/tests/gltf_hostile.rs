@@ -59,8 +59,8 @@ fn hostile_values_are_named() {
         ("/buffers/0/uri", json!("http://example.com/a.bin"), "relative"),
         (
             "/extensionsRequired",
-            json!(["KHR_draco_mesh_compression"]),
-            "KHR_draco_mesh_compression",
+            json!(["KHR_of_the_future"]),
+            "KHR_of_the_future is not supported",
         ),
         ("/asset", json!(null), "JSON"),
         ("/meshes/0/primitives", json!([]), "no triangles"),

@@ -147,6 +147,7 @@ impl Check<'_> {
             ("base colour", b),
             ("metallic", material.metallic),
             ("roughness", material.roughness),
+            ("transmission", material.transmission),
         ] {
             self.finite(|| name(what), &[value])?;
             if !(0.0..=1.0).contains(&value) {
@@ -268,12 +269,13 @@ impl Check<'_> {
             .map(|mesh| {
                 let mut counts = Counts::default();
                 for primitive in &mesh.primitives {
-                    let of_material = data.materials[primitive.material as usize].radiance;
-                    let count = primitive.triangles.len();
-                    let lit = (0..count)
-                        .filter(|&t| emits(primitive.triangle_radiance(t, of_material)))
+                    let material = &data.materials[primitive.material as usize];
+                    let all = 0..primitive.triangles.len();
+                    let lit = all
+                        .clone()
+                        .filter(|&t| emits(primitive.triangle_radiance(t, material.radiance)))
                         .count();
-                    counts.triangles += count;
+                    counts.triangles += all.filter(|&t| primitive.is_shown(t, material)).count();
                     counts.emissive += lit;
                     counts.mesh_lights += usize::from(lit > 0);
                 }

@@ -85,8 +85,10 @@ pub enum SceneError {
         /// How many there may be.
         limit: u64,
     },
-    /// The scene has no triangle at all.
-    #[error("scene `{scene}` has no triangles; it needs at least one node with a triangle mesh")]
+    /// The scene has no triangle at all, or only those of clear glass.
+    #[error(
+        "scene `{scene}` has no triangles; it needs at least one node with a triangle mesh that is not all clear glass"
+    )]
     Empty {
         /// The scene.
         scene: String,

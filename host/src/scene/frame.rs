@@ -29,7 +29,7 @@ pub struct MeshRange {
 /// A scene at one time. Lengths and order are the same in every frame of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
-    /// Every triangle, emissive or not.
+    /// Every triangle, emissive or not, but for those of clear glass.
     pub triangles: Vec<SurfaceTriangle>,
     /// Triangles with radiance above zero, those of zero area included.
     pub emissive: Vec<EmissiveTriangle>,
@@ -83,6 +83,9 @@ pub(super) fn place_meshes(data: &SceneData, world: &[Affine], out: &mut Frame) 
                 .collect();
 
             for (index, &[a, b, c]) in primitive.triangles.iter().enumerate() {
+                if !primitive.is_shown(index, material) {
+                    continue;
+                }
                 // A mirrored instance would show its back; swapping two vertices keeps the front in front.
                 let [b, c] = if mirrored { [c, b] } else { [b, c] };
                 let p = [a, b, c].map(|vertex| points[vertex as usize]);

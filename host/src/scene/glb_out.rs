@@ -114,7 +114,7 @@ impl Writer {
             .collect();
         let mut root = json!({
             "asset": { "version": "2.0", "generator": "lightbvh" },
-            "extensionsUsed": ["KHR_materials_emissive_strength"],
+            "extensionsUsed": ["KHR_materials_emissive_strength", "KHR_materials_transmission"],
             "scene": 0,
             "scenes": [{ "name": data.name, "nodes": roots, "extras": { BACKGROUND_EXTRA: data.background } }],
             "nodes": nodes(scene),

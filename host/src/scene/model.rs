@@ -5,6 +5,7 @@ use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
 use crate::render::View;
 
 use super::error::SceneError;
+use super::frame::emits;
 use super::transform::Transform;
 
 /// A scene that passed every check of [`Scene::new`]: finite, in range, references whole.
@@ -89,6 +90,8 @@ pub struct Material {
     pub roughness: f32,
     /// Whether alpha cuts parts of the surface out; the reference renderer takes it as opaque.
     pub masked: bool,
+    /// Share of light that goes straight through, in [0, 1]; see [`is_clear`](Self::is_clear).
+    pub transmission: f32,
 }
 
 impl Default for Material {
@@ -101,11 +104,18 @@ impl Default for Material {
             metallic: 0.0,
             roughness: 1.0,
             masked: false,
+            transmission: 0.0,
         }
     }
 }
 
 impl Material {
+    /// Whether more light goes through than not. The reference renderer has no glass: surfaces of such a material that do not
+    /// emit are left out of frames, so that lamps behind them are not hidden.
+    pub fn is_clear(&self) -> bool {
+        self.transmission >= 0.5
+    }
+
     /// Maps metallic and roughness to the reference renderer's two lobes.
     ///
     /// Normal-incidence reflectance is 0.04 for dielectrics and the base colour for metals (glTF 2.0, appendix B.2).
@@ -200,6 +210,11 @@ pub(super) struct Counts {
 }
 
 impl Primitive {
+    /// Whether triangle `index` is in frames; those of clear materials are not unless they emit.
+    pub(super) fn is_shown(&self, index: usize, material: &Material) -> bool {
+        !material.is_clear() || emits(self.triangle_radiance(index, material.radiance))
+    }
+
     /// Whether triangle `index` emits, given its material's radiance.
     pub(super) fn triangle_radiance(&self, index: usize, of_material: [f32; 3]) -> [f32; 3] {
         self.radiance

@@ -26,11 +26,15 @@ pub(super) fn is_product(radiance: [f32; 3]) -> bool {
 /// Emission as a factor in [0, 1] and a strength.
 pub(super) fn material(material: &Material) -> Value {
     let strength = strength(material.radiance);
+    let mut extensions = json!({ "KHR_materials_emissive_strength": { "emissiveStrength": strength } });
+    if material.transmission > 0.0 {
+        extensions["KHR_materials_transmission"] = json!({ "transmissionFactor": material.transmission });
+    }
     json!({
         "name": material.name,
         "doubleSided": material.double_sided,
         "emissiveFactor": material.radiance.map(|channel| channel / strength),
-        "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": strength } },
+        "extensions": extensions,
         "pbrMetallicRoughness": {
             "baseColorFactor": [material.base_color[0], material.base_color[1], material.base_color[2], 1.0],
             "metallicFactor": material.metallic,

@@ -5,6 +5,7 @@ use gltf::json::validation::Checked;
 use gltf::json::{self, Index, buffer};
 
 use super::super::error::SceneError;
+use super::attributes::Normalized;
 use super::{Document, MAX_ELEMENTS};
 
 /// Where the elements of an accessor lie.
@@ -36,7 +37,7 @@ impl Document<'_> {
         }
         let mut values: Vec<[f32; N]> = (0..layout.count).map(|i| layout.element(i)).collect();
         if let Some(sparse) = &accessor.sparse {
-            self.substitute(&mut values, sparse, &layout, &name)?;
+            self.substitute(&mut values, sparse, &layout, |of, i| of.element(i), &name)?;
         }
         Ok(values)
     }
@@ -50,10 +51,14 @@ impl Document<'_> {
             layout.component,
             ComponentType::U8 | ComponentType::U16 | ComponentType::U32
         );
-        if layout.components != 1 || !unsigned || accessor.sparse.is_some() {
-            return Err(self.malformed(name, "is not a plain list of unsigned integers", ADVICE));
+        if layout.components != 1 || !unsigned {
+            return Err(self.malformed(name, "is not a list of unsigned integers", ADVICE));
         }
-        Ok((0..layout.count).map(|i| layout.unsigned(i)).collect())
+        let mut values: Vec<u32> = (0..layout.count).map(|i| layout.unsigned(i)).collect();
+        if let Some(sparse) = &accessor.sparse {
+            self.substitute(&mut values, sparse, &layout, |of, i| of.unsigned(i), &name)?;
+        }
+        Ok(values)
     }
 
     /// Checks that all elements lie inside the accessor's view, and that the file stays within its budget.
@@ -173,11 +178,12 @@ impl Document<'_> {
     }
 
     /// Replaces single elements (glTF 2.0, section 3.6.2.3).
-    fn substitute<const N: usize>(
+    fn substitute<T>(
         &self,
-        values: &mut [[f32; N]],
+        values: &mut [T],
         sparse: &json::accessor::sparse::Sparse,
         of: &Layout<'_>,
+        read: fn(&Layout<'_>, usize) -> T,
         name: &str,
     ) -> Result<(), SceneError> {
         let Checked::Valid(IndexComponentType(component)) = sparse.indices.component_type else {
@@ -201,7 +207,7 @@ impl Document<'_> {
                 let problem = format!("substitutes element {target} of {total}");
                 return Err(self.malformed(name, problem, ADVICE));
             };
-            *value = new.element(i);
+            *value = read(&new, i);
         }
         Ok(())
     }
@@ -228,19 +234,18 @@ impl Layout<'_> {
         u32::from_le_bytes(self.word(index, 0))
     }
 
-    /// glTF 2.0, section 3.6.2.2 and section 3.11: normalized integers map to [0, 1] or [-1, 1].
     fn float(&self, index: usize, component: usize) -> f32 {
         let word = self.word(index, component);
-        let (value, largest) = match self.component {
+        let value = match self.component {
             ComponentType::F32 => return f32::from_le_bytes(word),
-            ComponentType::I8 => (f32::from(word[0] as i8), 127.0),
-            ComponentType::U8 => (f32::from(word[0]), 255.0),
-            ComponentType::I16 => (f32::from(i16::from_le_bytes([word[0], word[1]])), 32767.0),
-            ComponentType::U16 => (f32::from(u16::from_le_bytes([word[0], word[1]])), 65535.0),
-            ComponentType::U32 => (u32::from_le_bytes(word) as f32, 4_294_967_295.0),
+            ComponentType::I8 => f32::from(word[0] as i8),
+            ComponentType::U8 => f32::from(word[0]),
+            ComponentType::I16 => f32::from(i16::from_le_bytes([word[0], word[1]])),
+            ComponentType::U16 => f32::from(u16::from_le_bytes([word[0], word[1]])),
+            ComponentType::U32 => u32::from_le_bytes(word) as f32,
         };
         if self.normalized {
-            (value / largest).max(-1.0)
+            self.component.normalized(value)
         } else {
             value
         }

@@ -8,16 +8,23 @@ use super::super::error::SceneError;
 use super::Document;
 
 /// Extensions that are read.
-const READ: [&str; 4] = [
+const READ: [&str; 12] = [
     "EXT_meshopt_compression",
-    "KHR_meshopt_compression",
-    "KHR_mesh_quantization",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
+    "KHR_texture_basisu",
+    "KHR_texture_transform",
 ];
 
 /// Extensions that only add what a renderer of lights has no use for: a file that requires one is shown nevertheless.
-const HARMLESS: [&str; 5] = [
-    "KHR_lights_punctual",
+const HARMLESS: [&str; 4] = [
     "KHR_xmp",
     "KHR_xmp_json_ld",
     "EXT_structural_metadata",

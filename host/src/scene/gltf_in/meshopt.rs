@@ -28,6 +28,9 @@ const LEAST: u64 = 64;
 
 const ADVICE: &str = "unpack the file, for example with `gltf-transform copy`, or export it again";
 
+/// The bytes of a view, and its stride where it has one.
+pub(super) type Bytes<'a> = (&'a [u8], Option<usize>);
+
 /// As the extension's object has it.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
@@ -69,7 +72,7 @@ impl Document<'_> {
         index: Index<buffer::View>,
         view: &buffer::View,
         name: &str,
-    ) -> Result<Option<(&[u8], Option<usize>)>, SceneError> {
+    ) -> Result<Option<Bytes<'_>>, SceneError> {
         let Some(extensions) = &view.extensions else {
             return Ok(None);
         };

@@ -11,13 +11,18 @@
 
 mod accessor;
 mod animation;
+mod attributes;
 mod container;
+mod draco;
+mod emission;
 mod extensions;
 mod image;
+mod ktx2;
 mod material;
 mod mesh;
 mod meshopt;
 mod node;
+mod texture;
 
 use std::borrow::Cow;
 use std::cell::{Cell, OnceCell, RefCell};
@@ -69,7 +74,7 @@ impl Scene {
             unpacked: vec![OnceCell::new(); root.buffer_views.len()],
             unpacked_bytes: Cell::new(0),
             elements: Cell::new(0),
-            pixels: Cell::new(0),
+            pictures: RefCell::default(),
             warnings: RefCell::default(),
         };
         document.check_extensions()?;
@@ -78,8 +83,9 @@ impl Scene {
             name: name.to_owned(),
             ..SceneData::default()
         };
-        data.materials = material::read(&document)?;
-        data.meshes = mesh::read(&document, &mut data.materials)?;
+        let mut looks = material::read(&document)?;
+        data.meshes = mesh::read(&document, &mut looks)?;
+        data.materials = looks.into_iter().map(|look| look.material).collect();
         let order = node::read(&document, &mut data)?;
         data.animations = animation::read(&document, &order)?;
         data.warnings = document.into_warnings();
@@ -100,8 +106,7 @@ struct Document<'a> {
     unpacked_bytes: Cell<u64>,
     /// Accessor elements read so far, against [`MAX_ELEMENTS`].
     elements: Cell<u64>,
-    /// Pixels decoded so far.
-    pixels: Cell<u64>,
+    pictures: RefCell<image::Pictures>,
     warnings: RefCell<Vec<String>>,
 }
 

@@ -15,7 +15,7 @@ use super::{BACKGROUND_EXTRA, Document};
 pub(super) fn read(document: &Document<'_>, data: &mut SceneData) -> Result<Vec<Option<u32>>, SceneError> {
     let nodes = &document.root.nodes;
     let parents = parents(document)?;
-    let roots = roots(document, &parents, data)?;
+    let (roots, listed) = roots(document, &parents, data)?;
 
     // Lowest index first among those whose parent is placed: files that are in order keep their order.
     let mut ready: BinaryHeap<Reverse<usize>> = roots.into_iter().map(Reverse).collect();
@@ -35,6 +35,18 @@ pub(super) fn read(document: &Document<'_>, data: &mut SceneData) -> Result<Vec<
                 .flatten()
                 .map(|child| Reverse(child.value())),
         );
+    }
+    // Some exporters list every node. It is no harm where the parent is in the scene; a cycle has no such parent.
+    for (node, parent) in &listed {
+        if place[*node].is_none() {
+            let problem = format!("node {node} is a root, and also a child of node {parent}");
+            return Err(document.malformed("scene.nodes", problem, "list only nodes without a parent"));
+        }
+    }
+    if let Some((node, parent)) = listed.first() {
+        document.warn(format!(
+            "scene.nodes lists node {node} and others, which are children, of node {parent} and others: they stay those"
+        ));
     }
     // The file's first camera is the one to see from, wherever its node stands.
     cameras.sort_by_key(|&(index, _)| index);
@@ -59,36 +71,34 @@ fn parents(document: &Document<'_>) -> Result<Vec<Option<usize>>, SceneError> {
     Ok(parents)
 }
 
+/// Nodes that a scene lists, though they are children: each with its parent.
+type Listed = Vec<(usize, usize)>;
+
 /// Roots of the default scene, or all roots where the file has no scene.
 fn roots(
     document: &Document<'_>,
     parents: &[Option<usize>],
     data: &mut SceneData,
-) -> Result<Vec<usize>, SceneError> {
+) -> Result<(Vec<usize>, Listed), SceneError> {
     let scene = match document.root.scene {
         Some(index) => Some(document.get(&document.root.scenes, index, "scene", "scene")?),
         None => document.root.scenes.first(),
     };
     let Some(scene) = scene else {
-        return Ok((0..parents.len())
-            .filter(|&node| parents[node].is_none())
-            .collect());
+        let roots = (0..parents.len()).filter(|&node| parents[node].is_none());
+        return Ok((roots.collect(), Vec::new()));
     };
     data.background = background(document, scene)?;
-    let mut roots = Vec::new();
+    let (mut roots, mut listed) = (Vec::new(), Vec::new());
     for &node in &scene.nodes {
         document.get(&document.root.nodes, node, "node", "scene.nodes")?;
         if let Some(parent) = parents[node.value()] {
-            // Also how every cycle that a scene can reach shows, as each node has at most one parent.
-            let problem = format!(
-                "node {} is a root, and also a child of node {parent}",
-                node.value()
-            );
-            return Err(document.malformed("scene.nodes", problem, "list only nodes without a parent"));
+            listed.push((node.value(), parent));
+            continue;
         }
         roots.push(node.value());
     }
-    Ok(roots)
+    Ok((roots, listed))
 }
 
 /// Appends a node; its camera goes to `cameras`, with the camera's index in the file.
