@@ -1,8 +1,8 @@
 //! Small glTF files and scenes for the tests of the loader.
 
 use lightbvh_host::scene::{
-    Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
-    SceneError, Transform,
+    Animation, Camera, Channel, Influence, Interpolation, Material, Mesh, MorphChannel, Node, Primitive,
+    Property, Scene, SceneData, SceneError, Skin, Transform,
 };
 use serde_json::{Value, json};
 
@@ -156,6 +156,7 @@ pub fn busy() -> SceneData {
         parent,
         transform,
         mesh,
+        ..Node::default()
     };
     SceneData {
         name: String::from("test"),
@@ -214,6 +215,7 @@ pub fn busy() -> SceneData {
                         &[0.0, 0.7],
                     ),
                 ],
+                ..Animation::default()
             },
             Animation {
                 name: String::from("two"),
@@ -233,12 +235,104 @@ pub fn busy() -> SceneData {
                         &[0.1, 0.9],
                     ),
                 ],
+                ..Animation::default()
             },
         ],
         cameras: vec![Camera { node: 3, yfov: 0.7 }],
         background: [0.1, 0.2, 0.3],
-        warnings: Vec::new(),
+        ..SceneData::default()
     }
+}
+
+/// Two tetrahedra that glow: one on node 0, bent by two targets whose weights are animated, one on node 1, which two joints bend,
+/// node 2 and, a metre above, node 3, which turns about z.
+#[must_use]
+pub fn bending() -> SceneData {
+    let quarter = [
+        0.0,
+        0.0,
+        std::f32::consts::FRAC_1_SQRT_2,
+        std::f32::consts::FRAC_1_SQRT_2,
+    ];
+    let mut data = busy();
+    let node = |parent, at, mesh| Node {
+        parent,
+        transform: Transform::at(at),
+        mesh,
+        ..Node::default()
+    };
+    data.nodes = vec![
+        Node {
+            weights: vec![0.5, 0.25],
+            ..node(None, [5.0, 0.0, 0.0], Some(0))
+        },
+        Node {
+            skin: Some(0),
+            ..node(None, [100.0, 0.0, 0.0], Some(1))
+        },
+        node(None, [0.0, 0.0, 2.0], None),
+        node(Some(2), [0.0, 1.0, 0.0], None),
+        node(None, [0.0, 0.0, 20.0], None),
+    ];
+    data.cameras[0].node = 4;
+    let influence = |weights| Influence {
+        joints: [0, 1, 0, 0],
+        weights,
+    };
+    data.meshes = vec![
+        Mesh {
+            name: String::from("targets"),
+            primitives: vec![Primitive {
+                targets: vec![vec![[0.0, 0.0, 1.0]; 4], Vec::new()],
+                ..tetrahedron(0, None)
+            }],
+        },
+        Mesh {
+            name: String::from("skin"),
+            primitives: vec![Primitive {
+                influences: vec![vec![
+                    influence([1.0, 0.0, 0.0, 0.0]),
+                    influence([0.0, 0.5, 0.0, 0.0]),
+                    influence([1.0, 1.0, 0.0, 0.0]),
+                    influence([0.0; 4]),
+                ]],
+                ..tetrahedron(0, Some(vec![[1.0; 3], [0.0; 3], [2.0; 3], [3.0; 3]]))
+            }],
+        },
+    ];
+    data.skins = vec![Skin {
+        joints: vec![2, 3],
+        // The second joint's own space begins a metre up.
+        inverse_bind: vec![
+            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]],
+            [
+                [1.0, 0.0, 0.0],
+                [0.0, 1.0, 0.0],
+                [0.0, 0.0, 1.0],
+                [0.0, -1.0, 0.0],
+            ],
+        ],
+    }];
+    let turn = Channel {
+        node: 3,
+        property: Property::Rotation,
+        interpolation: Interpolation::Step,
+        times: vec![0.0, 1.0],
+        values: vec![[0.0, 0.0, 0.0, 1.0], quarter],
+    };
+    let morph = |targets, interpolation, values: &[f32]| MorphChannel {
+        node: 0,
+        targets,
+        interpolation,
+        times: vec![0.0, 2.0],
+        values: values.to_vec(),
+    };
+    data.animations = vec![Animation {
+        channels: vec![turn],
+        morphs: vec![morph(2, Interpolation::Linear, &[0.0, 0.0, 3.0, 1.0])],
+        ..Animation::default()
+    }];
+    data
 }
 
 fn tetrahedron(material: u32, radiance: Option<Vec<[f32; 3]>>) -> Primitive {
@@ -248,5 +342,6 @@ fn tetrahedron(material: u32, radiance: Option<Vec<[f32; 3]>>) -> Primitive {
         triangles: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
         material,
         radiance,
+        ..Primitive::default()
     }
 }

@@ -2,7 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use lightbvh_host::scene::{Node, Scene, SceneData, SceneError, Transform};
+use lightbvh_host::scene::{Node, Scene, SceneData, SceneError};
 use lightbvh_tests::gltf_files::{base64, busy, changed, read, read_json, triangle};
 use serde_json::{Value, json};
 
@@ -123,10 +123,8 @@ fn instances_are_counted_before_memory_is_taken() {
     let many = (0..1 << 20).map(|i| [i % 4, (i + 1) % 4, (i + 2) % 4]).collect();
     data.meshes[0].primitives[0].triangles = many;
     let extra = Node {
-        name: String::new(),
-        parent: None,
-        transform: Transform::IDENTITY,
         mesh: Some(0),
+        ..Node::default()
     };
     data.nodes.extend(std::iter::repeat_n(extra, 5_000));
     let error = Scene::new(data).expect_err("five billion triangles must be refused");

@@ -1,4 +1,4 @@
-//! All tests of this package, one module per concern, in one program: forty-seven of them repeat each other's compilation, and
+//! All tests of this package, one module per concern, in one program: forty-eight of them repeat each other's compilation, and
 //! took that of the whole workspace a fifth longer.
 
 mod bounds;
@@ -12,6 +12,7 @@ mod exact_exhaustive;
 mod exact_inputs;
 mod film;
 mod gltf;
+mod gltf_bend;
 mod gltf_draco;
 mod gltf_hostile;
 mod gltf_packed;

@@ -1,28 +1,54 @@
-//! Animation: channel values at a time, and the world transform of every node.
+//! Animation: channel values at a time, the world transform of every node, and the weights of morph targets.
 
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use super::deform::MorphChannel;
 use super::model::{Channel, Interpolation, Property, SceneData};
 use super::transform::{Affine, Transform, normalized, slerp};
 
-/// World transforms of all nodes at `seconds`, each animation looping over its own duration.
-pub(super) fn world_transforms(data: &SceneData, seconds: f64) -> Vec<Affine> {
-    let mut locals: Vec<Transform> = data.nodes.iter().map(|node| node.transform).collect();
-    for animation in &data.animations {
-        let duration = f64::from(animation.duration());
-        let time = if duration > 0.0 { seconds % duration } else { 0.0 };
-        for channel in &animation.channels {
-            apply(channel, time, &mut locals[channel.node as usize]);
+/// Where everything is at a time.
+pub(super) struct Pose {
+    /// From each node's space to the world.
+    pub world: Vec<Affine>,
+    /// Weights of morph targets, of the nodes where they are animated.
+    weights: BTreeMap<usize, Vec<f64>>,
+}
+
+impl Pose {
+    /// At `seconds`, each animation looping over its own duration.
+    pub fn at(data: &SceneData, seconds: f64) -> Self {
+        let mut locals: Vec<Transform> = data.nodes.iter().map(|node| node.transform).collect();
+        let mut weights = BTreeMap::new();
+        for animation in &data.animations {
+            let duration = f64::from(animation.duration());
+            let time = if duration > 0.0 { seconds % duration } else { 0.0 };
+            for channel in &animation.channels {
+                apply(channel, time, &mut locals[channel.node as usize]);
+            }
+            for channel in &animation.morphs {
+                weights.insert(channel.node as usize, weights_at(channel, time));
+            }
         }
+
+        // Parents come before their children, so one pass composes the whole hierarchy.
+        let mut world: Vec<Affine> = Vec::with_capacity(locals.len());
+        for (node, local) in data.nodes.iter().zip(&locals) {
+            let parent = node
+                .parent
+                .map_or(Affine::IDENTITY, |parent| world[parent as usize]);
+            world.push(parent.then_after(&local.affine()));
+        }
+        Self { world, weights }
     }
 
-    // Parents come before their children, so one pass composes the whole hierarchy.
-    let mut world: Vec<Affine> = Vec::with_capacity(locals.len());
-    for (node, local) in data.nodes.iter().zip(&locals) {
-        let parent = node
-            .parent
-            .map_or(Affine::IDENTITY, |parent| world[parent as usize]);
-        world.push(parent.then_after(&local.affine()));
+    /// The weights of a node's morph targets.
+    pub fn weights(&self, data: &SceneData, node: usize) -> Cow<'_, [f64]> {
+        match self.weights.get(&node) {
+            Some(weights) => Cow::Borrowed(weights),
+            None => Cow::Owned(data.nodes[node].weights.iter().map(|&w| f64::from(w)).collect()),
+        }
     }
-    world
 }
 
 /// Replaces the animated part of `local`.
@@ -43,52 +69,73 @@ fn apply(channel: &Channel, time: f64, local: &mut Transform) {
     }
 }
 
-/// The channel's value at `time`, held before the first key and after the last (glTF 2.0, appendix C).
+/// The channel's value at `time`.
 fn sample(channel: &Channel, time: f64) -> [f64; 4] {
-    let times = &channel.times;
-    let next = times.partition_point(|&key| f64::from(key) <= time);
-    if next == 0 {
-        return key_value(channel, 0);
-    }
-    if next == times.len() {
-        return key_value(channel, next - 1);
-    }
-    let (from, to) = (next - 1, next);
-    // Keys at or before `time` and after it differ, so the span is above zero.
-    let span = f64::from(times[to]) - f64::from(times[from]);
-    let t = (time - f64::from(times[from])) / span;
-    match channel.interpolation {
-        Interpolation::Step => key_value(channel, from),
-        Interpolation::Linear if channel.property == Property::Rotation => {
-            slerp(key_value(channel, from), key_value(channel, to), t)
+    let rotates = channel.property == Property::Rotation;
+    let unit = |value: [f64; 4]| if rotates { normalized(value) } else { value };
+    let raw = |index: usize| channel.values[index].map(f64::from);
+    match (step(&channel.times, time), channel.interpolation) {
+        (Step::At(key), Interpolation::CubicSpline) => unit(raw(3 * key + 1)),
+        (Step::At(key), _) | (Step::Between { from: key, .. }, Interpolation::Step) => unit(raw(key)),
+        (Step::Between { from, t, .. }, Interpolation::Linear) if rotates => {
+            slerp(unit(raw(from)), unit(raw(from + 1)), t)
         }
-        Interpolation::Linear => {
-            let (a, b) = (key_value(channel, from), key_value(channel, to));
+        (Step::Between { from, t, .. }, Interpolation::Linear) => {
+            let (a, b) = (raw(from), raw(from + 1));
             [0, 1, 2, 3].map(|i| a[i] + (b[i] - a[i]) * t)
         }
-        Interpolation::CubicSpline => hermite(channel, from, span, t),
+        (Step::Between { from, span, t }, Interpolation::CubicSpline) => {
+            let keys = [1, 2, 3, 4].map(|i| raw(3 * from + i));
+            unit([0, 1, 2, 3].map(|i| hermite(keys.map(|key| key[i]), span, t)))
+        }
     }
 }
 
-/// The value of key `key`, without its tangents.
-fn key_value(channel: &Channel, key: usize) -> [f64; 4] {
-    let index = match channel.interpolation {
-        Interpolation::CubicSpline => 3 * key + 1,
-        Interpolation::Step | Interpolation::Linear => key,
+/// The weights at `time`, each as a number of its own.
+fn weights_at(channel: &MorphChannel, time: f64) -> Vec<f64> {
+    let count = channel.targets as usize;
+    let place = step(&channel.times, time);
+    let one = |target: usize| {
+        let raw = |row: usize| f64::from(channel.values[row * count + target]);
+        match (&place, channel.interpolation) {
+            (Step::At(key), Interpolation::CubicSpline) => raw(3 * key + 1),
+            (Step::At(key), _) | (Step::Between { from: key, .. }, Interpolation::Step) => raw(*key),
+            (Step::Between { from, t, .. }, Interpolation::Linear) => {
+                raw(*from) + (raw(from + 1) - raw(*from)) * t
+            }
+            (Step::Between { from, span, t }, Interpolation::CubicSpline) => {
+                hermite([1, 2, 3, 4].map(|i| raw(3 * from + i)), *span, *t)
+            }
+        }
     };
-    let value = channel.values[index].map(f64::from);
-    if channel.property == Property::Rotation {
-        normalized(value)
-    } else {
-        value
-    }
+    (0..count).map(one).collect()
 }
 
-/// Cubic Hermite spline between the keys `from` and `from + 1` (glTF 2.0, appendix C.5).
-fn hermite(channel: &Channel, from: usize, span: f64, t: f64) -> [f64; 4] {
-    let raw = |index: usize| channel.values[index].map(f64::from);
-    let (v0, out0) = (raw(3 * from + 1), raw(3 * from + 2));
-    let (in1, v1) = (raw(3 * from + 3), raw(3 * from + 4));
+/// Where a time lies among keys.
+enum Step {
+    /// At this key: before the first, after the last (glTF 2.0, appendix C).
+    At(usize),
+    /// Between `from` and the next, `t` of the `span` seconds on.
+    Between { from: usize, span: f64, t: f64 },
+}
+
+fn step(times: &[f32], time: f64) -> Step {
+    let next = times.partition_point(|&key| f64::from(key) <= time);
+    if next == 0 {
+        return Step::At(0);
+    }
+    if next == times.len() {
+        return Step::At(next - 1);
+    }
+    let from = next - 1;
+    // Keys at or before `time` and after it differ, so the span is above zero.
+    let span = f64::from(times[next]) - f64::from(times[from]);
+    let t = (time - f64::from(times[from])) / span;
+    Step::Between { from, span, t }
+}
+
+/// Cubic Hermite spline from a value with its out-tangent to a value, whose in-tangent comes before it (glTF 2.0, appendix C.5).
+fn hermite([v0, out0, in1, v1]: [f64; 4], span: f64, t: f64) -> f64 {
     let (t2, t3) = (t * t, t * t * t);
     let weights = [
         2.0 * t3 - 3.0 * t2 + 1.0,
@@ -96,11 +143,5 @@ fn hermite(channel: &Channel, from: usize, span: f64, t: f64) -> [f64; 4] {
         3.0 * t2 - 2.0 * t3,
         span * (t3 - t2),
     ];
-    let value = [0, 1, 2, 3]
-        .map(|i| (weights[0] * v0[i] + weights[1] * out0[i]) + (weights[2] * v1[i] + weights[3] * in1[i]));
-    if channel.property == Property::Rotation {
-        normalized(value)
-    } else {
-        value
-    }
+    (weights[0] * v0 + weights[1] * out0) + (weights[2] * v1 + weights[3] * in1)
 }

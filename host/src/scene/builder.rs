@@ -64,7 +64,7 @@ impl SceneBuilder {
                 positions: shape.positions.clone(),
                 triangles: shape.triangles.clone(),
                 material,
-                radiance: None,
+                ..Primitive::default()
             })
             .collect();
         self.data.meshes.push(Mesh {
@@ -94,6 +94,7 @@ impl SceneBuilder {
             parent,
             transform,
             mesh,
+            ..Node::default()
         });
         self.data.nodes.len() as u32 - 1
     }
@@ -205,7 +206,7 @@ impl SceneBuilder {
             name: String::from("camera"),
             parent: None,
             transform,
-            mesh: None,
+            ..Node::default()
         });
         let node = self.data.nodes.len() as u32 - 1;
         self.data.cameras.push(Camera {
@@ -219,6 +220,7 @@ impl SceneBuilder {
             self.data.animations.push(Animation {
                 name: format!("{period} frames"),
                 channels,
+                morphs: Vec::new(),
             });
         }
         Scene::new(self.data)

@@ -1,4 +1,4 @@
-//! The camera of a frame, from a node or, where a scene brings none, from its bounds.
+//! The camera of a frame, from a node or looking at a box.
 
 use crate::render::View;
 
@@ -6,7 +6,7 @@ use super::transform::{Affine, unit_or};
 use crate::vector::cross;
 
 /// Vertical field of view of the default camera: 50 degrees, a natural view on a screen.
-const DEFAULT_YFOV: f32 = 0.872_664_6;
+pub(super) const DEFAULT_YFOV: f32 = 0.872_664_6;
 
 /// The camera of a node: looks along -Z, +Y up; the node's scale does not matter.
 pub(super) fn view_of_node(world: &Affine, yfov: f32) -> View {
@@ -14,15 +14,14 @@ pub(super) fn view_of_node(world: &Affine, yfov: f32) -> View {
     looking(world.columns[3], forward, world.columns[1], yfov)
 }
 
-/// A camera that sees the whole box from the front, a little from above.
-pub(super) fn view_of_bounds(min: [f64; 3], max: [f64; 3]) -> View {
+/// A camera that looks at the middle of a box, from the direction `towards`, `distance` half diagonals away; at 2.37 of them the
+/// sphere around the box touches the image's upper and lower edge.
+pub(super) fn view_of_box(min: [f64; 3], max: [f64; 3], towards: [f64; 3], distance: f64) -> View {
     let centre = [0, 1, 2].map(|i| 0.5 * (min[i] + max[i]));
     let half = [0, 1, 2].map(|i| 0.5 * (max[i] - min[i]));
     let radius = half.iter().map(|h| h * h).sum::<f64>().sqrt().max(1e-3);
-    let forward = unit_or([-0.35, -0.3, -1.0], [0.0, 0.0, -1.0]);
-    // The sphere around the box touches the image's upper and lower edge.
-    let distance = radius / libm::sin(0.5 * f64::from(DEFAULT_YFOV));
-    let eye = [0, 1, 2].map(|i| centre[i] - forward[i] * distance);
+    let forward = unit_or(towards.map(|x| -x), [0.0, 0.0, -1.0]);
+    let eye = [0, 1, 2].map(|i| centre[i] - forward[i] * distance * radius);
     looking(eye, forward, [0.0, 1.0, 0.0], DEFAULT_YFOV)
 }
 

@@ -1,8 +1,9 @@
 //! The checked constructor: what a scene must be before anything is built on it.
 
+mod deform;
+
 use lightbvh::light::{MAX_COORDINATE, MAX_RADIANCE};
 
-use super::camera::view_of_bounds;
 use super::error::SceneError;
 use super::flush::flush_tiny;
 use super::frame::emits;
@@ -39,7 +40,11 @@ impl Scene {
             }
         }
         check.nodes(&data)?;
+        check.skins(&data)?;
         check.animations(&data)?;
+        for (index, light) in data.punctual.iter().enumerate() {
+            check.punctual(index, light, data.nodes.len())?;
+        }
         for (index, camera) in data.cameras.iter().enumerate() {
             check.index(
                 || format!("node of camera {index}"),
@@ -54,9 +59,7 @@ impl Scene {
         check.color(|| String::from("background"), data.background)?;
         let counts = check.count(&data)?;
         motion_bounds::check(&data)?;
-        let (min, max) = motion_bounds::bounds(&data);
-        let default_camera = view_of_bounds(min, max);
-        Ok(Self::from_checked(data, counts, default_camera))
+        Ok(Self::from_checked(data, counts))
     }
 }
 
@@ -186,7 +189,7 @@ impl Check<'_> {
                 self.color(|| format!("radiance of triangle {t} of {name}"), rgb)?;
             }
         }
-        Ok(())
+        self.bends(name, primitive)
     }
 
     fn nodes(&self, data: &SceneData) -> Result<(), SceneError> {
@@ -224,32 +227,19 @@ impl Check<'_> {
                     data,
                 )?;
             }
+            for (c, channel) in animation.morphs.iter().enumerate() {
+                let name = format!("channel {c} of weights of animation {a} `{}`", animation.name);
+                self.morph(&name, channel, data)?;
+            }
         }
         Ok(())
     }
 
     fn channel(&self, name: &str, channel: &Channel, data: &SceneData) -> Result<(), SceneError> {
         self.index(|| format!("node of {name}"), channel.node, data.nodes.len())?;
-        let keys = channel.times.len();
-        let per_key = if channel.interpolation == Interpolation::CubicSpline {
-            3
-        } else {
-            1
-        };
-        if keys == 0 {
-            return Err(self.out_of_range(format!("number of keys of {name}"), 0.0, "at least 1"));
-        }
-        self.length(
-            || format!("value list of {name}"),
-            channel.values.len(),
-            per_key * keys,
-        )?;
-        self.finite(|| format!("a time of {name}"), &channel.times)?;
+        let rows = self.keys(name, &channel.times, channel.interpolation)?;
+        self.length(|| format!("value list of {name}"), channel.values.len(), rows)?;
         self.finite(|| format!("a value of {name}"), channel.values.as_flattened())?;
-        if channel.times[0] < 0.0 || channel.times.windows(2).any(|pair| pair[1] < pair[0]) {
-            let element = format!("first time of {name}");
-            return Err(self.out_of_range(element, channel.times[0], "times from 0 up, in ascending order"));
-        }
         if !matches!(data.nodes[channel.node as usize].transform, Transform::Trs { .. }) {
             let element = format!("target of {name}: node");
             return Err(self.out_of_range(
@@ -259,6 +249,22 @@ impl Check<'_> {
             ));
         }
         Ok(())
+    }
+
+    /// How many rows of values the keys have.
+    fn keys(&self, name: &str, times: &[f32], interpolation: Interpolation) -> Result<usize, SceneError> {
+        if times.is_empty() {
+            return Err(self.out_of_range(format!("number of keys of {name}"), 0.0, "at least 1"));
+        }
+        self.finite(|| format!("a time of {name}"), times)?;
+        if times[0] < 0.0 || times.windows(2).any(|pair| pair[1] < pair[0]) {
+            let element = format!("first time of {name}");
+            return Err(self.out_of_range(element, times[0], "times from 0 up, in ascending order"));
+        }
+        Ok(match interpolation {
+            Interpolation::CubicSpline => 3 * times.len(),
+            Interpolation::Step | Interpolation::Linear => times.len(),
+        })
     }
 
     /// Sizes of every frame, and whether 32-bit indices and memory can hold them.

@@ -21,6 +21,9 @@ pub(super) fn flush_tiny(data: &mut SceneData) {
     }
     for primitive in data.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
         flush_all(primitive.positions.as_flattened_mut(), MIN_COORDINATE);
+        for target in &mut primitive.targets {
+            flush_all(target.as_flattened_mut(), MIN_COORDINATE);
+        }
         if let Some(radiance) = &mut primitive.radiance {
             flush_all(radiance.as_flattened_mut(), MIN_RADIANCE);
         }

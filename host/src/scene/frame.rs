@@ -6,11 +6,12 @@ use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 
 use crate::render::View;
 
-use super::animate::world_transforms;
+use super::animate::Pose;
 use super::camera::view_of_node;
+use super::deform::Placed;
 use super::flush::flush;
+use super::framing;
 use super::model::{Scene, SceneData};
-use super::transform::Affine;
 
 /// The paper animates its scenes at a simulated 25 frames per second (section 4.1).
 pub const FRAMES_PER_SECOND: u32 = 25;
@@ -47,49 +48,60 @@ impl Scene {
     /// The scene at `frame` / [`FRAMES_PER_SECOND`] seconds.
     pub fn frame(&self, frame: u32) -> Frame {
         let data = self.data();
-        let world = world_transforms(data, f64::from(frame) / f64::from(FRAMES_PER_SECOND));
+        let pose = Pose::at(data, f64::from(frame) / f64::from(FRAMES_PER_SECOND));
         let mut out = Frame {
             triangles: Vec::with_capacity(self.counts.triangles),
             emissive: Vec::with_capacity(self.counts.emissive),
             mesh_lights: Vec::with_capacity(self.counts.mesh_lights),
             materials: data.materials.iter().map(super::Material::surface).collect(),
-            camera: match data.cameras.first() {
-                Some(camera) => view_of_node(&world[camera.node as usize], camera.yfov),
-                None => self.default_camera,
-            },
+            camera: NOWHERE,
             background: data.background,
         };
-        place_meshes(data, &world, &mut out);
+        place_meshes(data, &pose, &mut out);
+        out.camera = match data.cameras.first() {
+            Some(camera) => view_of_node(&pose.world[camera.node as usize], camera.yfov),
+            // The same in every frame.
+            None => match self.default_camera.get() {
+                Some(camera) => *camera,
+                None if frame > 0 => self.frame(0).camera,
+                None => *self.default_camera.get_or_init(|| framing::view(&out)),
+            },
+        };
         out
     }
 }
 
+/// Until the frame's triangles are there to look at.
+const NOWHERE: View = View {
+    eye: [0.0; 3],
+    right: [1.0, 0.0, 0.0],
+    up: [0.0, 1.0, 0.0],
+    forward: [0.0, 0.0, -1.0],
+    yfov: 1.0,
+};
+
 /// Appends the triangles of every node, in the order node, primitive, triangle.
-pub(super) fn place_meshes(data: &SceneData, world: &[Affine], out: &mut Frame) {
-    for (node, to_world) in data.nodes.iter().zip(world) {
+pub(super) fn place_meshes(data: &SceneData, pose: &Pose, out: &mut Frame) {
+    for (index, node) in data.nodes.iter().enumerate() {
         let Some(mesh) = node.mesh.map(|mesh| &data.meshes[mesh as usize]) else {
             continue;
         };
-        let mirrored = to_world.mirrors();
         for primitive in &mesh.primitives {
             let material = &data.materials[primitive.material as usize];
             let flags = if material.double_sided { TWO_SIDED } else { 0 };
             let mesh_light = out.mesh_lights.len() as u32;
             let first = out.emissive.len() as u32;
-            let points: Vec<[f32; 3]> = primitive
-                .positions
-                .iter()
-                .map(|&p| world_point(to_world, p))
-                .collect();
+            let Placed { points, mirrored } = pose.placed(data, index, primitive);
+            let points: Vec<[f32; 3]> = points.into_iter().map(rounded).collect();
 
-            for (index, &[a, b, c]) in primitive.triangles.iter().enumerate() {
-                if !primitive.is_shown(index, material) {
+            for (triangle, &[a, b, c]) in primitive.triangles.iter().enumerate() {
+                if !primitive.is_shown(triangle, material) {
                     continue;
                 }
                 // A mirrored instance would show its back; swapping two vertices keeps the front in front.
                 let [b, c] = if mirrored { [c, b] } else { [b, c] };
                 let p = [a, b, c].map(|vertex| points[vertex as usize]);
-                let radiance = primitive.triangle_radiance(index, material.radiance);
+                let radiance = primitive.triangle_radiance(triangle, material.radiance);
                 let light = if emits(radiance) {
                     out.emissive.push(EmissiveTriangle {
                         p,
@@ -127,8 +139,6 @@ pub(super) fn emits(radiance: [f32; 3]) -> bool {
 }
 
 /// Rounds once, from `f64`.
-fn world_point(to_world: &Affine, p: [f32; 3]) -> [f32; 3] {
-    to_world
-        .point(p.map(f64::from))
-        .map(|x| flush(x as f32, MIN_COORDINATE))
+pub(super) fn rounded(p: [f64; 3]) -> [f32; 3] {
+    p.map(|x| flush(x as f32, MIN_COORDINATE))
 }

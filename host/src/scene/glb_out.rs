@@ -1,5 +1,6 @@
 //! Any scene as `.glb`: the loader is exercised by the built-in scenes, and other programs can show them.
 
+mod bend;
 mod material;
 
 use std::collections::HashMap;
@@ -8,6 +9,7 @@ use std::path::Path;
 use gltf::binary::{Glb, Header};
 use serde_json::{Value, json};
 
+use self::bend::light;
 use self::material::{is_product, material};
 use super::error::SceneError;
 use super::gltf_in::{BACKGROUND_EXTRA, RADIANCE_ATTRIBUTE};
@@ -18,6 +20,7 @@ use crate::render::write_whole;
 /// glTF's numbers for component types.
 const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
+const UNSIGNED_SHORT: u32 = 5123;
 
 impl Scene {
     /// Writes the scene as `.glb`. The file appears under its name only when it is whole.
@@ -93,16 +96,14 @@ impl Writer {
             .collect();
         let mut animations = Vec::new();
         for animation in &data.animations {
-            let samplers: Vec<Value> = animation
-                .channels
-                .iter()
-                .map(|channel| self.sampler(channel))
-                .collect();
-            let channels: Vec<Value> = animation
-                .channels
-                .iter()
-                .enumerate()
-                .map(|(s, c)| target(s, c))
+            let moving = animation.channels.iter().map(|channel| self.sampler(channel));
+            let mut samplers: Vec<Value> = moving.collect();
+            samplers.extend(animation.morphs.iter().map(|channel| self.morph(channel)));
+            let moving = animation.channels.iter().map(|c| (c.node, path(c.property)));
+            let bending = animation.morphs.iter().map(|c| (c.node, "weights"));
+            let channels: Vec<Value> = (0..)
+                .zip(moving.chain(bending))
+                .map(|(sampler, (node, path))| target(sampler, node, path))
                 .collect();
             animations.push(json!({ "name": animation.name, "samplers": samplers, "channels": channels }));
         }
@@ -112,6 +113,7 @@ impl Writer {
         let roots: Vec<usize> = (0..data.nodes.len())
             .filter(|&node| data.nodes[node].parent.is_none())
             .collect();
+        let skins: Vec<Value> = data.skins.iter().map(|skin| self.skin(skin)).collect();
         let mut root = json!({
             "asset": { "version": "2.0", "generator": "lightbvh" },
             "extensionsUsed": ["KHR_materials_emissive_strength", "KHR_materials_transmission"],
@@ -121,11 +123,20 @@ impl Writer {
             "meshes": meshes,
             "materials": data.materials.iter().map(material).collect::<Vec<_>>(),
             "animations": animations,
+            "skins": skins,
             "cameras": cameras.collect::<Vec<_>>(),
             "accessors": self.accessors,
             "bufferViews": self.views,
             "buffers": [{ "byteLength": self.binary.len() }],
         });
+        if !data.punctual.is_empty() {
+            let lights: Vec<Value> = data.punctual.iter().map(light).collect();
+            root["extensions"] = json!({ "KHR_lights_punctual": { "lights": lights } });
+            root["extensionsUsed"]
+                .as_array_mut()
+                .into_iter()
+                .for_each(|used| used.push("KHR_lights_punctual".into()));
+        }
         // glTF wants lists that are there to have entries.
         if let Value::Object(members) = &mut root {
             members.retain(|_, value| value.as_array().is_none_or(|list| !list.is_empty()));
@@ -140,11 +151,14 @@ impl Writer {
             None => (!is_product(own)).then(|| vec![own; primitive.triangles.len()]),
         };
         // Radiance per triangle needs three vertices of its own for each.
-        let (positions, triangles) = match &radiance {
+        let order = radiance
+            .is_some()
+            .then(|| primitive.triangles.as_flattened().to_vec());
+        let (positions, triangles) = match &order {
             None => (primitive.positions.clone(), primitive.triangles.clone()),
-            Some(_) => {
-                let corners = primitive.triangles.as_flattened().iter();
-                let positions = corners
+            Some(order) => {
+                let positions = order
+                    .iter()
                     .map(|&vertex| primitive.positions[vertex as usize])
                     .collect();
                 let triangles = (0..primitive.triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]);
@@ -177,34 +191,34 @@ impl Writer {
             .map(|vertex| vertex.to_le_bytes())
             .collect();
         let indices = self.accessor(words.as_flattened(), words.len(), UNSIGNED_INT, "SCALAR");
-        json!({ "attributes": attributes, "indices": indices, "material": primitive.material })
+        let mut out = json!({ "attributes": attributes, "indices": indices, "material": primitive.material });
+        self.bends(&mut out, primitive, order.as_deref());
+        out
+    }
+
+    /// The accessor of a list of times.
+    fn input(&mut self, times: &[f32]) -> usize {
+        let bits: Vec<u32> = times.iter().map(|time| time.to_bits()).collect();
+        if let Some(&input) = self.times.get(&bits) {
+            return input;
+        }
+        let list: Vec<[f32; 1]> = times.iter().map(|&time| [time]).collect();
+        let input = self.floats(&list, "SCALAR");
+        self.accessors[input]["min"] = json!([times.first()]);
+        self.accessors[input]["max"] = json!([times.last()]);
+        self.times.insert(bits, input);
+        input
     }
 
     fn sampler(&mut self, channel: &Channel) -> Value {
-        let bits: Vec<u32> = channel.times.iter().map(|time| time.to_bits()).collect();
-        let input = match self.times.get(&bits) {
-            Some(&input) => input,
-            None => {
-                let times: Vec<[f32; 1]> = channel.times.iter().map(|&time| [time]).collect();
-                let input = self.floats(&times, "SCALAR");
-                self.accessors[input]["min"] = json!([channel.times.first()]);
-                self.accessors[input]["max"] = json!([channel.times.last()]);
-                self.times.insert(bits, input);
-                input
-            }
-        };
+        let input = self.input(&channel.times);
         let output = if channel.property == Property::Rotation {
             self.floats(&channel.values, "VEC4")
         } else {
             let values: Vec<[f32; 3]> = channel.values.iter().map(|&[x, y, z, _]| [x, y, z]).collect();
             self.floats(&values, "VEC3")
         };
-        let interpolation = match channel.interpolation {
-            Interpolation::Step => "STEP",
-            Interpolation::Linear => "LINEAR",
-            Interpolation::CubicSpline => "CUBICSPLINE",
-        };
-        json!({ "input": input, "output": output, "interpolation": interpolation })
+        json!({ "input": input, "output": output, "interpolation": interpolation(channel.interpolation) })
     }
 
     fn floats<const N: usize>(&mut self, values: &[[f32; N]], shape: &str) -> usize {
@@ -253,10 +267,31 @@ fn nodes(scene: &Scene) -> Vec<Value> {
         if let Some(mesh) = node.mesh {
             value["mesh"] = json!(mesh);
         }
+        if let Some(skin) = node.skin {
+            value["skin"] = json!(skin);
+        }
+        if !node.weights.is_empty() {
+            value["weights"] = json!(node.weights);
+        }
         if !children.is_empty() {
             value["children"] = json!(children);
         }
         out.push(value);
+    }
+    for (index, light) in data.punctual.iter().enumerate() {
+        // A node has one light; a further one of the same node stands on a node of its own.
+        let on = light.node as usize;
+        let named = json!({ "KHR_lights_punctual": { "light": index } });
+        if out[on].get("extensions").is_none() {
+            out[on]["extensions"] = named;
+        } else {
+            let own = out.len();
+            out.push(json!({ "extensions": named }));
+            match out[on]["children"].as_array_mut() {
+                Some(children) => children.push(own.into()),
+                None => out[on]["children"] = json!([own]),
+            }
+        }
     }
     for (index, camera) in data.cameras.iter().enumerate() {
         out[camera.node as usize]["camera"] = json!(index);
@@ -264,11 +299,22 @@ fn nodes(scene: &Scene) -> Vec<Value> {
     out
 }
 
-fn target(sampler: usize, channel: &Channel) -> Value {
-    let path = match channel.property {
+fn target(sampler: usize, node: u32, path: &str) -> Value {
+    json!({ "sampler": sampler, "target": { "node": node, "path": path } })
+}
+
+fn path(property: Property) -> &'static str {
+    match property {
         Property::Translation => "translation",
         Property::Rotation => "rotation",
         Property::Scale => "scale",
-    };
-    json!({ "sampler": sampler, "target": { "node": channel.node, "path": path } })
+    }
+}
+
+fn interpolation(interpolation: Interpolation) -> &'static str {
+    match interpolation {
+        Interpolation::Step => "STEP",
+        Interpolation::Linear => "LINEAR",
+        Interpolation::CubicSpline => "CUBICSPLINE",
+    }
 }

@@ -5,19 +5,35 @@ use std::collections::BTreeMap;
 use lightbvh::light::TWO_SIDED;
 use lightbvh::{BuildParams, Edit, EditError, EmissiveTriangle, InstanceId, LightNode, MeshId};
 
-use super::animate::world_transforms;
-use super::frame::{FRAMES_PER_SECOND, emits};
-use super::model::Scene;
+use super::animate::Pose;
+use super::deform::{deforms, is_skinned};
+use super::frame::{FRAMES_PER_SECOND, emits, rounded};
+use super::model::{Primitive, Scene, SceneData};
 use super::transform::Affine;
 
 /// The mesh lights of a scene as instances of meshes, followed from frame to frame. Instances come in the order of
 /// [`Frame::mesh_lights`](super::Frame::mesh_lights), and their lights are numbered as [`Frame::emissive`](super::Frame::emissive).
+/// What bends has a mesh of its own, whose triangles are told anew in each frame where they have changed.
 #[derive(Clone, Debug)]
 pub struct Instances {
-    /// The node that each instance follows.
-    nodes: Vec<u32>,
-    ids: Vec<InstanceId>,
-    last: Vec<Affine>,
+    followed: Vec<Followed>,
+}
+
+/// An instance, and what was last told of it.
+#[derive(Clone, Debug)]
+struct Followed {
+    node: usize,
+    id: InstanceId,
+    place: Affine,
+    bent: Option<Bent>,
+}
+
+/// A primitive that bends.
+#[derive(Clone, Debug)]
+struct Bent {
+    primitive: usize,
+    mesh: MeshId,
+    triangles: Vec<EmissiveTriangle>,
 }
 
 impl Instances {
@@ -31,59 +47,108 @@ impl Instances {
         params: BuildParams,
     ) -> Result<(lightbvh::Bvh<N, I, W>, Self), EditError> {
         let data = scene.data();
-        let world = world_at(scene, frame);
+        let pose = pose_at(scene, frame);
         let mut lights = lightbvh::Bvh::new(params);
         let mut meshes: BTreeMap<(u32, usize), MeshId> = BTreeMap::new();
         let mut add = Vec::new();
-        let mut nodes: Vec<u32> = Vec::new();
-        for (index, (node, place)) in (0..).zip(data.nodes.iter().zip(&world)) {
+        let mut followed: Vec<(usize, Affine, Option<Bent>)> = Vec::new();
+        for (index, node) in data.nodes.iter().enumerate() {
             let Some(mesh) = node.mesh else { continue };
-            for (primitive, triangles) in emissive_of(scene, mesh).into_iter().enumerate() {
-                if triangles.is_empty() {
-                    continue;
-                }
-                let id = match meshes.get(&(mesh, primitive)) {
-                    Some(id) => *id,
+            for (number, primitive) in data.meshes[mesh as usize].primitives.iter().enumerate() {
+                let bends = deforms(data, index, primitive);
+                let shared = meshes.get(&(mesh, number)).filter(|_| !bends).copied();
+                let (id, triangles) = match shared {
+                    Some(id) => (id, Vec::new()),
                     None => {
-                        let id = lights.apply(vec![Edit::AddMesh { triangles }])?.meshes[0];
-                        meshes.insert((mesh, primitive), id);
-                        id
+                        let triangles = emissive_of(data, &pose, index, primitive);
+                        if triangles.is_empty() {
+                            continue;
+                        }
+                        let kept = if bends { triangles.clone() } else { Vec::new() };
+                        (lights.apply(vec![Edit::AddMesh { triangles }])?.meshes[0], kept)
                     }
                 };
-                nodes.push(index);
+                let bent = bends.then_some(Bent {
+                    primitive: number,
+                    mesh: id,
+                    triangles,
+                });
+                if bent.is_none() {
+                    meshes.insert((mesh, number), id);
+                }
+                let place = place(data, &pose, index, primitive);
+                followed.push((index, place, bent));
                 add.push(Edit::AddInstance {
                     mesh: id,
-                    transform: transform(place),
+                    transform: transform(&place),
                     radiance: 1.0,
                 });
             }
         }
         let ids = lights.apply(add)?.instances;
         lights.refit();
-        let last = nodes.iter().map(|&node| world[node as usize]).collect();
-        Ok((lights, Self { nodes, ids, last }))
+        let followed = followed.into_iter().zip(ids);
+        let followed = followed.map(|((node, place, bent), id)| Followed {
+            node,
+            id,
+            place,
+            bent,
+        });
+        Ok((
+            lights,
+            Self {
+                followed: followed.collect(),
+            },
+        ))
     }
 
-    /// The edits from the last frame asked for to this one: the instances that moved.
+    /// The edits from the last frame asked for to this one: the instances that moved, and the meshes that bent.
     pub fn edits(&mut self, scene: &Scene, frame: u32) -> Vec<Edit> {
-        let world = world_at(scene, frame);
+        let data = scene.data();
+        let pose = pose_at(scene, frame);
         let mut edits = Vec::new();
-        for ((&node, &instance), last) in self.nodes.iter().zip(&self.ids).zip(&mut self.last) {
-            let now = world[node as usize];
-            if now != *last {
-                *last = now;
+        for followed in &mut self.followed {
+            let mut now = pose.world[followed.node];
+            let mesh = data.nodes[followed.node].mesh;
+            if let (Some(bent), Some(mesh)) = (&mut followed.bent, mesh) {
+                let primitive = &data.meshes[mesh as usize].primitives[bent.primitive];
+                now = place(data, &pose, followed.node, primitive);
+                let triangles = emissive_of(data, &pose, followed.node, primitive);
+                if triangles != bent.triangles {
+                    bent.triangles.clone_from(&triangles);
+                    let mesh = bent.mesh;
+                    edits.push(Edit::SetTriangles { mesh, triangles });
+                }
+            }
+            if now != followed.place {
+                followed.place = now;
                 edits.push(Edit::SetTransform {
-                    instance,
+                    instance: followed.id,
                     transform: transform(&now),
                 });
             }
         }
         edits
     }
+
+    /// The only instance of a mesh that bends.
+    pub fn of_bent(&self, mesh: MeshId) -> Option<InstanceId> {
+        let bends = |followed: &&Followed| followed.bent.as_ref().is_some_and(|bent| bent.mesh == mesh);
+        self.followed.iter().find(bends).map(|followed| followed.id)
+    }
 }
 
-fn world_at(scene: &Scene, frame: u32) -> Vec<Affine> {
-    world_transforms(scene.data(), f64::from(frame) / f64::from(FRAMES_PER_SECOND))
+fn pose_at(scene: &Scene, frame: u32) -> Pose {
+    Pose::at(scene.data(), f64::from(frame) / f64::from(FRAMES_PER_SECOND))
+}
+
+/// Where the mesh's space is; joints take vertices to the world by themselves.
+fn place(data: &SceneData, pose: &Pose, node: usize, primitive: &Primitive) -> Affine {
+    if is_skinned(data, node, primitive) {
+        Affine::IDENTITY
+    } else {
+        pose.world[node]
+    }
 }
 
 /// Rounded to what a light BVH is told.
@@ -95,25 +160,33 @@ fn transform(place: &Affine) -> lightbvh::Transform {
     }
 }
 
-/// The emissive triangles of each primitive of a mesh, in the mesh's space.
-fn emissive_of(scene: &Scene, mesh: u32) -> Vec<Vec<EmissiveTriangle>> {
-    let data = scene.data();
-    let primitives = &data.meshes[mesh as usize].primitives;
-    let of = |primitive: &super::Primitive| {
-        let material = &data.materials[primitive.material as usize];
-        let flags = if material.double_sided { TWO_SIDED } else { 0 };
-        let triangles = primitive.triangles.iter().enumerate();
-        triangles
-            .map(|(index, corners)| EmissiveTriangle {
-                p: corners.map(|vertex| primitive.positions[vertex as usize]),
-                radiance: primitive.triangle_radiance(index, material.radiance),
-                mesh: 0,
-                flags,
-            })
-            .filter(|triangle| emits(triangle.radiance))
-            .collect()
+/// The emissive triangles of a primitive, in the space that [`place`] places.
+fn emissive_of(data: &SceneData, pose: &Pose, node: usize, primitive: &Primitive) -> Vec<EmissiveTriangle> {
+    let material = &data.materials[primitive.material as usize];
+    let lit = |index: usize| emits(primitive.triangle_radiance(index, material.radiance));
+    if !(0..primitive.triangles.len()).any(lit) {
+        return Vec::new();
+    }
+    let (points, mirrored) = if is_skinned(data, node, primitive) {
+        let placed = pose.placed(data, node, primitive);
+        (placed.points, placed.mirrored)
+    } else {
+        // A light BVH keeps the front of a mirrored instance in front.
+        (pose.morphed(data, node, primitive), false)
     };
-    primitives.iter().map(of).collect()
+    let flags = if material.double_sided { TWO_SIDED } else { 0 };
+    let triangles = primitive.triangles.iter().enumerate();
+    let lit = triangles.filter(|&(index, _)| lit(index));
+    lit.map(|(index, &[a, b, c])| {
+        let corners = if mirrored { [a, c, b] } else { [a, b, c] };
+        EmissiveTriangle {
+            p: corners.map(|vertex| rounded(points[vertex as usize])),
+            radiance: primitive.triangle_radiance(index, material.radiance),
+            mesh: 0,
+            flags,
+        }
+    })
+    .collect()
 }
 
 #[cfg(test)]
@@ -155,9 +228,9 @@ mod tests {
         assert!(instances.edits(&scene, 7).is_empty());
         let moved = instances.edits(&scene, 8).len();
         assert!(
-            moved > 0 && moved < instances.ids.len(),
+            moved > 0 && moved < instances.followed.len(),
             "{moved} of {}",
-            instances.ids.len()
+            instances.followed.len()
         );
     }
 }

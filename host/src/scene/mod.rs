@@ -19,15 +19,18 @@ mod animate;
 mod builder;
 mod camera;
 mod check;
+mod deform;
 mod error;
 mod flush;
 mod frame;
+mod framing;
 mod glb_out;
 mod gltf_in;
 mod instances;
 mod load;
 mod model;
 mod motion_bounds;
+mod punctual;
 mod random;
 mod shapes;
 mod track;
@@ -38,6 +41,7 @@ pub mod square;
 pub mod street;
 
 pub use check::MAX_TRIANGLES;
+pub use deform::{Influence, MorphChannel, Skin};
 pub use error::SceneError;
 pub use frame::{FRAMES_PER_SECOND, Frame, MeshRange};
 pub use instances::Instances;
@@ -45,4 +49,5 @@ pub use load::BUILT_IN;
 pub use model::{
     Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
 };
+pub use punctual::{PunctualKind, PunctualLight};
 pub use transform::Transform;

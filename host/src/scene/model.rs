@@ -1,19 +1,23 @@
 //! The scene model: a checked [`Scene`] around plain [`SceneData`].
 
+use std::sync::OnceLock;
+
 use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
 
 use crate::render::View;
 
+use super::deform::{Influence, MorphChannel, Skin};
 use super::error::SceneError;
 use super::frame::emits;
+use super::punctual::PunctualLight;
 use super::transform::Transform;
 
 /// A scene that passed every check of [`Scene::new`]: finite, in range, references whole.
 #[derive(Clone, Debug)]
 pub struct Scene {
     data: SceneData,
-    /// Camera for scenes that bring none, made from the bounds at frame 0.
-    pub(super) default_camera: View,
+    /// Camera for scenes that bring none, made from frame 0 when it is asked for.
+    pub(super) default_camera: OnceLock<View>,
     pub(super) counts: Counts,
 }
 
@@ -32,6 +36,10 @@ pub struct SceneData {
     pub animations: Vec<Animation>,
     /// The first one is the one that frames are seen from.
     pub cameras: Vec<Camera>,
+    /// Named by nodes.
+    pub skins: Vec<Skin>,
+    /// Lights without area, which nothing samples yet.
+    pub punctual: Vec<PunctualLight>,
     /// Radiance of rays that leave the scene, W/(m² sr), linear RGB.
     pub background: [f32; 3],
     /// What the loader left out, one sentence each.
@@ -39,7 +47,7 @@ pub struct SceneData {
 }
 
 /// One place in the hierarchy.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Node {
     /// For messages; need not be unique.
     pub name: String,
@@ -49,6 +57,10 @@ pub struct Node {
     pub transform: Transform,
     /// Index into [`SceneData::meshes`].
     pub mesh: Option<u32>,
+    /// Index into [`SceneData::skins`]: what moves those of the mesh's primitives that have influences.
+    pub skin: Option<u32>,
+    /// How far the mesh is moved towards each of its targets while nothing animates them; missing ones are 0.
+    pub weights: Vec<f32>,
 }
 
 /// Primitives that move together.
@@ -61,7 +73,7 @@ pub struct Mesh {
 }
 
 /// Indexed triangles of one material.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Primitive {
     /// Metres, in the node's space; each coordinate within ±2^40.
     pub positions: Vec<[f32; 3]>,
@@ -71,6 +83,10 @@ pub struct Primitive {
     pub material: u32,
     /// Radiance of each triangle where an emissive texture makes them differ; replaces the material's.
     pub radiance: Option<Vec<[f32; 3]>>,
+    /// Morph targets: how far each vertex is moved where the target's weight is 1; one without entries moves nothing.
+    pub targets: Vec<Vec<[f32; 3]>>,
+    /// Joints of each vertex, in sets of four.
+    pub influences: Vec<Vec<Influence>>,
 }
 
 /// How a surface reflects and emits.
@@ -136,21 +152,23 @@ impl Material {
 }
 
 /// Channels that share a clock.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Animation {
     /// For messages.
     pub name: String,
     /// What moves.
     pub channels: Vec<Channel>,
+    /// What bends.
+    pub morphs: Vec<MorphChannel>,
 }
 
 impl Animation {
     /// Time of the last key of any channel, in seconds; the animation starts again there.
     pub fn duration(&self) -> f32 {
-        self.channels
-            .iter()
-            .filter_map(|c| c.times.last().copied())
-            .fold(0.0, f32::max)
+        let moving = self.channels.iter().map(|channel| &channel.times);
+        let bending = self.morphs.iter().map(|channel| &channel.times);
+        let ends = moving.chain(bending).filter_map(|times| times.last().copied());
+        ends.fold(0.0, f32::max)
     }
 }
 
@@ -225,10 +243,10 @@ impl Primitive {
 
 impl Scene {
     /// Wraps data that [`Scene::new`] found sound.
-    pub(super) fn from_checked(data: SceneData, counts: Counts, default_camera: View) -> Self {
+    pub(super) fn from_checked(data: SceneData, counts: Counts) -> Self {
         Self {
             data,
-            default_camera,
+            default_camera: OnceLock::new(),
             counts,
         }
     }

@@ -1,10 +1,12 @@
 //! Bounds of a scene over all its frames: where instances can get and what they can emit.
 
+use std::collections::BTreeMap;
+
 use lightbvh::light::MAX_COORDINATE;
 
-use super::animate::world_transforms;
+use super::deform::{Skin, affine, deforms, is_skinned};
 use super::error::SceneError;
-use super::model::{Interpolation, Mesh, Property, SceneData};
+use super::model::{Interpolation, Mesh, Primitive, Property, SceneData};
 use super::transform::Transform;
 use crate::vector::{dot, normal};
 
@@ -25,12 +27,31 @@ pub(super) fn check(data: &SceneData) -> Result<(), SceneError> {
 
     // A point at distance r from a node's origin stays within `offset + stretch * r` of the world's origin.
     let mut bounds: Vec<(f64, f64)> = Vec::with_capacity(data.nodes.len());
-    let mut total_flux = 0.0;
     for (n, node) in data.nodes.iter().enumerate() {
         let (offset, stretch) = node.parent.map_or((0.0, 1.0), |parent| bounds[parent as usize]);
-        let (offset, stretch) = (offset + stretch * motion.offset[n], stretch * motion.stretch[n]);
-        bounds.push((offset, stretch));
-        let reach = offset + stretch * node.mesh.map_or(0.0, |mesh| extent[mesh as usize]);
+        bounds.push((offset + stretch * motion.offset[n], stretch * motion.stretch[n]));
+    }
+    // The same for all joints of a skin, from the mesh's origin.
+    let skins: Vec<(f64, f64)> = data.skins.iter().map(|skin| skin_bound(skin, &bounds)).collect();
+
+    let mut total_flux = 0.0;
+    for (n, node) in data.nodes.iter().enumerate() {
+        let mesh = node.mesh.map(|mesh| mesh as usize);
+        let primitives = mesh.map_or(&[][..], |mesh| &data.meshes[mesh].primitives);
+        let (offset, stretch) = bounds[n];
+        let mut reach = offset + stretch * mesh.map_or(0.0, |mesh| extent[mesh]);
+        total_flux += mesh.map_or(0.0, |mesh| stretch * stretch * flux[mesh]);
+        for primitive in primitives.iter().filter(|primitive| deforms(data, n, primitive)) {
+            let (offset, stretch) = match node.skin {
+                Some(skin) if is_skinned(data, n, primitive) => skins[skin as usize],
+                _ => bounds[n],
+            };
+            let distance = morphed_extent(primitive, |target| motion.weight(data, n, target));
+            let within = offset + stretch * distance;
+            reach = reach.max(within);
+            // No triangle in a ball is larger than twice the square of its radius.
+            total_flux += 2.0 * within * within * radiance_sum(data, primitive);
+        }
         // NaN, from infinity times zero, is refused too.
         if reach.is_nan() || reach > f64::from(MAX_COORDINATE) {
             let element = format!("farthest point that node {n} `{}` can reach", node.name);
@@ -40,9 +61,6 @@ pub(super) fn check(data: &SceneData) -> Result<(), SceneError> {
                 "within 2^40 metres of the origin in every frame",
             ));
         }
-        total_flux += node
-            .mesh
-            .map_or(0.0, |mesh| stretch * stretch * flux[mesh as usize]);
     }
     if total_flux.is_nan() || total_flux > MAX_FLUX {
         let element = String::from("bound of the total flux in watts");
@@ -53,35 +71,6 @@ pub(super) fn check(data: &SceneData) -> Result<(), SceneError> {
         ));
     }
     Ok(())
-}
-
-/// World-space bounds of the triangles at frame 0, of a scene that passed [`check`]; vertices of none do not count. The origin
-/// where there is no triangle.
-pub(super) fn bounds(data: &SceneData) -> ([f64; 3], [f64; 3]) {
-    let world = world_transforms(data, 0.0);
-    let (mut min, mut max) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for (node, to_world) in data.nodes.iter().zip(&world) {
-        let Some(mesh) = node.mesh else { continue };
-        let corners = data.meshes[mesh as usize]
-            .primitives
-            .iter()
-            .flat_map(|primitive| {
-                let vertices = primitive.triangles.as_flattened().iter();
-                vertices.map(|&vertex| primitive.positions[vertex as usize])
-            });
-        for position in corners {
-            let p = to_world.point(position.map(f64::from));
-            for axis in 0..3 {
-                min[axis] = min[axis].min(p[axis]);
-                max[axis] = max[axis].max(p[axis]);
-            }
-        }
-    }
-    if min[0] <= max[0] {
-        (min, max)
-    } else {
-        ([0.0; 3], [0.0; 3])
-    }
 }
 
 /// Largest distance of a vertex from the mesh's origin.
@@ -105,10 +94,47 @@ fn mesh_flux(data: &SceneData, mesh: &Mesh) -> f64 {
     flux
 }
 
+/// Largest distance of a vertex from the mesh's origin, each target as far as `weight` says.
+fn morphed_extent(primitive: &Primitive, weight: impl Fn(usize) -> f64) -> f64 {
+    let mut far: Vec<f64> = primitive.positions.iter().map(length).collect();
+    for (t, target) in primitive.targets.iter().enumerate() {
+        let weight = weight(t);
+        for (far, moved) in far.iter_mut().zip(target) {
+            *far += weight * length(moved);
+        }
+    }
+    far.into_iter().fold(0.0, f64::max)
+}
+
+/// How far the joints of a skin can take a point: see [`check`].
+fn skin_bound(skin: &Skin, nodes: &[(f64, f64)]) -> (f64, f64) {
+    let mut bound = (0.0_f64, 0.0_f64);
+    for (&joint, bind) in skin.joints.iter().zip(&skin.inverse_bind) {
+        let bind = affine(bind);
+        let moved = bind.columns[3].iter().map(|x| x * x).sum::<f64>().sqrt();
+        let (offset, stretch) = nodes[joint as usize];
+        // `max` leaves NaN out, which an infinite product of zero is; infinity is refused as well.
+        let far = [offset + stretch * moved, stretch * bind.stretch()]
+            .map(|x| if x.is_nan() { f64::INFINITY } else { x });
+        bound = (bound.0.max(far[0]), bound.1.max(far[1]));
+    }
+    bound
+}
+
+/// Sum of the radiance of all triangles, both sides, all channels, times pi.
+fn radiance_sum(data: &SceneData, primitive: &Primitive) -> f64 {
+    let of_material = data.materials[primitive.material as usize].radiance;
+    let triangles = 0..primitive.triangles.len();
+    let radiance = triangles.flat_map(|t| primitive.triangle_radiance(t, of_material));
+    2.0 * std::f64::consts::PI * radiance.map(f64::from).sum::<f64>()
+}
+
 /// Upper bounds per node of the translation's length and of the linear part's growth, over all keys.
 struct Motion {
     offset: Vec<f64>,
     stretch: Vec<f64>,
+    /// Of the weights' sizes, of nodes where they are animated.
+    weights: BTreeMap<usize, Vec<f64>>,
 }
 
 impl Motion {
@@ -134,14 +160,43 @@ impl Motion {
                 .iter()
                 .map(|&[x, y, z, _]| length(&[x, y, z]))
                 .fold(0.0, f64::max);
-            // Hermite weights: the values' lie in [0, 1], the tangents' within 4/27 of the span; see `animate`.
-            let factor = match channel.interpolation {
-                Interpolation::CubicSpline => 2.0 + 0.3 * longest_span(&channel.times),
-                Interpolation::Step | Interpolation::Linear => 1.0,
-            };
+            let factor = spline_factor(channel.interpolation, &channel.times);
             *bound = bound.max(factor * peak);
         }
-        Self { offset, stretch }
+        let mut weights: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+        for channel in data.animations.iter().flat_map(|animation| &animation.morphs) {
+            let peaks = weights.entry(channel.node as usize).or_default();
+            peaks.resize(peaks.len().max(channel.targets as usize), 0.0);
+            for row in channel.values.chunks_exact(channel.targets as usize) {
+                for (peak, &weight) in peaks.iter_mut().zip(row) {
+                    *peak = peak
+                        .max(spline_factor(channel.interpolation, &channel.times) * f64::from(weight).abs());
+                }
+            }
+        }
+        Self {
+            offset,
+            stretch,
+            weights,
+        }
+    }
+
+    /// Upper bound of the size of a target's weight.
+    fn weight(&self, data: &SceneData, node: usize, target: usize) -> f64 {
+        let still = data.nodes[node].weights.get(target);
+        let moving = self.weights.get(&node).and_then(|peaks| peaks.get(target));
+        still
+            .map_or(0.0, |&w| f64::from(w).abs())
+            .max(moving.copied().unwrap_or(0.0))
+    }
+}
+
+/// How much further than its keys' values an interpolation gets.
+fn spline_factor(interpolation: Interpolation, times: &[f32]) -> f64 {
+    match interpolation {
+        // Hermite weights: the values' lie in [0, 1], the tangents' within 4/27 of the span; see `animate`.
+        Interpolation::CubicSpline => 2.0 + 0.3 * longest_span(times),
+        Interpolation::Step | Interpolation::Linear => 1.0,
     }
 }
 

@@ -18,6 +18,12 @@ pub enum Transform {
     Matrix([[f32; 3]; 4]),
 }
 
+impl Default for Transform {
+    fn default() -> Self {
+        Self::IDENTITY
+    }
+}
+
 impl Transform {
     /// Leaves everything where it is.
     pub const IDENTITY: Self = Self::Trs {

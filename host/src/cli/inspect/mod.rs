@@ -94,7 +94,7 @@ fn declared(args: &Args, motion: &Motion, surfaces: &Surfaces) -> Declared {
     let changes = Changes {
         transforms: has(Change::Transforms) || motion.moving > 0,
         radiance: has(Change::Radiance),
-        triangles: has(Change::Triangles),
+        triangles: has(Change::Triangles) || motion.bending > 0,
         instances: has(Change::Instances),
         meshes: has(Change::Meshes),
     };

@@ -10,7 +10,7 @@ use crate::scene::{FRAMES_PER_SECOND, Instances, Scene};
 /// Frames looked at, at most.
 const MOST_FRAMES: u32 = 1000;
 
-/// Which instances move. Scenes of the host neither deform nor vary what they emit: morph targets and skins are not read.
+/// Which instances move, and whose meshes bend. Scenes of the host do not vary what they emit.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Motion {
     /// Frames looked at, the first not counted.
@@ -18,6 +18,8 @@ pub(super) struct Motion {
     pub instances: usize,
     /// Instances that move at all.
     pub moving: usize,
+    /// Instances whose mesh bends.
+    pub bending: usize,
     pub tracks: Vec<Track>,
 }
 
@@ -47,10 +49,18 @@ impl Motion {
         let (_, mut instances) = Instances::new::<Node, (), WIDTH>(scene, 0, BuildParams::FAST)
             .map_err(|error| HostError::in_frame(scene.name(), 0, error))?;
         let mut moves = vec![0_u32; names.len()];
+        let mut bends = vec![false; names.len()];
         for frame in 1..=frames {
             for edit in instances.edits(scene, frame) {
-                if let Edit::SetTransform { instance, .. } = edit {
-                    moves[instance.index() as usize] += 1;
+                match edit {
+                    Edit::SetTransform { instance, .. } => moves[instance.index() as usize] += 1,
+                    Edit::SetTriangles { mesh, .. } => {
+                        let instance = instances.of_bent(mesh);
+                        if let Some(instance) = instance {
+                            bends[instance.index() as usize] = true;
+                        }
+                    }
+                    _ => {}
                 }
             }
         }
@@ -67,6 +77,7 @@ impl Motion {
             frames,
             instances: names.len(),
             moving: tracks.len(),
+            bending: bends.into_iter().filter(|bends| *bends).count(),
             tracks,
         })
     }
@@ -77,10 +88,16 @@ impl Motion {
             frames,
             instances,
             moving,
+            bending,
             tracks,
         } = self;
         if *frames == 0 {
             return "no: nothing is animated".to_owned();
+        }
+        if *bending > 0 {
+            return format!(
+                "yes: meshes of {bending} of {instances} instances bend in {frames} frames, {moving} move"
+            );
         }
         let moves = tracks.iter().map(|track| track.moves);
         let (Some(least), Some(most)) = (moves.clone().min(), moves.max()) else {

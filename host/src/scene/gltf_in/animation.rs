@@ -3,6 +3,7 @@
 use gltf::json;
 use gltf::json::validation::Checked;
 
+use super::super::deform::MorphChannel;
 use super::super::error::SceneError;
 use super::super::model::{Animation, Channel, Interpolation, Property};
 use super::Document;
@@ -11,17 +12,31 @@ use super::Document;
 pub(super) fn read(document: &Document<'_>, place: &[Option<u32>]) -> Result<Vec<Animation>, SceneError> {
     let mut animations = Vec::new();
     for (a, animation) in document.root.animations.iter().enumerate() {
-        let mut channels = Vec::new();
+        let (mut channels, mut morphs) = (Vec::new(), Vec::new());
         for (c, channel) in animation.channels.iter().enumerate() {
             let element = format!("animations[{a}].channels[{c}]");
-            channels.extend(one(document, animation, channel, place, &element)?);
+            match one(document, animation, channel, place, &element)? {
+                Some(One::Moving(channel)) => channels.push(channel),
+                Some(One::Bending(channel)) => morphs.push(channel),
+                None => {}
+            }
         }
-        if !channels.is_empty() {
+        if !channels.is_empty() || !morphs.is_empty() {
             let name = animation.name.clone().unwrap_or_else(|| format!("animation {a}"));
-            animations.push(Animation { name, channels });
+            animations.push(Animation {
+                name,
+                channels,
+                morphs,
+            });
         }
     }
     Ok(animations)
+}
+
+/// What a channel changes.
+enum One {
+    Moving(Channel),
+    Bending(MorphChannel),
 }
 
 /// One channel, or `None` where it moves nothing that is used.
@@ -31,18 +46,19 @@ fn one(
     channel: &json::animation::Channel,
     place: &[Option<u32>],
     element: &str,
-) -> Result<Option<Channel>, SceneError> {
+) -> Result<Option<One>, SceneError> {
     document.get(&document.root.nodes, channel.target.node, "node", element)?;
     let Some(node) = place[channel.target.node.value()] else {
         return Ok(None);
     };
     let property = match channel.target.path {
-        Checked::Valid(json::animation::Property::Translation) => Property::Translation,
-        Checked::Valid(json::animation::Property::Rotation) => Property::Rotation,
-        Checked::Valid(json::animation::Property::Scale) => Property::Scale,
-        Checked::Valid(json::animation::Property::MorphTargetWeights) | Checked::Invalid => {
+        Checked::Valid(json::animation::Property::Translation) => Some(Property::Translation),
+        Checked::Valid(json::animation::Property::Rotation) => Some(Property::Rotation),
+        Checked::Valid(json::animation::Property::Scale) => Some(Property::Scale),
+        Checked::Valid(json::animation::Property::MorphTargetWeights) => None,
+        Checked::Invalid => {
             document.warn(format!(
-                "{element}: skipped, as only translation, rotation and scale are animated"
+                "{element}: skipped, as only translation, rotation, scale and weights are animated"
             ));
             return Ok(None);
         }
@@ -57,11 +73,15 @@ fn one(
             return Err(document.malformed(element, "has an unknown interpolation", advice));
         }
     };
-    let times = document
+    let times: Vec<f32> = document
         .floats::<1>(sampler.input, element)?
         .into_iter()
         .map(|[time]| time)
         .collect();
+    let Some(property) = property else {
+        let values = document.floats::<1>(sampler.output, element)?;
+        return morph(document, node, (interpolation, times, values), element);
+    };
     let values = match property {
         Property::Rotation => document.floats::<4>(sampler.output, element)?,
         Property::Translation | Property::Scale => {
@@ -69,11 +89,38 @@ fn one(
             values.into_iter().map(|[x, y, z]| [x, y, z, 0.0]).collect()
         }
     };
-    Ok(Some(Channel {
+    Ok(Some(One::Moving(Channel {
         node,
         property,
         interpolation,
         times,
         values,
-    }))
+    })))
+}
+
+/// Keys of weights: as many for each key as the mesh has targets.
+fn morph(
+    document: &Document<'_>,
+    node: u32,
+    (interpolation, times, values): (Interpolation, Vec<f32>, Vec<[f32; 1]>),
+    element: &str,
+) -> Result<Option<One>, SceneError> {
+    let rows = times.len()
+        * if interpolation == Interpolation::CubicSpline {
+            3
+        } else {
+            1
+        };
+    let targets = values.len().checked_div(rows).unwrap_or(0);
+    if targets == 0 || targets * rows != values.len() {
+        let problem = format!("has {} weights for {rows} rows of them", values.len());
+        return Err(document.malformed(element, problem, "the file is damaged; export it again"));
+    }
+    Ok(Some(One::Bending(MorphChannel {
+        node,
+        targets: targets as u32,
+        interpolation,
+        times,
+        values: values.into_flattened(),
+    })))
 }

@@ -12,7 +12,7 @@ use super::super::error::SceneError;
 use super::super::model::{Mesh, Primitive};
 use super::attributes::Attributes;
 use super::material::Look;
-use super::{Document, emission};
+use super::{Document, bend, emission};
 
 /// Decoded data that neighbouring primitives often share.
 #[derive(Default)]
@@ -30,9 +30,6 @@ pub(super) fn read<'a>(document: &Document<'a>, looks: &mut Vec<Look<'a>>) -> Re
         let mut primitives = Vec::new();
         for (p, primitive) in mesh.primitives.iter().enumerate() {
             let element = format!("meshes[{m}].primitives[{p}]");
-            if primitive.targets.is_some() {
-                document.warn(format!("{element}: morph targets are ignored"));
-            }
             primitives.extend(one(document, primitive, &element, looks, &mut shared)?);
         }
         meshes.push(Mesh {
@@ -86,12 +83,26 @@ fn one<'a>(
     }
     let look = (material, &looks[material]);
     let radiance = emission::radiance(document, &attributes, look, &triangles, &mut shared.emission)?;
+    let targets = bend::targets(document, primitive, positions.len(), element)?;
+    let influences = bend::influences(document, &attributes, positions.len())?;
     let (kept, triangles) = compact(positions.len(), triangles);
+    let kept = kept.as_deref();
     Ok(Some(Primitive {
-        positions: pick(&positions, kept.as_deref()),
+        positions: pick(&positions, kept),
         triangles,
         material: material as u32,
         radiance,
+        targets: targets
+            .into_iter()
+            .map(|target| {
+                if target.is_empty() {
+                    target
+                } else {
+                    pick(&target, kept)
+                }
+            })
+            .collect(),
+        influences: influences.into_iter().map(|set| pick(&set, kept)).collect(),
     }))
 }
 

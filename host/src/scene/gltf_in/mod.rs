@@ -12,6 +12,7 @@
 mod accessor;
 mod animation;
 mod attributes;
+mod bend;
 mod container;
 mod draco;
 mod emission;
@@ -22,6 +23,7 @@ mod material;
 mod mesh;
 mod meshopt;
 mod node;
+mod punctual;
 mod texture;
 
 use std::borrow::Cow;
@@ -87,6 +89,8 @@ impl Scene {
         data.meshes = mesh::read(&document, &mut looks)?;
         data.materials = looks.into_iter().map(|look| look.material).collect();
         let order = node::read(&document, &mut data)?;
+        bend::skins(&document, &order, &mut data)?;
+        punctual::read(&document, &order, &mut data)?;
         data.animations = animation::read(&document, &order)?;
         data.warnings = document.into_warnings();
         Self::new(data)

@@ -118,11 +118,16 @@ fn add(
         }
         None => None,
     };
-    if node.skin.is_some() {
-        document.warn(format!(
-            "{element}: its skin is ignored, the mesh stays in its rest pose"
-        ));
-    }
+    let skin = match node.skin {
+        Some(skin) => {
+            document.get(&document.root.skins, skin, "skin", &element)?;
+            Some(skin.value() as u32)
+        }
+        None => None,
+    };
+    // A node's own weights come before its mesh's.
+    let of_mesh = mesh.and_then(|mesh| document.root.meshes[mesh as usize].weights.clone());
+    let weights = node.weights.clone().or(of_mesh).unwrap_or_default();
     if let Some(index) = node.camera {
         let camera = document.get(&document.root.cameras, index, "camera", &element)?;
         let index = index.value();
@@ -143,6 +148,8 @@ fn add(
         parent,
         transform: transform(node),
         mesh,
+        skin,
+        weights,
     });
     Ok(())
 }

@@ -1,0 +1,129 @@
+//! Meshes that bend: morph targets and skins, and where their vertices are at a time.
+
+use super::animate::Pose;
+use super::model::{Interpolation, Primitive, SceneData};
+use super::transform::Affine;
+
+/// Four of the joints that move a vertex.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Influence {
+    /// Indices into [`Skin::joints`].
+    pub joints: [u16; 4],
+    /// Shares, not negative; a vertex's shares are taken relative to their sum. Where that is 0, the first joint moves it.
+    pub weights: [f32; 4],
+}
+
+/// Nodes that move vertices. Where a node's mesh has one, the node's own place does not matter (glTF 2.0, section 3.7.3.3).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Skin {
+    /// Indices into [`SceneData::nodes`](super::SceneData::nodes).
+    pub joints: Vec<u32>,
+    /// For each joint, from the mesh's space to the joint's: four columns of three rows.
+    pub inverse_bind: Vec<[[f32; 3]; 4]>,
+}
+
+/// Keys for the weights of a node's morph targets.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MorphChannel {
+    /// Index into [`SceneData::nodes`](super::SceneData::nodes).
+    pub node: u32,
+    /// Number of weights, above zero.
+    pub targets: u32,
+    /// How values between keys are found.
+    pub interpolation: Interpolation,
+    /// Seconds, not negative, ascending.
+    pub times: Vec<f32>,
+    /// All weights of a key, one key after the other; for [`Interpolation::CubicSpline`] all in-tangents, all values and all
+    /// out-tangents of a key.
+    pub values: Vec<f32>,
+}
+
+/// Whether the vertices of `primitive` on node `node` do not simply follow the node.
+pub(super) fn deforms(data: &SceneData, node: usize, primitive: &Primitive) -> bool {
+    !primitive.targets.is_empty() || is_skinned(data, node, primitive)
+}
+
+/// Whether joints move the vertices.
+pub(super) fn is_skinned(data: &SceneData, node: usize, primitive: &Primitive) -> bool {
+    data.nodes[node].skin.is_some() && !primitive.influences.is_empty()
+}
+
+/// The vertices of a primitive in the world.
+pub(super) struct Placed {
+    pub points: Vec<[f64; 3]>,
+    /// Whether fronts are backs: a mirrored instance would show its back.
+    pub mirrored: bool,
+}
+
+impl Pose {
+    /// Where the vertices of `primitive` on node `node` are.
+    pub fn placed(&self, data: &SceneData, node: usize, primitive: &Primitive) -> Placed {
+        let local = self.morphed(data, node, primitive);
+        let skin = data.nodes[node].skin.filter(|_| !primitive.influences.is_empty());
+        let Some(skin) = skin else {
+            let to_world = &self.world[node];
+            return Placed {
+                points: local.into_iter().map(|p| to_world.point(p)).collect(),
+                mirrored: to_world.mirrors(),
+            };
+        };
+        let skin = &data.skins[skin as usize];
+        let joints: Vec<Affine> = skin
+            .joints
+            .iter()
+            .zip(&skin.inverse_bind)
+            .map(|(&joint, bind)| self.world[joint as usize].then_after(&affine(bind)))
+            .collect();
+        let first = primitive.influences.first().and_then(|set| set.first());
+        let leader = first.map_or(0, |influence| influence.joints[0]);
+        Placed {
+            points: (0..local.len())
+                .map(|vertex| skinned(&joints, primitive, vertex, local[vertex]))
+                .collect(),
+            mirrored: joints[usize::from(leader)].mirrors(),
+        }
+    }
+
+    /// The vertices in the mesh's space, moved by its targets (glTF 2.0, section 3.7.2.2).
+    pub fn morphed(&self, data: &SceneData, node: usize, primitive: &Primitive) -> Vec<[f64; 3]> {
+        let mut points: Vec<[f64; 3]> = primitive.positions.iter().map(|p| p.map(f64::from)).collect();
+        for (target, &weight) in primitive.targets.iter().zip(self.weights(data, node).iter()) {
+            if weight == 0.0 {
+                continue;
+            }
+            for (point, moved) in points.iter_mut().zip(target) {
+                for axis in 0..3 {
+                    point[axis] += weight * f64::from(moved[axis]);
+                }
+            }
+        }
+        points
+    }
+}
+
+pub(super) fn affine(columns: &[[f32; 3]; 4]) -> Affine {
+    Affine {
+        columns: columns.map(|column| column.map(f64::from)),
+    }
+}
+
+/// The mean of where its joints take a vertex.
+fn skinned(joints: &[Affine], primitive: &Primitive, vertex: usize, p: [f64; 3]) -> [f64; 3] {
+    let (mut sum, mut shares) = ([0.0; 3], 0.0);
+    for Influence { joints: of, weights } in primitive.influences.iter().map(|set| set[vertex]) {
+        for (joint, weight) in of.into_iter().zip(weights) {
+            if weight > 0.0 {
+                let moved = joints[usize::from(joint)].point(p);
+                let share = f64::from(weight);
+                shares += share;
+                sum = [0, 1, 2].map(|axis| sum[axis] + share * moved[axis]);
+            }
+        }
+    }
+    if shares > 0.0 {
+        sum.map(|x| x / shares)
+    } else {
+        let first = primitive.influences[0][vertex].joints[0];
+        joints[usize::from(first)].point(p)
+    }
+}

@@ -1,0 +1,148 @@
+//! Lights without area (`KHR_lights_punctual`): read and checked; how many there are, which nothing samples yet, is noted.
+
+use serde::Deserialize;
+use serde_json::{Map, Value};
+
+use super::super::error::SceneError;
+use super::super::model::SceneData;
+use super::super::punctual::{PunctualKind, PunctualLight};
+use super::Document;
+
+const NAME: &str = "KHR_lights_punctual";
+
+/// What a node's extension names.
+#[derive(Deserialize)]
+struct Named {
+    light: usize,
+}
+
+#[derive(Deserialize)]
+struct Light {
+    #[serde(default)]
+    name: String,
+    #[serde(default = "white")]
+    color: [f32; 3],
+    #[serde(default = "one")]
+    intensity: f32,
+    range: Option<f32>,
+    #[serde(rename = "type")]
+    kind: Kind,
+    #[serde(default)]
+    spot: Cone,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Kind {
+    Directional,
+    Point,
+    Spot,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+struct Cone {
+    inner_cone_angle: f32,
+    outer_cone_angle: f32,
+}
+
+impl Default for Cone {
+    fn default() -> Self {
+        Self {
+            inner_cone_angle: 0.0,
+            outer_cone_angle: std::f32::consts::FRAC_PI_4,
+        }
+    }
+}
+
+fn white() -> [f32; 3] {
+    [1.0; 3]
+}
+
+fn one() -> f32 {
+    1.0
+}
+
+/// The lights of the nodes in the scene; `place` is where each of the file's nodes went.
+pub(super) fn read(
+    document: &Document<'_>,
+    place: &[Option<u32>],
+    data: &mut SceneData,
+) -> Result<(), SceneError> {
+    let none = Map::new();
+    let others = |extensions: Option<&_>| -> Option<Value> {
+        let extensions: &gltf::json::extensions::root::Root = extensions?;
+        extensions.others.get(NAME)?.get("lights").cloned()
+    };
+    let lights = others(document.root.extensions.as_ref());
+    let lights = lights.as_ref().and_then(Value::as_array);
+    for (index, node) in document.root.nodes.iter().enumerate() {
+        let extensions = node.extensions.as_ref().map(|extensions| &extensions.others);
+        let element = format!("nodes[{index}]");
+        let named: Option<Named> = document.extension(extensions.unwrap_or(&none), NAME, &element)?;
+        let (Some(named), Some(node)) = (named, place[index]) else {
+            continue;
+        };
+        let found = lights.and_then(|lights| lights.get(named.light));
+        match found.map_or(Err(String::from("it is not there")), |value| light(value, node)) {
+            Ok(light) => data.punctual.push(light),
+            Err(problem) => document.warn(format!(
+                "light {} of {element} is left out: {problem}",
+                named.light
+            )),
+        }
+    }
+    if !data.punctual.is_empty() {
+        document.warn(format!(
+            "lights without area ({NAME}) light nothing yet: {} left out",
+            data.punctual.len()
+        ));
+    }
+    Ok(())
+}
+
+/// One light, with what is wrong with it.
+fn light(value: &Value, node: u32) -> Result<PunctualLight, String> {
+    let light = Light::deserialize(value).map_err(|error| error.to_string())?;
+    let Light {
+        name,
+        color,
+        intensity,
+        range,
+        ..
+    } = light;
+    if !color
+        .iter()
+        .chain([&intensity])
+        .all(|x| *x >= 0.0 && x.is_finite())
+    {
+        return Err(String::from("its colour or intensity is negative or not finite"));
+    }
+    if range.is_some_and(|range| !(range > 0.0 && range.is_finite())) {
+        return Err(String::from("its range is not above 0 metres"));
+    }
+    let kind = match light.kind {
+        Kind::Directional => PunctualKind::Directional,
+        Kind::Point => PunctualKind::Point,
+        Kind::Spot => {
+            let Cone {
+                inner_cone_angle: inner,
+                outer_cone_angle: outer,
+            } = light.spot;
+            if !(inner >= 0.0 && inner < outer && outer <= std::f32::consts::FRAC_PI_2) {
+                return Err(format!(
+                    "its cone, from {inner} to {outer} radians, is not from 0 up to pi / 2"
+                ));
+            }
+            PunctualKind::Spot { inner, outer }
+        }
+    };
+    Ok(PunctualLight {
+        name,
+        node,
+        kind,
+        color,
+        intensity,
+        range,
+    })
+}

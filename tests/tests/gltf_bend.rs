@@ -1,0 +1,282 @@
+//! Meshes that bend, and lights without area.
+
+use lightbvh::{BuildParams, Edit};
+use lightbvh_host::scene::{Instances, Interpolation, PunctualKind, Scene, SceneData};
+use lightbvh_kernels::bvh::{Node, WIDTH};
+use lightbvh_tests::gltf_files::{bending, changed, embedded, push, read, read_json, triangle};
+use serde_json::{Value, json};
+
+fn near(a: [f32; 3], b: [f32; 3]) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-5)
+}
+
+/// Vertices 0 to 3 of the second mesh: it has the triangles 0 2 1, 0 1 3, 0 3 2, 1 2 3.
+fn skinned(scene: &Scene, frame: u32) -> [[f32; 3]; 4] {
+    let triangles = scene.frame(frame).triangles;
+    let ([a, c, b], [_, _, d]) = (triangles[4].p, triangles[5].p);
+    [a, b, c, d]
+}
+
+#[test]
+fn joints_take_vertices_along() {
+    let scene = Scene::new(bending()).expect("a sound scene");
+    // At rest each vertex is where it is modelled, moved by the first joint's place; the node's own does not matter.
+    let at_rest = [[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0], [0.0, 0.0, 3.0]];
+    assert_eq!(skinned(&scene, 0), at_rest);
+    // A quarter turn about (0, 1): (1, 0) is wholly taken to (1, 2), (0, 1) half to itself, the others stay.
+    let turned = skinned(&scene, 25);
+    let expected = [[0.0, 0.0, 2.0], [1.0, 2.0, 2.0], [0.0, 1.0, 2.0], [0.0, 0.0, 3.0]];
+    for (found, expected) in turned.iter().zip(expected) {
+        assert!(near(*found, expected), "{turned:?}");
+    }
+}
+
+#[test]
+fn weights_of_targets_follow_gltf() {
+    let height = |scene: &Scene, frame: u32| scene.frame(frame).triangles[0].p[0][2];
+    let scene = |interpolation, values: &[f32]| {
+        let mut data = bending();
+        data.animations[0].morphs[0].interpolation = interpolation;
+        data.animations[0].morphs[0].values = values.to_vec();
+        Scene::new(data).expect("a sound scene")
+    };
+    let linear = scene(Interpolation::Linear, &[0.0, 0.0, 3.0, 1.0]);
+    assert!((height(&linear, 10) - 0.6).abs() < 1e-6);
+    let step = scene(Interpolation::Step, &[1.0, 0.0, 3.0, 1.0]);
+    assert_eq!(height(&step, 49), 1.0);
+    // In-tangents, values, out-tangents of both keys; in the middle 1/2 (v0 + v1) + 2 s / 8 (out0 - in1).
+    let spline = [9.0, 9.0, 1.0, 0.0, 2.0, 0.0, 1.0, 0.0, 3.0, 0.0, 9.0, 9.0];
+    assert!((height(&scene(Interpolation::CubicSpline, &spline), 25) - 2.25).abs() < 1e-6);
+    // Without animation the node's own weights hold.
+    let mut data = bending();
+    data.animations.clear();
+    assert_eq!(height(&Scene::new(data).expect("a sound scene"), 0), 0.5);
+}
+
+#[test]
+fn what_bends_survives_the_way_through_glb() {
+    let scene = Scene::new(bending()).expect("a sound scene");
+    let back = read(&scene.to_glb().expect("written")).expect("read back");
+    for frame in 0..60 {
+        assert_eq!(scene.frame(frame), back.frame(frame), "frame {frame}");
+    }
+}
+
+#[test]
+fn light_bvhs_follow_what_bends() {
+    let scene = Scene::new(bending()).expect("a sound scene");
+    let (mut lights, mut instances) =
+        Instances::new::<Node, (), WIDTH>(&scene, 0, BuildParams::default()).expect("sound");
+    let mut bent = 0;
+    for frame in [0, 7, 25, 26, 49] {
+        let edits = instances.edits(&scene, frame);
+        for edit in &edits {
+            if let Edit::SetTriangles { mesh, .. } = edit {
+                assert!(instances.of_bent(*mesh).is_some());
+                bent += 1;
+            }
+        }
+        lights.apply(edits).expect("sound");
+        lights.refit();
+        lights
+            .validate()
+            .unwrap_or_else(|violation| panic!("{violation}"));
+        let (expected, found) = (scene.frame(frame).emissive, lights.world_lights());
+        assert_eq!(expected.len(), found.len());
+        for (e, f) in expected.iter().zip(&found) {
+            assert_eq!((e.mesh, e.radiance), (f.mesh, f.radiance), "frame {frame}");
+            assert!((0..3).all(|i| near(e.p[i], f.p[i])), "frame {frame}: {e:?} {f:?}");
+        }
+    }
+    // The targets in frames 7, 25, 26 and 49, the skin in frame 25.
+    assert_eq!(bent, 5);
+}
+
+#[test]
+fn a_mirrored_skin_keeps_its_front() {
+    let mut data = bending();
+    data.skins[0].inverse_bind[0][0][0] = -1.0;
+    data.skins[0].inverse_bind[1][0][0] = -1.0;
+    let scene = Scene::new(data).expect("a sound scene");
+    let plain = Scene::new(bending()).expect("a sound scene");
+    let volume = |scene: &Scene| {
+        let triangles = &scene.frame(0).triangles[4..8];
+        let of = |p: [[f32; 3]; 3]| {
+            let [a, b, c] = p.map(|v| [v[0], v[1], v[2] - 2.0]);
+            a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
+                + a[2] * (b[0] * c[1] - b[1] * c[0])
+        };
+        triangles.iter().map(|triangle| of(triangle.p)).sum::<f32>()
+    };
+    assert!(volume(&plain) > 0.9 && volume(&scene) > 0.9, "{}", volume(&scene));
+    let (lights, _) = Instances::new::<Node, (), WIDTH>(&scene, 0, BuildParams::default()).expect("sound");
+    let placed: Vec<_> = lights.world_lights().iter().map(|light| light.p).collect();
+    let expected: Vec<_> = scene.frame(0).emissive.iter().map(|light| light.p).collect();
+    assert_eq!(placed, expected);
+}
+
+#[test]
+fn what_cannot_bend_is_named() {
+    let broken = |change: fn(&mut SceneData)| {
+        let mut data = bending();
+        change(&mut data);
+        Scene::new(data).expect_err("must be refused").to_string()
+    };
+    let cases: [(fn(&mut SceneData), &str); 14] = [
+        (|data| data.nodes[1].skin = Some(1), "skin of node 1"),
+        (|data| data.skins[0].joints[1] = 9, "joint of skin 0"),
+        (
+            |data| data.skins[0].inverse_bind.truncate(1),
+            "inverse bind matrices of skin 0",
+        ),
+        (
+            |data| data.skins[0].inverse_bind[1][3][0] = f32::NAN,
+            "inverse bind matrix",
+        ),
+        (
+            |data| data.meshes[1].primitives[0].influences[0][2].joints[3] = 2,
+            "a joint of the mesh of node 1",
+        ),
+        (
+            |data| data.meshes[1].primitives[0].influences[0][2].weights[0] = -1.0,
+            "weight of a joint",
+        ),
+        (
+            |data| data.meshes[1].primitives[0].influences[0].truncate(3),
+            "influences of mesh 1",
+        ),
+        (
+            |data| data.meshes[0].primitives[0].targets[0].truncate(3),
+            "target 0 of mesh 0",
+        ),
+        (
+            |data| data.meshes[0].primitives[0].targets[0][1][1] = f32::INFINITY,
+            "target 0 of mesh 0",
+        ),
+        (|data| data.nodes[0].weights[0] = f32::NAN, "a weight of node 0"),
+        (|data| data.animations[0].morphs[0].targets = 3, "value list"),
+        (
+            |data| data.animations[0].morphs[0].targets = 0,
+            "number of targets",
+        ),
+        (|data| data.animations[0].morphs[0].values[2] = 1e30, "2^40"),
+        (|data| data.skins[0].inverse_bind[0][0][0] = 1e20, "2^40"),
+    ];
+    for (index, (change, expected)) in cases.into_iter().enumerate() {
+        let message = broken(change);
+        assert!(message.contains(expected), "case {index}: {message}");
+    }
+    let mut data = bending();
+    data.materials[0].radiance = [1e30, 0.0, 0.0];
+    data.meshes.swap_remove(1);
+    data.nodes[1].mesh = None;
+    assert!(
+        Scene::new(data)
+            .expect_err("must be refused")
+            .to_string()
+            .contains("flux")
+    );
+}
+
+/// [`triangle`], its vertices moved by joint 1 alone, told in bytes.
+fn jointed() -> Value {
+    let mut root = changed("/nodes/0", json!({ "mesh": 0, "skin": 0, "children": [1, 2] }));
+    push(&mut root["nodes"], json!({}));
+    push(&mut root["nodes"], json!({ "translation": [0.0, 0.0, 7.0] }));
+    root["skins"] = json!([{ "joints": [1, 2] }]);
+    let mut bytes = [[1_u8, 0, 0, 0]; 3].as_flattened().to_vec();
+    bytes.extend([[100_u8, 0, 0, 0]; 3].as_flattened());
+    push(
+        &mut root["buffers"],
+        json!({ "byteLength": 24, "uri": embedded(&bytes) }),
+    );
+    push(&mut root["bufferViews"], json!({ "buffer": 1, "byteLength": 24 }));
+    let accessor = |at, normalized| json!({ "bufferView": 2, "byteOffset": at, "componentType": 5121, "count": 3, "type": "VEC4", "normalized": normalized });
+    push(&mut root["accessors"], accessor(0, false));
+    push(&mut root["accessors"], accessor(12, true));
+    let attributes = &mut root["meshes"][0]["primitives"][0]["attributes"];
+    attributes["JOINTS_0"] = json!(2);
+    attributes["WEIGHTS_0"] = json!(3);
+    root
+}
+
+#[test]
+fn joints_and_weights_in_bytes() {
+    let scene = read_json(&jointed()).expect("a sound file");
+    assert_eq!(
+        scene.frame(0).triangles[0].p,
+        [[0.0, 0.0, 7.0], [1.0, 0.0, 7.0], [0.0, 1.0, 7.0]]
+    );
+    let cases = [
+        (
+            "/meshes/0/primitives/0/attributes/WEIGHTS_0",
+            json!(99),
+            "accessor 99",
+        ),
+        ("/accessors/2/count", json!(2), "2 entries for 3 vertices"),
+        ("/accessors/2/normalized", json!(true), "as a joint"),
+        ("/skins/0/joints", json!([1]), "a joint of the mesh"),
+        ("/skins/0/joints", json!([1, 9]), "node 9"),
+        ("/skins/0/inverseBindMatrices", json!(0), "expected 16"),
+        ("/nodes/0/skin", json!(3), "skin 3"),
+    ];
+    for (pointer, value, expected) in cases {
+        let mut root = jointed();
+        let (parent, key) = pointer.rsplit_once('/').expect("a pointer");
+        root.pointer_mut(parent).expect("there")[key] = value;
+        let error = read_json(&root).expect_err("must be refused").to_string();
+        assert!(error.contains(expected), "{pointer}: {error}");
+    }
+    // Joints outside of the scene: the mesh stays where its node is.
+    let mut root = jointed();
+    root["nodes"][0]["children"] = json!([1]);
+    let scene = read_json(&root).expect("a sound file");
+    assert_eq!(scene.frame(0).triangles[0].p[0], [0.0; 3]);
+    assert!(
+        scene
+            .warnings()
+            .iter()
+            .any(|warning| warning.contains("skins[0] is ignored"))
+    );
+}
+
+#[test]
+fn lights_without_area_are_kept_and_counted() {
+    let mut root = triangle();
+    root["extensions"] = json!({ "KHR_lights_punctual": { "lights": [
+        { "type": "point", "intensity": 800.0, "color": [1.0, 0.5, 0.25], "range": 9.0 },
+        { "type": "spot", "spot": { "innerConeAngle": 0.25, "outerConeAngle": 0.5 } },
+        { "type": "directional", "intensity": 3.0 },
+        { "type": "spot", "spot": { "innerConeAngle": 0.5, "outerConeAngle": 0.25 } },
+        { "type": "point", "intensity": -1.0 },
+        { "type": "moon" },
+        { "type": "point", "range": 0.0 },
+    ] } });
+    root["extensionsRequired"] = json!(["KHR_lights_punctual"]);
+    let places = (0..8).map(|light| json!({ "extensions": { "KHR_lights_punctual": { "light": light } } }));
+    root["nodes"].as_array_mut().expect("a list").extend(places);
+    root["scenes"][0]["nodes"] = (0..9).collect();
+    let scene = read_json(&root).expect("a sound file");
+    let kinds: Vec<PunctualKind> = scene.data().punctual.iter().map(|light| light.kind).collect();
+    let spot = PunctualKind::Spot {
+        inner: 0.25,
+        outer: 0.5,
+    };
+    assert_eq!(kinds, [PunctualKind::Point, spot, PunctualKind::Directional]);
+    let first = &scene.data().punctual[0];
+    assert_eq!(
+        (first.intensity, first.range, first.color[1], first.node),
+        (800.0, Some(9.0), 0.5, 1)
+    );
+    let said = |word: &str| {
+        scene
+            .warnings()
+            .iter()
+            .filter(|warning| warning.contains(word))
+            .count()
+    };
+    assert_eq!(said("is left out"), 5, "{:?}", scene.warnings());
+    assert_eq!(said("3 left out"), 1, "{:?}", scene.warnings());
+    let back = read(&scene.to_glb().expect("written")).expect("read back");
+    assert_eq!(back.data().punctual, scene.data().punctual);
+}
