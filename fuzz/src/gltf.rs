@@ -34,6 +34,11 @@ pub fn gltf(data: &[u8], forms: Forms) {
     let _ = run(&mut Unstructured::new(data));
 }
 
+/// The document that `data` describes, as a container: for tests that what the target tries is what the loader reads.
+pub fn gltf_document(data: &[u8]) -> Vec<u8> {
+    Document::new(&mut Unstructured::new(data)).map_or_else(|_| Vec::new(), Document::glb)
+}
+
 fn open(bytes: &[u8], written: bool) {
     let scene = match Scene::read_gltf_slice("fuzz", bytes, None) {
         Ok(scene) => scene,

@@ -20,7 +20,7 @@ pub use build_validate::build_validate;
 pub use edits::edits;
 pub use exact::exact;
 #[cfg(feature = "gltf")]
-pub use gltf::gltf;
+pub use gltf::{gltf, gltf_document};
 pub use node_words::node_words;
 pub use read_words::read_words;
 pub use refit_equals_rebuild::refit_equals_rebuild;

@@ -1,6 +1,6 @@
 //! Images: files come back as they were written, and failures name the file and leave nothing behind.
 
-use lightbvh_host::render::{Film, FilmError};
+use lightbvh_host::render::{Film, FilmError, MAX_AUTO_EXPOSURE};
 use std::fs;
 use std::path::PathBuf;
 
@@ -113,4 +113,27 @@ fn errors_and_exposure_by_hand() {
     let grey = Film::new(2, 1, vec![[0.36; 3], [0.0; 3]]).unwrap();
     assert!((grey.auto_exposure() - 0.5).abs() < 1e-6);
     assert_eq!(Film::new(1, 1, vec![[0.0; 3]]).unwrap().auto_exposure(), 1.0);
+}
+
+#[test]
+fn exposure_makes_no_picture_of_noise() {
+    let film = |pixels: Vec<[f32; 3]>| Film::new(1000, 1, pixels).unwrap();
+    // Two in a thousand pixels have found a little light.
+    let mut pixels = vec![[0.0; 3]; 1000];
+    pixels[7] = [1e-7; 3];
+    pixels[900] = [3e-6; 3];
+    let noise = film(pixels);
+    assert_eq!(noise.auto_exposure(), MAX_AUTO_EXPOSURE);
+    assert!(noise.darkness().is_some_and(|words| words.contains("--exposure")));
+    assert!(noise.shown(noise.auto_exposure()).iter().all(|&byte| byte < 24));
+    let black = film(vec![[0.0; 3]; 1000]);
+    assert!(black.darkness().is_some_and(|words| words.contains("black")));
+    let mut pixels = vec![[0.0; 3]; 1000];
+    pixels[3] = [1.0; 3];
+    assert!(
+        film(pixels)
+            .darkness()
+            .is_some_and(|words| words.contains("0.10 %"))
+    );
+    assert_eq!(film(vec![[0.01; 3]; 1000]).darkness(), None);
 }

@@ -181,3 +181,26 @@ fn animations_follow_gltf() {
     let lefts = scene.frame(20).triangles[1].p.map(|p| p[0] - a[0]);
     assert!(lefts.iter().any(|x| near(*x, -2.0)), "{lefts:?}");
 }
+
+#[test]
+fn channels_that_name_no_node_are_left_out() {
+    let mut root = triangle();
+    root["animations"] = json!([{
+        "channels": [{ "sampler": 0, "target": { "path": "pointer", "extensions": { "KHR_animation_pointer": {} } } }],
+        "samplers": [{ "input": 0, "output": 0 }],
+    }]);
+    let scene = read_json(&root).expect("a sound file");
+    assert!(
+        scene.warnings()[0].contains("1 channels"),
+        "{:?}",
+        scene.warnings()
+    );
+    // What else is wrong is said as it was.
+    root["scene"] = json!("none");
+    assert!(
+        read_json(&root)
+            .expect_err("broken")
+            .to_string()
+            .contains("invalid type")
+    );
+}

@@ -1,4 +1,4 @@
-//! All tests of this package, one module per concern, in one program: forty-eight of them repeat each other's compilation, and
+//! All tests of this package, one module per concern, in one program: forty-nine of them repeat each other's compilation, and
 //! took that of the whole workspace a fifth longer.
 
 mod bounds;
@@ -11,6 +11,7 @@ mod encoding;
 mod exact_exhaustive;
 mod exact_inputs;
 mod film;
+mod framing;
 mod gltf;
 mod gltf_bend;
 mod gltf_draco;

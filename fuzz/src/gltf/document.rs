@@ -1,6 +1,7 @@
 //! Small glTF documents: sound but for what the input changes.
 
 mod content;
+mod streams;
 
 use std::fmt::Write;
 
@@ -41,13 +42,21 @@ impl Document {
                 buffer[place] ^= by;
             }
         }
+        let packed = append(&mut buffer, shape);
+        let streams = packed.first.0;
+        for _ in 0..if streams < buffer.len() { 8 } else { 0 } {
+            if let Ok((place, by)) = u.arbitrary::<(u16, u8)>() {
+                let place = streams + usize::from(place) % (buffer.len() - streams);
+                buffer[place] ^= by;
+            }
+        }
         let mut document = Self {
-            text: String::with_capacity(2048),
+            text: String::with_capacity(4096),
             buffer,
             changes,
             place: 0,
         };
-        document.write(shape);
+        document.write(shape, &packed);
         Ok(document)
     }
 
@@ -160,6 +169,43 @@ impl Document {
             self.number(if i == 0 { "[" } else { "," }, x);
         }
         self.raw("]");
+    }
+}
+
+/// Where streams that have decoders of their own lie in the buffer: first byte and length.
+pub(crate) struct Packed {
+    first: (usize, usize),
+    second: (usize, usize),
+    picture: (usize, usize),
+}
+
+/// Puts the streams that `shape` asks for behind the plain data.
+fn append(buffer: &mut Vec<u8>, shape: u32) -> Packed {
+    let has = |bit: u32| shape >> bit & 1 != 0;
+    let mut put = |stream: &[u8]| {
+        let place = (buffer.len(), stream.len());
+        buffer.extend(stream);
+        place
+    };
+    let first = match (has(21), has(22)) {
+        (true, _) => put(streams::VERTICES[usize::from(has(23))]),
+        (false, true) => put(streams::DRACO),
+        (false, false) => put(&[]),
+    };
+    let second = put(if has(21) {
+        streams::INDICES[usize::from(has(24))]
+    } else {
+        &[]
+    });
+    let picture = if has(8) && has(25) {
+        put(&streams::ktx2((shape >> 26) as u8 & 3))
+    } else {
+        put(&[])
+    };
+    Packed {
+        first,
+        second,
+        picture,
     }
 }
 

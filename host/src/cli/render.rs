@@ -84,7 +84,7 @@ pub(super) struct Args {
     /// Seed of the random numbers.
     #[arg(long, default_value_t = 0)]
     seed: u32,
-    /// Exposure as a factor on radiance; by default chosen from the image. EXR files are linear and take none.
+    /// Exposure as a factor on radiance; by default chosen from the image, up to 1000. EXR files are linear and take none.
     #[arg(long, value_parser = exposure)]
     exposure: Option<f32>,
     /// The file to write: .png (tone-mapped) or .exr (linear).
@@ -308,6 +308,11 @@ impl Sequence<'_> {
             }
             // All frames of a sequence are exposed as its first one.
             let film = Film::new(args.width, args.height, image.value)?;
+            if exposure.is_none()
+                && let Some(words) = film.darkness()
+            {
+                news!("{}: {words}", self.scene.name());
+            }
             let exposure = *exposure.get_or_insert_with(|| film.auto_exposure());
             let output = match &args.animate {
                 Some(_) => frames::numbered(&args.output, frame),

@@ -8,6 +8,13 @@ use std::path::{Path, PathBuf};
 use super::output::write_whole;
 use super::tone::display;
 
+/// Most exposure that is chosen by itself. Light a thousand times as faint as a white surface shows is what few samples happened to
+/// find: exposure of 10^5 made pictures of it.
+pub const MAX_AUTO_EXPOSURE: f32 = 1000.0;
+
+/// Share of an image below which that so little of it is lit is worth a word.
+const MIN_LIT: f64 = 0.01;
+
 /// Why an image cannot be made, compared or written.
 #[derive(Debug, thiserror::Error)]
 pub enum FilmError {
@@ -123,8 +130,34 @@ impl Film {
     }
 
     /// The factor that brings the image's mean brightness to a middle grey of 0.18: the mean is that of the logarithm,
-    /// which a few bright lights hardly move (Reinhard et al. 2002, equations 1 and 2). 1 for a black image.
+    /// which a few bright lights hardly move (Reinhard et al. 2002, equations 1 and 2). 1 for a black image. At most
+    /// [`MAX_AUTO_EXPOSURE`]; [`darkness`](Self::darkness) says in words where that is too little.
     pub fn auto_exposure(&self) -> f32 {
+        self.wanted_exposure().0.min(MAX_AUTO_EXPOSURE)
+    }
+
+    /// What there is to say of an image that is dark although it is exposed: nothing is lit, hardly anything, or so faintly that
+    /// more exposure would show noise.
+    pub fn darkness(&self) -> Option<String> {
+        let (wanted, lit) = self.wanted_exposure();
+        if lit == 0.0 {
+            return Some(String::from(
+                "the image is black: nothing that emits is seen, and nothing that is seen is lit; lights may be hidden, face away, \
+                 or be outside of the view",
+            ));
+        }
+        if wanted > MAX_AUTO_EXPOSURE {
+            return Some(format!(
+                "what is seen is so faintly lit that an exposure of {wanted:.0} would be needed, and {MAX_AUTO_EXPOSURE:.0} is taken: \
+                 more would show noise; --exposure sets another one"
+            ));
+        }
+        (lit < MIN_LIT).then(|| format!("only {:.2} % of the image are lit", 100.0 * lit))
+    }
+
+    /// The exposure that [`auto_exposure`](Self::auto_exposure) would take if it were not bounded, and the share of pixels that are not
+    /// black.
+    fn wanted_exposure(&self) -> (f32, f64) {
         let (mut sum, mut count) = (0.0, 0_u32);
         for &pixel in &self.pixels {
             let l = f64::from(luminance(pixel));
@@ -134,10 +167,10 @@ impl Film {
             }
         }
         if count == 0 {
-            1.0
-        } else {
-            (0.18 / (sum / f64::from(count)).exp()) as f32
+            return (1.0, 0.0);
         }
+        let exposure = (0.18 / (sum / f64::from(count)).exp()) as f32;
+        (exposure, f64::from(count) / self.pixels.len() as f64)
     }
 
     /// The image as a screen shows it: tone-mapped 8-bit sRGB after scaling by `exposure`, three bytes per pixel.

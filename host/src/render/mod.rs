@@ -12,7 +12,7 @@ mod tone;
 pub use camera::{View, camera};
 pub use cpu::{render, render_path};
 pub(crate) use film::write_image;
-pub use film::{Film, FilmError};
+pub use film::{Film, FilmError, MAX_AUTO_EXPOSURE};
 pub use output::write_whole;
 pub use power::{PowerError, flux, power_thresholds};
 pub use ray_bvh::{RayBvh, RayBvhError};

@@ -5,6 +5,9 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 
+use gltf::json;
+use serde_json::Value;
+
 use base64::Engine;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 
@@ -86,6 +89,31 @@ fn chunk(bytes: &[u8], at: usize) -> Option<([u8; 4], &[u8], usize)> {
     let kind = *bytes.get(at + 4..)?.first_chunk()?;
     let end = (at + 8).checked_add(length)?;
     Some((kind, bytes.get(at + 8..end)?, end))
+}
+
+/// The JSON part, and how many channels of animations are left out of it: those that name no node, as `KHR_animation_pointer` has
+/// them, which the model does not know.
+pub(super) fn parse(path: &str, text: &[u8]) -> Result<(json::Root, usize), SceneError> {
+    let problem = match json::deserialize::from_slice(text) {
+        Ok(root) => return Ok((root, 0)),
+        Err(error) => broken(path, format!("its JSON part: {error}")),
+    };
+    let Ok(mut value) = serde_json::from_slice::<Value>(text) else {
+        return Err(problem);
+    };
+    let mut left_out = 0;
+    let animations = value.get_mut("animations").and_then(Value::as_array_mut);
+    for animation in animations.into_iter().flatten() {
+        if let Some(channels) = animation.get_mut("channels").and_then(Value::as_array_mut) {
+            let before = channels.len();
+            channels.retain(|channel| channel.pointer("/target/node").is_some());
+            left_out += before - channels.len();
+        }
+    }
+    match json::deserialize::from_value(value) {
+        Ok(root) if left_out > 0 => Ok((root, left_out)),
+        _ => Err(problem),
+    }
 }
 
 /// All buffers, each cut to the length that the JSON claims.

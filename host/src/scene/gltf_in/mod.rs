@@ -4,10 +4,22 @@
 //! hostile ones, so buffers are read here, every range checked before it is used and every count before anything is
 //! allocated for it.
 //!
-//! Read: triangle meshes, instances, node animation, metallic-roughness factors, emission (factor, texture averaged per
-//! triangle, `KHR_materials_emissive_strength`), `doubleSided`, perspective cameras. Radiance is taken as
-//! W/(m² sr) where glTF says nits; only the exposure differs. The rest is left out with a note in
-//! [`super::SceneData::warnings`], or refused where the file says that it is required.
+//! Read:
+//! - triangles, strips and fans, in plain, sparse and quantised accessors (`KHR_mesh_quantization`), compressed views
+//!   (`EXT_meshopt_compression`, `KHR_meshopt_compression`) and Draco streams (`KHR_draco_mesh_compression`);
+//! - instances, animation of nodes and of weights in all interpolations, skins and morph targets, perspective cameras;
+//! - metallic-roughness factors, or specular-glossiness ones; emission by factor, texture averaged per triangle, and
+//!   `KHR_materials_emissive_strength`; `doubleSided`;
+//! - pictures in PNG, JPEG, WebP (`EXT_texture_webp`) and KTX 2 (`KHR_texture_basisu`: eight bits a channel, plain or by Zstandard,
+//!   and what Basis Universal makes), placed by `KHR_texture_transform`. One that cannot be had is noted and counts as white;
+//! - `KHR_materials_transmission` and blended alpha, as the share of light that goes through: surfaces with half or more of it are
+//!   left out unless they emit ([`super::Material::is_clear`]), as the reference renderer has no glass and lamps behind it burn;
+//! - `KHR_materials_unlit`: the colour is emitted, so that it is seen as it is, and nothing is reflected. It lights what is near;
+//! - `KHR_lights_punctual`: kept with the scene, and counted in a note, as nothing samples such lights yet.
+//!
+//! Radiance is taken as W/(m² sr) where glTF says nits; only the exposure differs. The rest is left out with a note in
+//! [`super::SceneData::warnings`], or refused by name where the file says that it is required; of required extensions that only refine
+//! the look of surfaces (`KHR_materials_*`) there is a note too.
 
 mod accessor;
 mod animation;
@@ -66,8 +78,7 @@ impl Scene {
     /// As [`Scene::read_gltf`].
     pub fn read_gltf_slice(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Self, SceneError> {
         let (text, binary) = container::split(name, bytes)?;
-        let root: json::Root = json::deserialize::from_slice(text)
-            .map_err(|error| container::broken(name, format!("its JSON part: {error}")))?;
+        let (root, pointers) = container::parse(name, text)?;
         let mut document = Document {
             path: name,
             folder,
@@ -80,6 +91,11 @@ impl Scene {
             warnings: RefCell::default(),
         };
         document.check_extensions()?;
+        if pointers > 0 {
+            document.warn(format!(
+                "{pointers} channels of animations move no node, and are left out"
+            ));
+        }
         document.buffers = container::buffers(&document, binary)?;
         let mut data = SceneData {
             name: name.to_owned(),
