@@ -115,6 +115,14 @@ fn a_child_that_the_scene_lists_stays_a_child() {
     assert_eq!(scene.frame(0).triangles.len(), 1);
     assert_eq!(scene.frame(0).triangles[0].p[0], [0.0, 0.0, 5.0]);
     warned(&scene, "node 1");
+    // Where its parent is not in the scene it is a root; the higher of two is placed first.
+    push(
+        &mut root["nodes"],
+        json!({ "translation": [0.0, 7.0, 0.0], "children": [0] }),
+    );
+    root["scenes"][0]["nodes"] = json!([1, 0]);
+    let scene = read_json(&root).expect("no harm");
+    assert_eq!(scene.frame(0).triangles[0].p[0], [0.0, 0.0, 5.0]);
 }
 
 #[test]

@@ -1,48 +1,46 @@
 //! The camera of a scene that brings none: it frames what is lit.
 //!
-//! Points on the surfaces and on the lights, spread evenly over area and flux, say what is lit and how well: with shadow rays, each
-//! side of a surface by itself. The part of space that holds nearly all of it is looked at from some places around and in it, and
-//! that place is taken from which most of it is seen. The number of rays is bounded, and small for small scenes.
+//! Light is sent out from points spread evenly over the flux of all lights; where it lands, and the lights themselves, are what there
+//! is to see. The part of space that holds nearly all of it is looked at from some places around and in it, and that place is taken from
+//! which most of it is seen. The number of rays is bounded, and small for small scenes.
 
 use glam::Vec3;
-use lightbvh_kernels::shading::ray::Ray;
-use lightbvh_kernels::shading::trace::{NONE, any_hit};
+use lightbvh_kernels::shading::ray::{FAR, Ray};
+use lightbvh_kernels::shading::trace::{LANES, NONE, any_hit, closest_hit};
 
 use super::camera::{DEFAULT_YFOV, view_of_box};
 use super::frame::Frame;
 use crate::render::{RayBvh, View};
-use crate::vector::{dot, normal, sub};
+use crate::vector::{cross, dot, normal, sub};
 
-/// Points on surfaces, at most and at least.
-const POINTS: (usize, usize) = (32, 512);
+/// Rays that light is sent out on, at least and at most, and how many for each triangle.
+const SENT: (usize, usize, usize) = (64, 384, 4);
 
 /// Points on lights, at most.
-const LIGHTS: usize = 16;
+const LIGHTS: usize = 64;
 
-/// Part of what is lit that may be outside of the image on each side of each axis: a lamp's far end, a distant wall.
+/// What all lights count against all places that they light: enough to be in the image, not so much that nothing else need be.
+const LIGHTS_COUNT: f64 = 0.5;
+
+/// Part of what is to be seen that may be outside of the image on each side of each axis: a lamp's far end, a distant wall.
 const OUTSIDE: f64 = 0.02;
 
 /// Directions that the camera is tried in, degrees around the upward axis and above the horizon; the first from the front, a
 /// little to the right.
 const AROUND: [f64; 8] = [19.0, -26.0, 64.0, -71.0, 109.0, -116.0, 154.0, 199.0];
-const ABOVE: [f64; 2] = [16.0, 40.0];
+const ABOVE: [f64; 3] = [16.0, 40.0, -25.0];
 
-/// Distances that it is tried at, in radii of what is lit, and what a place so far away counts: the whole is rather seen than a part.
-/// The first one has all of it in the image.
-const DISTANCES: [(f64, f64); 3] = [(2.37, 1.0), (0.95, 0.8), (0.5, 0.7)];
+/// Distances that it is tried at, in radii of what is to be seen, and what a place so far away counts: the whole is rather seen than a
+/// part, but from inside where nearly all is hidden from without. The first one has all of it in the image.
+const DISTANCES: [(f64, f64); 3] = [(2.37, 1.0), (0.95, 0.45), (0.5, 0.35)];
 
-/// A point on a surface, and how bright each of its sides is.
+/// A point on a side of a surface.
 struct Point {
     p: [f64; 3],
+    /// Towards the side that is lit; zero where both are.
     n: [f64; 3],
-    front: f64,
-    back: f64,
-}
-
-impl Point {
-    fn brightness(&self) -> f64 {
-        self.front.max(self.back)
-    }
+    /// What it counts.
+    weight: f64,
 }
 
 /// The view of a frame by its triangles, lights and materials.
@@ -54,46 +52,126 @@ pub(super) fn view(frame: &Frame) -> View {
     let Ok(rays) = RayBvh::build(&frame.triangles) else {
         return fallback;
     };
-    let clear = |a: [f64; 3], b: [f64; 3]| {
-        let d = sub(b, a);
-        let [from, along] =
-            [[0, 1, 2].map(|i| a[i] + 1e-3 * d[i]), d].map(|v| Vec3::from(v.map(|x| x as f32)));
-        !any_hit(&rays.surfaces(), &Ray::new(from, along, 0.998), NONE)
-    };
-    let points = lit_points(frame, whole, &clear);
-    let mean = points.iter().map(Point::brightness).sum::<f64>() / points.len().max(1) as f64;
-    if !(mean > 0.0 && mean.is_finite()) {
+    let points = points(frame, &rays, sub(whole.1, whole.0));
+    if points.is_empty() {
         return fallback;
     }
-    // A lamp is a thousand times as bright as what it lights; seen, both count much the same.
-    let shown = |brightness: f64| brightness / (brightness + mean);
-    let (low, high) = part_that_holds(&points, shown);
+    let (low, high) = part_that_holds(&points);
     let narrow = libm::cos(0.5 * f64::from(DEFAULT_YFOV));
     let mut best = (0.0, fallback);
     for (distance, counts) in DISTANCES {
         for direction in directions() {
             let view = view_of_box(low, high, direction, distance);
             let eye = view.eye.map(f64::from);
-            let forward = direction.map(|x| -x);
+            let forward = view.forward.map(f64::from);
             let mut score = 0.0;
-            for point in &points {
-                let d = sub(point.p, eye);
-                let length = dot(d, d).sqrt();
-                let side = if dot(d, point.n) < 0.0 {
-                    point.front
-                } else {
-                    point.back
-                };
-                if side > 0.0 && dot(d, forward) > narrow * length && clear(eye, point.p) {
-                    score += shown(side);
+            for Point { p, n, weight } in &points {
+                let d = sub(*p, eye);
+                let seen = dot(d, *n) <= 0.0 && dot(d, forward) > narrow * dot(d, d).sqrt();
+                if seen && clear(&rays, eye, *p) {
+                    score += weight * counts;
                 }
             }
-            if score * counts > best.0 {
-                best = (score * counts, view);
+            if score > best.0 {
+                best = (score, view);
             }
         }
     }
     best.1
+}
+
+/// Whether nothing lies between two points.
+fn clear(rays: &RayBvh, from: [f64; 3], to: [f64; 3]) -> bool {
+    let ray = Ray::new(narrowed(from), narrowed(sub(to, from)), 0.999);
+    !any_hit(&rays.surfaces(), &ray, NONE)
+}
+
+fn narrowed(v: [f64; 3]) -> Vec3 {
+    Vec3::from(v.map(|x| x as f32))
+}
+
+/// Where light lands, and where it comes from.
+fn points(frame: &Frame, rays: &RayBvh, size: [f64; 3]) -> Vec<Point> {
+    let luminance = |rgb: [f32; 3]| rgb.iter().map(|&channel| f64::from(channel)).sum::<f64>() / 3.0;
+    let flux: Vec<f64> = frame
+        .emissive
+        .iter()
+        .map(|light| area(&light.p) * luminance(light.radiance))
+        .collect();
+    let mut points = Vec::new();
+    let sent = (SENT.2 * frame.triangles.len()).clamp(SENT.0, SENT.1);
+    let step = 1e-6 * dot(size, size).sqrt();
+    for (index, i) in spread(&flux, sent) {
+        let light = &frame.emissive[index];
+        let n = unit(normal(light.p));
+        // Every other ray from the back.
+        let n = if light.is_two_sided() && i % 2 == 1 {
+            n.map(|x| -x)
+        } else {
+            n
+        };
+        let d = cosine(n, i);
+        let start = inside(&light.p, i);
+        let start = [0, 1, 2].map(|axis| start[axis] + step * d[axis]);
+        let hit = closest_hit(&rays.surfaces(), &Ray::new(narrowed(start), narrowed(d), FAR));
+        let (block, lane) = (hit.triangle as usize / LANES, hit.triangle as usize % LANES);
+        let Some(triangle) = rays.blocks.get(block).and_then(|block| block.get(lane)) else {
+            continue;
+        };
+        let reflects = frame
+            .materials
+            .get(triangle.material as usize)
+            .map_or(0.0, |material| {
+                luminance(material.albedo) + f64::from(material.specular)
+            });
+        let n = unit(normal(triangle.p));
+        points.push(Point {
+            p: [0, 1, 2].map(|axis| start[axis] + f64::from(hit.t) * d[axis]),
+            n: if dot(n, d) > 0.0 { n.map(|x| -x) } else { n },
+            weight: reflects,
+        });
+    }
+    let lit: f64 = points.iter().map(|point| point.weight).sum();
+    points.retain(|point| point.weight > 0.0);
+    let count = LIGHTS.min(4 * flux.len());
+    let all = if lit > 0.0 { LIGHTS_COUNT * lit } else { 1.0 };
+    let weight = all / count.max(1) as f64;
+    points.extend(spread(&flux, count).map(|(index, i)| {
+        let light = &frame.emissive[index];
+        let n = if light.is_two_sided() {
+            [0.0; 3]
+        } else {
+            unit(normal(light.p))
+        };
+        let p = inside(&light.p, i);
+        Point { p, n, weight }
+    }));
+    points
+}
+
+/// The `i`-th of directions about `n`, as often as a diffuse light sends light there.
+fn cosine(n: [f64; 3], i: usize) -> [f64; 3] {
+    let [_, _, u, v] = sequence(i);
+    let beside = unit(cross(
+        n,
+        if n[0].abs() < 0.5 {
+            [1.0, 0.0, 0.0]
+        } else {
+            [0.0, 1.0, 0.0]
+        },
+    ));
+    let above = cross(n, beside);
+    let (angle, flat) = (std::f64::consts::TAU * u, v.sqrt());
+    let (x, y, z) = (libm::cos(angle) * flat, libm::sin(angle) * flat, (1.0 - v).sqrt());
+    [0, 1, 2].map(|axis| x * beside[axis] + y * above[axis] + z * n[axis])
+}
+
+/// The `i`-th of evenly spread points of four numbers: fractions of multiples of the powers of 1 / 1.16730, the root of x⁵ = x + 1
+/// (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018).
+fn sequence(i: usize) -> [f64; 4] {
+    const ROOT: f64 = 1.167_303_978_261_418_7;
+    let powers = [ROOT, ROOT * ROOT, ROOT * ROOT * ROOT, ROOT * ROOT * ROOT * ROOT];
+    powers.map(|power| (0.5 + i as f64 / power) % 1.0)
 }
 
 /// Unit vectors towards the camera.
@@ -109,63 +187,6 @@ fn directions() -> impl Iterator<Item = [f64; 3]> {
             ]
         })
     })
-}
-
-/// Points spread evenly over the area of all surfaces, lit by points spread evenly over the flux of all lights.
-fn lit_points(
-    frame: &Frame,
-    (low, high): ([f64; 3], [f64; 3]),
-    clear: &impl Fn([f64; 3], [f64; 3]) -> bool,
-) -> Vec<Point> {
-    // No closer than this counts: else a point beside a lamp would be all that is lit.
-    let near = 1e-4 * dot(sub(high, low), sub(high, low));
-    let luminance = |rgb: [f32; 3]| rgb.iter().map(|&channel| f64::from(channel)).sum::<f64>() / 3.0;
-    let flux: Vec<f64> = frame
-        .emissive
-        .iter()
-        .map(|light| area(&light.p) * luminance(light.radiance))
-        .collect();
-    let lamps: Vec<([f64; 3], [f64; 3], bool)> = spread(&flux, LIGHTS.min(flux.len()))
-        .map(|(index, i)| {
-            let light = &frame.emissive[index];
-            (inside(&light.p, i), unit(normal(light.p)), light.is_two_sided())
-        })
-        .collect();
-    let areas: Vec<f64> = frame.triangles.iter().map(|triangle| area(&triangle.p)).collect();
-    let count = areas.len().clamp(POINTS.0, POINTS.1);
-    let point = |(index, i): (usize, usize)| {
-        let triangle = &frame.triangles[index];
-        let (p, n) = (inside(&triangle.p, i), unit(normal(triangle.p)));
-        let mut sides = [0.0; 2];
-        for &(lamp, axis, two_sided) in &lamps {
-            let d = sub(lamp, p);
-            let squared = dot(d, d).max(near);
-            let from = -dot(d, axis) / squared.sqrt();
-            let from = if two_sided { from.abs() } else { from.max(0.0) };
-            let to = dot(d, n) / squared.sqrt();
-            if from > 0.0 && to != 0.0 && clear(lamp, p) {
-                sides[usize::from(to < 0.0)] += from * to.abs() / squared;
-            }
-        }
-        let reflects = frame
-            .materials
-            .get(triangle.material as usize)
-            .map_or(0.0, |material| {
-                luminance(material.albedo) + f64::from(material.specular)
-            });
-        let per_lamp = flux.iter().sum::<f64>() / lamps.len().max(1) as f64;
-        let [mut front, mut back] = sides.map(|side| side * reflects * per_lamp / std::f64::consts::PI);
-        if let Some(light) = frame.emissive.get(triangle.light as usize) {
-            front += luminance(light.radiance);
-            back += if light.is_two_sided() {
-                luminance(light.radiance)
-            } else {
-                0.0
-            };
-        }
-        Point { p, n, front, back }
-    };
-    spread(&areas, count).map(point).collect()
 }
 
 /// `count` indices, each as often as its weight says, with a running number. None where there is no weight.
@@ -187,29 +208,23 @@ fn spread(weights: &[f64], count: usize) -> impl Iterator<Item = (usize, usize)>
     })
 }
 
-/// The `i`-th of points spread over a triangle (R. Martin Roberts' sequence, by the plastic number, folded).
+/// The `i`-th of points spread over a triangle.
 fn inside(p: &[[f32; 3]; 3], i: usize) -> [f64; 3] {
-    let (u, v) = (
-        (0.5 + 0.754_877_666_246_692_8 * i as f64) % 1.0,
-        (0.5 + 0.569_840_290_998_053_2 * i as f64) % 1.0,
-    );
+    let [u, v, ..] = sequence(i);
     let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
     let [a, b, c] = p.map(|vertex| vertex.map(f64::from));
     [0, 1, 2].map(|axis| a[axis] + u * (b[axis] - a[axis]) + v * (c[axis] - a[axis]))
 }
 
-/// The box that leaves [`OUTSIDE`] of what is shown out on each side of each axis.
-fn part_that_holds(points: &[Point], shown: impl Fn(f64) -> f64) -> ([f64; 3], [f64; 3]) {
-    let total: f64 = points.iter().map(|point| shown(point.brightness())).sum();
+/// The box that leaves [`OUTSIDE`] of what is to be seen out on each side of each axis.
+fn part_that_holds(points: &[Point]) -> ([f64; 3], [f64; 3]) {
+    let part = OUTSIDE * points.iter().map(|point| point.weight).sum::<f64>();
     let (mut low, mut high) = ([0.0; 3], [0.0; 3]);
     for axis in 0..3 {
-        let mut along: Vec<(f64, f64)> = points
-            .iter()
-            .map(|point| (point.p[axis], shown(point.brightness())))
-            .collect();
+        let mut along: Vec<(f64, f64)> = points.iter().map(|point| (point.p[axis], point.weight)).collect();
         along.sort_by(|a, b| a.0.total_cmp(&b.0));
-        low[axis] = reached(along.iter(), OUTSIDE * total);
-        high[axis] = reached(along.iter().rev(), OUTSIDE * total);
+        low[axis] = reached(along.iter(), part);
+        high[axis] = reached(along.iter().rev(), part);
     }
     (low, high)
 }

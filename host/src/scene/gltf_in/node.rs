@@ -16,42 +16,90 @@ pub(super) fn read(document: &Document<'_>, data: &mut SceneData) -> Result<Vec<
     let nodes = &document.root.nodes;
     let parents = parents(document)?;
     let (roots, listed) = roots(document, &parents, data)?;
-
-    // Lowest index first among those whose parent is placed: files that are in order keep their order.
-    let mut ready: BinaryHeap<Reverse<usize>> = roots.into_iter().map(Reverse).collect();
-    let mut place: Vec<Option<u32>> = vec![None; nodes.len()];
-    let mut cameras = Vec::new();
-    while let Some(Reverse(index)) = ready.pop() {
-        if place[index].is_some() {
-            continue;
-        }
-        place[index] = Some(data.nodes.len() as u32);
-        let parent = parents[index].and_then(|parent| place[parent]);
-        add(document, index, parent, data, &mut cameras)?;
-        ready.extend(
-            nodes[index]
-                .children
-                .iter()
-                .flatten()
-                .map(|child| Reverse(child.value())),
-        );
-    }
-    // Some exporters list every node. It is no harm where the parent is in the scene; a cycle has no such parent.
-    for (node, parent) in &listed {
-        if place[*node].is_none() {
-            let problem = format!("node {node} is a root, and also a child of node {parent}");
+    let mut placing = Placing {
+        document,
+        parents: &parents,
+        place: vec![None; nodes.len()],
+        cameras: Vec::new(),
+    };
+    placing.tree(roots, data)?;
+    // Some exporters list nodes that have a parent. Where the parent is in the scene they stay its children; where it is not, they are
+    // roots, the highest ones first.
+    let depths = depths(document, &parents);
+    let mut left = Vec::new();
+    for &(node, parent) in &listed {
+        let Some(depth) = depths[node] else {
+            let problem = format!("node {node} is a root, and also a child of node {parent}, in a cycle");
             return Err(document.malformed("scene.nodes", problem, "list only nodes without a parent"));
-        }
+        };
+        left.push((depth, node));
+    }
+    left.sort_unstable();
+    for (_, node) in left {
+        placing.tree(vec![node], data)?;
     }
     if let Some((node, parent)) = listed.first() {
         document.warn(format!(
-            "scene.nodes lists node {node} and others, which are children, of node {parent} and others: they stay those"
+            "scene.nodes lists {} nodes that have a parent, the first one node {node} of node {parent}: they stay with it where it is in the \
+             scene",
+            listed.len()
         ));
     }
+    let Placing {
+        place, mut cameras, ..
+    } = placing;
     // The file's first camera is the one to see from, wherever its node stands.
     cameras.sort_by_key(|&(index, _)| index);
     data.cameras = cameras.into_iter().map(|(_, camera)| camera).collect();
     Ok(place)
+}
+
+/// Nodes on their way into the scene.
+struct Placing<'d, 'a> {
+    document: &'d Document<'a>,
+    parents: &'d [Option<usize>],
+    /// Where each of the file's nodes went.
+    place: Vec<Option<u32>>,
+    /// With their index in the file.
+    cameras: Vec<(usize, Camera)>,
+}
+
+impl Placing<'_, '_> {
+    /// Places nodes and all below them that are not placed yet: lowest index first among those whose parent is placed, so that files
+    /// that are in order keep their order.
+    fn tree(&mut self, roots: Vec<usize>, data: &mut SceneData) -> Result<(), SceneError> {
+        let mut ready: BinaryHeap<Reverse<usize>> = roots.into_iter().map(Reverse).collect();
+        while let Some(Reverse(index)) = ready.pop() {
+            if self.place[index].is_some() {
+                continue;
+            }
+            self.place[index] = Some(data.nodes.len() as u32);
+            let parent = self.parents[index].and_then(|parent| self.place[parent]);
+            add(self.document, index, parent, data, &mut self.cameras)?;
+            let children = self.document.root.nodes[index].children.iter().flatten();
+            ready.extend(children.map(|child| Reverse(child.value())));
+        }
+        Ok(())
+    }
+}
+
+/// How many ancestors each node has; `None` for nodes of cycles and below them.
+fn depths(document: &Document<'_>, parents: &[Option<usize>]) -> Vec<Option<u32>> {
+    let mut depths = vec![None; parents.len()];
+    let mut next: Vec<usize> = (0..parents.len())
+        .filter(|&node| parents[node].is_none())
+        .collect();
+    let mut depth = 0;
+    while !next.is_empty() {
+        let mut below = Vec::new();
+        for node in next {
+            depths[node] = Some(depth);
+            let children = document.root.nodes[node].children.iter().flatten();
+            below.extend(children.map(|child| child.value()));
+        }
+        (next, depth) = (below, depth + 1);
+    }
+    depths
 }
 
 /// The parent of each node; refuses nodes with two (glTF 2.0, section 3.5.1: node hierarchies are trees).
