@@ -213,6 +213,35 @@ fn pictures_of_every_kind() {
     }
 }
 
+/// A block of Basis Universal's UASTC, mode 8: one colour, here white; the rest of the block are hints for other formats.
+#[test]
+fn pictures_by_basis_universal() {
+    let block = [
+        0xf7, 0xff, 0xff, 0xff, 0xdf, 8, 212, 137, 56, 144, 107, 221, 18, 48, 132, 45,
+    ];
+    // Length; the descriptor's kind, version and length; colour model UASTC, sRGB, blocks of 4 by 4, 16 bytes; one sample.
+    let mut descriptor = vec![44, 0, 0, 0, 0, 0, 0, 0, 2, 0, 40, 0, 166, 1, 2, 0, 3, 3, 0, 0, 16];
+    descriptor.resize(44, 0);
+    descriptor[30] = 127;
+    descriptor[40..].fill(255);
+    let mut picture = ktx2(0, [4, 4], 0, &block, 16);
+    picture[48..56].copy_from_slice(&[120, 0, 0, 0, 44, 0, 0, 0]);
+    picture.extend(descriptor);
+    let mut root = textured(RIGHT, &picture);
+    root["textures"] = json!([{ "extensions": { "KHR_texture_basisu": { "source": 0 } } }]);
+    let scene = read_json(&root).expect("a sound file");
+    assert_eq!(scene.frame(0).emissive[0].radiance, [1.0, 0.5, 0.25]);
+    assert!(scene.warnings().is_empty(), "{:?}", scene.warnings());
+    // Half as bright: 188 of 255 is 0.5 linear.
+    for (byte, with) in [(0, 0x97), (1, 0x97), (2, 0x97), (3, 0xf7)] {
+        picture[104 + byte] = with;
+    }
+    let mut root = textured(RIGHT, &picture);
+    root["textures"] = json!([{ "extensions": { "KHR_texture_basisu": { "source": 0 } } }]);
+    let [red, ..] = radiance(&root).expect("still bright");
+    assert!((red - 0.503).abs() < 2e-3, "{red}");
+}
+
 #[test]
 fn a_picture_that_cannot_be_had_is_noted_and_white() {
     let png = png_white_black();

@@ -20,19 +20,19 @@ const SENT: (usize, usize, usize) = (64, 384, 4);
 const LIGHTS: usize = 64;
 
 /// What all lights count against all places that they light: enough to be in the image, not so much that nothing else need be.
-const LIGHTS_COUNT: f64 = 0.5;
+const LIGHTS_COUNT: f64 = 0.15;
 
 /// Part of what is to be seen that may be outside of the image on each side of each axis: a lamp's far end, a distant wall.
 const OUTSIDE: f64 = 0.02;
 
 /// Directions that the camera is tried in, degrees around the upward axis and above the horizon; the first from the front, a
-/// little to the right.
+/// little to the right. From below floors hide what is lit on them, and nobody looks from there.
 const AROUND: [f64; 8] = [19.0, -26.0, 64.0, -71.0, 109.0, -116.0, 154.0, 199.0];
-const ABOVE: [f64; 3] = [16.0, 40.0, -25.0];
+const ABOVE: [(f64, f64); 3] = [(16.0, 1.0), (40.0, 1.0), (-25.0, 0.6)];
 
 /// Distances that it is tried at, in radii of what is to be seen, and what a place so far away counts: the whole is rather seen than a
 /// part, but from inside where nearly all is hidden from without. The first one has all of it in the image.
-const DISTANCES: [(f64, f64); 3] = [(2.37, 1.0), (0.95, 0.45), (0.5, 0.35)];
+const DISTANCES: [(f64, f64); 3] = [(2.37, 1.0), (0.95, 0.6), (0.5, 0.5)];
 
 /// A point on a side of a surface.
 struct Point {
@@ -60,7 +60,7 @@ pub(super) fn view(frame: &Frame) -> View {
     let narrow = libm::cos(0.5 * f64::from(DEFAULT_YFOV));
     let mut best = (0.0, fallback);
     for (distance, counts) in DISTANCES {
-        for direction in directions() {
+        for (direction, of_direction) in directions() {
             let view = view_of_box(low, high, direction, distance);
             let eye = view.eye.map(f64::from);
             let forward = view.forward.map(f64::from);
@@ -69,7 +69,7 @@ pub(super) fn view(frame: &Frame) -> View {
                 let d = sub(*p, eye);
                 let seen = dot(d, *n) <= 0.0 && dot(d, forward) > narrow * dot(d, d).sqrt();
                 if seen && clear(&rays, eye, *p) {
-                    score += weight * counts;
+                    score += weight * counts * of_direction;
                 }
             }
             if score > best.0 {
@@ -174,17 +174,18 @@ fn sequence(i: usize) -> [f64; 4] {
     powers.map(|power| (0.5 + i as f64 / power) % 1.0)
 }
 
-/// Unit vectors towards the camera.
-fn directions() -> impl Iterator<Item = [f64; 3]> {
-    ABOVE.into_iter().flat_map(|above| {
+/// Unit vectors towards the camera, and what each counts.
+fn directions() -> impl Iterator<Item = ([f64; 3], f64)> {
+    ABOVE.into_iter().flat_map(|(above, counts)| {
         AROUND.into_iter().map(move |around| {
             let [around, above] = [around, above].map(f64::to_radians);
             let flat = libm::cos(above);
-            [
+            let towards = [
                 libm::sin(around) * flat,
                 libm::sin(above),
                 libm::cos(around) * flat,
-            ]
+            ];
+            (towards, counts)
         })
     })
 }
