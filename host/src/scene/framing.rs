@@ -26,13 +26,14 @@ const LIGHTS_COUNT: f64 = 0.15;
 const OUTSIDE: f64 = 0.02;
 
 /// Directions that the camera is tried in, degrees around the upward axis and above the horizon; the first from the front, a
-/// little to the right. From below floors hide what is lit on them, and nobody looks from there.
+/// little to the right. From below floors hide what is lit on them, and nobody looks from there; of what shows as well from behind, the
+/// front is wanted.
 const AROUND: [f64; 8] = [19.0, -26.0, 64.0, -71.0, 109.0, -116.0, 154.0, 199.0];
 const ABOVE: [(f64, f64); 3] = [(16.0, 1.0), (40.0, 1.0), (-25.0, 0.6)];
 
 /// Distances that it is tried at, in radii of what is to be seen, and what a place so far away counts: the whole is rather seen than a
 /// part, but from inside where nearly all is hidden from without. The first one has all of it in the image.
-const DISTANCES: [(f64, f64); 3] = [(2.37, 1.0), (0.95, 0.6), (0.5, 0.5)];
+const DISTANCES: [(f64, f64); 3] = [(2.37, 1.0), (0.95, 0.48), (0.5, 0.42)];
 
 /// A point on a side of a surface.
 struct Point {
@@ -185,7 +186,8 @@ fn directions() -> impl Iterator<Item = ([f64; 3], f64)> {
                 libm::sin(above),
                 libm::cos(around) * flat,
             ];
-            (towards, counts)
+            let counts_around = if towards[2] < 0.0 { 0.9 } else { 1.0 };
+            (towards, counts * counts_around)
         })
     })
 }
