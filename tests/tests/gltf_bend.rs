@@ -122,7 +122,8 @@ fn what_cannot_bend_is_named() {
         change(&mut data);
         Scene::new(data).expect_err("must be refused").to_string()
     };
-    let cases: [(fn(&mut SceneData), &str); 14] = [
+    type Case = (fn(&mut SceneData), &'static str);
+    let cases: [Case; 14] = [
         (|data| data.nodes[1].skin = Some(1), "skin of node 1"),
         (|data| data.skins[0].joints[1] = 9, "joint of skin 0"),
         (
