@@ -40,8 +40,9 @@ pub(super) struct Top {
     pub root: u32,
     /// By number of a node of it: the node's index, [`INVALID`] where the number is free.
     pub nodes: Vec<u32>,
-    /// Which numbers are in use.
+    /// Which numbers are in use, and how many.
     pub numbers: Ranges,
+    pub used: usize,
     /// By index of a node: its number, [`INVALID`] where it is no node of the top level. As long as needed.
     pub number_of: Vec<u32>,
     /// By number: levels from this node down, 1 where all children are instances.
@@ -196,6 +197,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let numbers = self.top.nodes.len();
         let used = (0..).zip(&self.top.nodes).filter(|&(_, &node)| node != INVALID);
         let used: Vec<_> = used.map(|(number, _)| number..number + 1).collect();
+        self.top.used = used.len();
         self.top.numbers = Ranges::taken(numbers as u32, used).unwrap_or_default();
         self.reserve_numbers();
         for number in 0..numbers {

@@ -11,8 +11,8 @@ use crate::node::{LightNode, kind};
 use crate::trail::max_levels;
 use crate::tree::INVALID;
 
-/// Most instances and subtrees that are put into a part anew since they came while it was built. Where there are more it is given up,
-/// and tried again: a frame would take longer than it may.
+/// Most instances and subtrees that are put into a part anew since they came while it was built, and most that are taken out of its tree
+/// since they went. Where there are more it is given up, and tried again: a frame would take longer than it may.
 const MOST: usize = 64;
 
 /// What is below the root of a part now, of what a tree was built over.
@@ -47,7 +47,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             return;
         }
         let found = self.sort_out(root, tree, since);
-        if tree.root.is_some() && found.instances.len() + found.subtrees.len() > MOST {
+        if tree.root.is_some() && !self.is_like(tree, &found) {
             return;
         }
         let above = (root != self.top.root).then(|| (self.parents[root as usize], self.slot_above(root)));
@@ -101,6 +101,18 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.insert_subtrees(found.subtrees);
         self.reopen(&tree.open, &tree.close);
         self.settle();
+    }
+
+    /// Whether a part is nearly what its tree was built over, and the tree's nodes, of which some are given back once they are found to miss
+    /// children, have a number each: there are as many as records of instances.
+    fn is_like(&self, tree: &TopTree<N>, found: &Found) -> bool {
+        let names = tree.names.iter().filter(|&&name| self.is_marked(name, found.mark));
+        let kept = tree.kept.iter();
+        let kept = kept.filter(|part| self.top.marks.get(part.number as usize) == Some(&found.mark));
+        let gone = tree.names.len() + tree.kept.len() - names.count() - kept.count();
+        let come = found.instances.len() + found.subtrees.len();
+        let used = self.top.used + tree.nodes.len() - found.nodes.len();
+        come <= MOST && gone <= MOST && used <= self.instances.len()
     }
 
     /// Levels of a tree with the subtrees that it keeps.

@@ -17,6 +17,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.nodes[node as usize] = N::EMPTY;
         self.parents[node as usize] = INVALID;
         let number = self.top.numbers.take(1).start;
+        self.top.used += 1;
         put(&mut self.top.nodes, number, node, &INVALID);
         self.reserve_numbers();
         self.top.edits[number as usize] = 0;
@@ -40,6 +41,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.top.number_of[node as usize] = INVALID;
         self.top.nodes[number as usize] = INVALID;
         self.top.numbers.give(number..number + 1);
+        self.top.used -= 1;
         self.node_ranges.give(node..node + 1);
         self.top.levels = None;
     }
