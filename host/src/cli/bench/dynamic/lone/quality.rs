@@ -25,8 +25,11 @@ pub(in crate::cli::bench) struct Quality {
     pub fresh: f64,
     /// The same for the median of the points' ratios.
     pub median_ratio: f64,
-    /// Of the means.
+    /// Their geometric mean. The means' own would be that of the few points that lie beside a light, whose variances are those of chance.
     pub ratio: f64,
+    /// Of nine in ten, and of the worst point.
+    pub ninth_ratio: f64,
+    pub most_ratio: f64,
 }
 
 /// Makes so many edits and compares.
@@ -74,7 +77,9 @@ pub(super) fn measure(edits: u32) -> Quality {
         edited: mean(&edited),
         fresh: mean(&fresh),
         median_ratio: ratios.get(ratios.len() / 2).copied().unwrap_or(f64::NAN),
-        ratio: mean(&edited) / mean(&fresh),
+        ratio: mean(&ratios.iter().map(|ratio| ratio.ln()).collect::<Vec<_>>()).exp(),
+        ninth_ratio: ratios.get(ratios.len() * 9 / 10).copied().unwrap_or(f64::NAN),
+        most_ratio: ratios.last().copied().unwrap_or(f64::NAN),
     }
 }
 
