@@ -12,7 +12,7 @@ use crate::cli::bench::trade::diffuse;
 
 /// Instances of the scene, and points where variance is taken.
 const INSTANCES: u32 = 10_000;
-const POINTS: u32 = 100;
+const POINTS: u32 = 400;
 
 /// The variance of one light sample, over the square of the mean, of unshadowed diffuse light.
 #[derive(Clone, Debug, Serialize)]

@@ -174,14 +174,16 @@ pub(in crate::cli::bench) fn print(report: &super::Report) -> io::Result<()> {
     )?;
     let quality = &report.quality;
     say!(
-        "\nvariance after {} edits of {} instances, without a rebuild: {:.4}; of a top level built over the same: {:.4}; ratio {:.3}, \
-         median of the points' {:.3}",
+        "\nvariance after {} edits of {} instances, without a rebuild: {:.4}; of a top level built over the same: {:.4}; ratio at a point {:.3} (geometric mean), \
+         {:.3} (median), at most {:.2} at nine in ten points, {:.2} at the worst",
         quality.edits,
         quality.instances,
         quality.edited,
         quality.fresh,
         quality.ratio,
-        quality.median_ratio
+        quality.median_ratio,
+        quality.ninth_ratio,
+        quality.most_ratio
     )?;
     for left_out in &report.left_out {
         say!("left out: {left_out}")?;
