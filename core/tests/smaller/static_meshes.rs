@@ -14,6 +14,7 @@ type Default8 = Bvh<MomentNode<8>, Defensive<Moments, 6>, 8>;
 const PARAMS: RebuilderParams = RebuilderParams {
     bytes: 1 << 19,
     meshes: 2,
+    leaves: 1536,
     rebuild: RebuildParams { top: 1.0, drift: 1.5 },
     after: 1,
     swap: Swap::Deterministic,
