@@ -106,7 +106,10 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Whether a part is nearly what its tree was built over, and the tree's nodes, of which some are given back once they are found to miss
     /// children, have a number each: there are as many as records of instances.
     fn is_like(&self, tree: &TopTree<N>, found: &Found) -> bool {
-        let names = tree.names.iter().filter(|&&name| self.is_marked(name, found.mark));
+        let names = tree
+            .names
+            .iter()
+            .filter(|&&name| self.is_marked(name, found.mark));
         let kept = tree.kept.iter();
         let kept = kept.filter(|part| self.top.marks.get(part.number as usize) == Some(&found.mark));
         let gone = tree.names.len() + tree.kept.len() - names.count() - kept.count();
