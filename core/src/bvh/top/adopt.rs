@@ -11,9 +11,12 @@ use crate::node::{LightNode, kind};
 use crate::trail::max_levels;
 use crate::tree::INVALID;
 
-/// Most instances and subtrees that are put into a part anew since they came while it was built, and most that are taken out of its tree
-/// since they went. Where there are more it is given up, and tried again: a frame would take longer than it may.
+/// Most instances and subtrees that are put into a part anew since they came while it was built. Where there are more it is given up,
+/// and tried again: a frame would take longer than it may.
 const MOST: usize = 64;
+/// Most that are taken out of its tree since they went, or are in a subtree that was built anew: up to as many as a node has children go
+/// at a time.
+const MOST_GONE: usize = 4 * MOST;
 
 /// What is below the root of a part now, of what a tree was built over.
 #[derive(Debug, Default)]
@@ -115,7 +118,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let gone = tree.names.len() + tree.kept.len() - names.count() - kept.count();
         let come = found.instances.len() + found.subtrees.len();
         let used = self.top.used + tree.nodes.len() - found.nodes.len();
-        come <= MOST && gone <= MOST && used <= self.instances.len()
+        come <= MOST && gone <= MOST_GONE && used <= self.instances.len()
     }
 
     /// Levels of a tree with the subtrees that it keeps.

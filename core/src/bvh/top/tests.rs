@@ -357,3 +357,37 @@ fn a_part_above_parts_comes_in_beside_edits() {
         assert_eq!(stats.instances as usize, ids.len());
     }
 }
+
+/// A binary tree has nearly as many nodes as instances, so where many left a part, what was built for it has more nodes than there are
+/// records for. It is given up then.
+#[cfg(feature = "std")]
+#[test]
+fn a_part_whose_nodes_would_have_no_records_is_given_up() {
+    for leave in [0, 20, 100] {
+        let mut scene = Bvh::<CompactNode<2>, crate::Eq4, 2>::default();
+        let mesh = lamp(&mut scene);
+        let random = &mut Random(9);
+        let add = (0..2400).map(|_| Edit::AddInstance {
+            mesh,
+            transform: Transform::at((random.vector() * 50.0).to_array()),
+            radiance: 1.0,
+        });
+        scene.apply(add.collect()).expect("instances");
+        scene.refit();
+        let part = scene.nodes[scene.top.root as usize].link(0);
+        let copy = scene.copy_part(part, f64::INFINITY);
+        let since = scene.epoch;
+        let tree = copy.build::<2>(&scene.params);
+        let below = scene.below(part).1;
+        let far = Transform::at([500.0, 500.0, 500.0]);
+        for &(index, _) in below.iter().take(leave) {
+            let id = scene.instance_id(index).expect("there");
+            scene.set_transform(id, far).expect("in the domain");
+        }
+        let births = scene.top.births;
+        scene.install_top(&tree, since);
+        assert_eq!(scene.top.births > births, leave == 0, "{leave}");
+        scene.refit();
+        scene.validate().expect("valid");
+    }
+}
