@@ -9,7 +9,7 @@ mod report;
 mod times;
 
 use lightbvh::Rebuilder;
-use lightbvh::bvh::{RebuilderParams, Swap};
+use lightbvh::bvh::{RebuildParams, RebuilderParams, Swap};
 
 use self::clock::Timed;
 use self::edits::World;
@@ -132,15 +132,23 @@ fn soak(context: &Context, args: &Args, opened: &[devices::Opened]) -> Result<Re
     })
 }
 
+/// By both kinds of swap in turn; twice whatever has changed, so that much is taken over, and twice what is due by default.
 fn rebuilder(turn: u32) -> Rebuilder {
-    let deterministic = RebuilderParams {
-        after: AFTER,
-        swap: Swap::Deterministic,
+    let rebuild = match turn % 4 {
+        0 | 1 => RebuildParams::eager(),
+        _ => RebuildParams::default(),
+    };
+    let when_ready = RebuilderParams {
+        rebuild,
         ..RebuilderParams::default()
     };
     Rebuilder::new(if turn.is_multiple_of(2) {
-        RebuilderParams::default()
+        when_ready
     } else {
-        deterministic
+        RebuilderParams {
+            after: AFTER,
+            swap: Swap::Deterministic,
+            ..when_ready
+        }
     })
 }
