@@ -182,7 +182,14 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             self.replace_top(&topology.nodes);
         }
         self.changes.new.whole_top = true;
-        self.top.is_new = true;
+        // Edits before the next refit go by what nodes know, and what they change is no tree as built.
+        let levels = self.top.by_height();
+        for range in levels.ranges() {
+            for &node in &levels.nodes()[range] {
+                self.refit_node(node);
+                self.judge_new(node);
+            }
+        }
     }
 
     /// What is known of an instance in the world.

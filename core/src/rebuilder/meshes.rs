@@ -315,6 +315,10 @@ impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
             *count += 1;
             // A part that came to nothing is looked for again once its mesh changes.
             self.is_lost |= !is_adopted && !flight.is_part;
+            // What changed while it was built may have worn the new tree already, and nobody asks for it again.
+            if is_adopted && !flight.is_part && scene.is_worn(flight.blas, &params.rebuild) {
+                self.waiting.push(flight.blas);
+            }
         }
         result
     }

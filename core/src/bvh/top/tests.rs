@@ -391,3 +391,61 @@ fn a_part_whose_nodes_would_have_no_records_is_given_up() {
         scene.validate().expect("valid");
     }
 }
+
+/// Edits between a batch that builds the top level and the first refit find nodes that know what is below them, and count as edits of a
+/// built tree.
+#[test]
+fn edits_before_the_first_refit_are_put_where_they_belong() {
+    let random = &mut Random(21);
+    let mut trees = vec![];
+    for refits in [true, false] {
+        let mut scene = LightBvh::default();
+        let mesh = lamp(&mut scene);
+        random.0 = 21;
+        let place = |random: &mut Random| Transform::at((random.vector() * 50.0).to_array());
+        let add = (0..2000).map(|_| Edit::AddInstance {
+            mesh,
+            transform: place(random),
+            radiance: 1.0,
+        });
+        let add: vec::Vec<_> = add.collect();
+        let ids = scene.apply(add).expect("instances").instances;
+        if refits {
+            scene.refit();
+        }
+        for _ in 0..200 {
+            scene.add_instance(mesh, place(random)).expect("one more");
+        }
+        scene.refit();
+        trees.push(scene.depth());
+        // All moved in the frame that added them: the tree is worse than as built, and due.
+        if !refits {
+            let moves = ids.iter().map(|&instance| Edit::SetTransform {
+                instance,
+                transform: place(random),
+            });
+            let moves: vec::Vec<_> = moves.collect();
+            let mut scene = LightBvh::default();
+            let mesh = lamp(&mut scene);
+            let add = (0..2000).map(|k| Edit::AddInstance {
+                mesh,
+                transform: Transform::at([k as f32, 0.0, 0.0]),
+                radiance: 1.0,
+            });
+            let ids = scene.apply(add.collect()).expect("instances").instances;
+            let there = ids.iter().zip(moves).map(|(&instance, edit)| match edit {
+                Edit::SetTransform { transform, .. } => Edit::SetTransform { instance, transform },
+                other => other,
+            });
+            scene.apply(there.collect()).expect("moves");
+            scene.refit();
+            let root = scene.top.root;
+            assert!(
+                scene.quality(root).drift() > 1.1,
+                "{}",
+                scene.quality(root).drift()
+            );
+        }
+    }
+    assert_eq!(trees[0], trees[1]);
+}
