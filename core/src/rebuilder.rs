@@ -54,8 +54,8 @@ pub struct RebuilderParams {
     /// Large meshes that are under way at a time, each with a thread of its own; at least 1.
     pub meshes: u32,
     /// Most instances of the parts of the top level that a frame hands to the worker; at least 1536, the default, with which
-    /// start and end of a frame take 0.1 to 0.2 ms, and more than 0.3 ms in a frame now and then (`docs/dynamics.md`). Each further 1000 take about 0.1 ms more of each. Where all of many instances move
-    /// their own ways, what is built in a frame decides how good the tree is: with *N* of them every part has its turn in *N* over
+    /// start and end of a frame take 0.1 to 0.2 ms, and more than 0.3 ms in a frame now and then (`docs/dynamics.md`). Each further
+    /// 1000 take about 0.1 ms more of each. Where all of many instances move their own ways, what is built in a frame decides how good the tree is: with *N* of them every part has its turn in *N* over
     /// this many frames.
     pub leaves: u32,
 }

@@ -156,16 +156,6 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.quality[node as usize] = Quality::of(&self.nodes, &self.quality, node, true);
     }
 
-    /// Looks at nodes of the top level that were refitted, children before parents; at all of them as built where it was built as a
-    /// whole.
-    pub(super) fn judge_top(&mut self, list: &[u32]) {
-        if core::mem::take(&mut self.top.is_new) {
-            list.iter().for_each(|&node| self.judge_new(node));
-        } else {
-            self.judge_list(list);
-        }
-    }
-
     /// What is known of the subtree of a node.
     pub(super) fn quality(&self, node: u32) -> Quality {
         self.quality.get(node as usize).copied().unwrap_or_default()

@@ -136,7 +136,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 &work.top.nodes()[range],
             );
         }
-        self.judge_top(work.top.nodes());
+        self.judge_list(work.top.nodes());
         // The lists of the last plan stay, for mirrors that follow it later.
         if is_listed || is_told {
             self.planned = work;

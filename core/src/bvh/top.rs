@@ -49,8 +49,6 @@ pub(super) struct Top {
     pub heights: Vec<u32>,
     /// By number: instances below.
     pub counts: Vec<u32>,
-    /// Whether it was built as a whole and is not refitted yet.
-    pub is_new: bool,
     /// By number: how many nodes had come when the node did.
     pub born: Vec<u64>,
     /// Nodes that have come so far.

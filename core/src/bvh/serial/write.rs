@@ -44,7 +44,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             words.push(node);
             if node != INVALID {
                 let built = self.quality(node).built.to_bits();
-                words.extend([edits, if self.top.is_new { INVALID } else { built }]);
+                words.extend([edits, built]);
             }
         }
         words.extend(&refitted);

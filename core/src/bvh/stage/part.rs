@@ -39,7 +39,7 @@ pub(super) struct Part {
     members: Dirty,
 }
 
-/// A node on the way of a search.
+/// A node that a search has reached.
 struct Step {
     loss: f64,
     node: u32,
