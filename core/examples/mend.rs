@@ -249,7 +249,7 @@ fn main() {
             number(2, 200.0) as u32,
             number(3, 256.0) as u32,
             number(4, RebuildParams::default().top),
-            number(5, 1536.0) as u32,
+            number(5, f64::from(RebuilderParams::default().leaves)) as u32,
         );
     }
 }

@@ -1,4 +1,4 @@
-//! Lamps that come, move, flicker and go, with the top level rebuilt beside the frame.
+//! Lamps that come, move and go. A rebuilder works beside the frames wherever the top level gets worse, which edits of so few do not make it.
 //!
 //! `cargo run -p lightbvh --example moving_lights` (seconds)
 
@@ -44,15 +44,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         rebuilder.end_frame(&bvh);
 
         let sampled = bvh.sample(&point, u32::from(frame) * 0x0431_bde8);
+        // A ray that the surface's material chose has met the lamp that came last: multiple importance sampling asks how likely a
+        // light sample of this point would have been to choose it.
+        let met = lamps.last().and_then(|&lamp| bvh.pmf_of(&point, lamp, 0));
         // What a temporal method forgets before the next frame.
         let gone = bvh.take_removed_lights();
         if frame % 20 == 19 {
             println!(
-                "frame {frame}: {} lamps, rebuilt {rebuilds} times, {} gone, light {} with probability {:.3}",
+                "frame {frame}: {} lamps, rebuilt {rebuilds} times, {} gone, light {} with probability {:.3}, the last lamp's {:.4}",
                 bvh.light_count(),
                 gone.len(),
                 sampled.light,
-                sampled.pmf
+                sampled.pmf,
+                met.unwrap_or(0.0)
             );
         }
     }

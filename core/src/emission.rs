@@ -45,10 +45,35 @@ pub(crate) fn has_flux(triangle: &EmissiveTriangle) -> bool {
     has_area(across_exponent, edge_exponent) & (triangle.luminance() > 0.0)
 }
 
+/// The flux `shine` · 2^`exponent`, W, within the stated range; `shine` is about 1.
+#[inline(always)]
+pub(crate) fn bounded_phi(shine: f32, exponent: i32) -> f32 {
+    let low = if exponent < -110 { -110 } else { exponent };
+    let bounded = if low > 110 { 110 } else { low };
+    exact::max(exact::min(shine * exact::power(bounded), MAX_PHI), MIN_PHI)
+}
+
+/// Luminance of linear R, G, B (Rec. ITU-R BT.709-6, section 3).
+#[inline(always)]
+pub(crate) fn luminance_of(rgb: &[f32; 3]) -> f32 {
+    (0.2126 * rgb[0] + 0.7152 * rgb[1]) + 0.0722 * rgb[2]
+}
+
 /// The emission of `triangle`, whose edges are `a` and `b` by 2^`edge_exponent`: together of about 1. Without a branch, for
 /// processors that compute several at a time.
 #[inline(always)]
 pub(crate) fn flux(a: Vec3, b: Vec3, edge_exponent: i32, triangle: &EmissiveTriangle) -> Emission {
+    let per_product = if triangle.is_two_sided() {
+        core::f32::consts::PI
+    } else {
+        core::f32::consts::FRAC_PI_2
+    };
+    flux_of(a, b, edge_exponent, triangle.luminance(), per_product)
+}
+
+/// The same of any flat light: `per_product` is its flux over its luminance and the length of a × b.
+#[inline(always)]
+pub(crate) fn flux_of(a: Vec3, b: Vec3, edge_exponent: i32, luminance: f32, per_product: f32) -> Emission {
     let across = cross(a, b);
     let across_exponent = greatest_exponent(across, -127);
     let has_area = has_area(across_exponent, edge_exponent);
@@ -62,17 +87,12 @@ pub(crate) fn flux(a: Vec3, b: Vec3, edge_exponent: i32, triangle: &EmissiveTria
     let squared = dot(normal, normal);
 
     // Φ = significand · 2^exponent, put together once, within the stated range.
-    let luminance = triangle.luminance();
-    let faces = if triangle.is_two_sided() {
-        core::f32::consts::PI
-    } else {
-        core::f32::consts::FRAC_PI_2
-    };
+    let faces = per_product;
     let shine = significand(luminance) * exact::sqrt(squared) * faces;
-    let exponent = exponent(luminance) + across_exponent + edge_exponent + edge_exponent;
-    let low = if exponent < -110 { -110 } else { exponent };
-    let bounded = if low > 110 { 110 } else { low };
-    let phi = exact::max(exact::min(shine * exact::power(bounded), MAX_PHI), MIN_PHI);
+    let phi = bounded_phi(
+        shine,
+        exponent(luminance) + across_exponent + edge_exponent + edge_exponent,
+    );
     Emission {
         phi: exact::masked(area & exact::mask_of(luminance > 0.0), phi),
         normal,

@@ -12,7 +12,7 @@ use glam::Vec3;
 use crate::emission::has_flux;
 use crate::exact::{self, flush, pow2};
 use crate::light::INVALID;
-use crate::light::{EmissiveTriangle, MAX_COORDINATE, MIN_COORDINATE};
+use crate::light::{EmissiveTriangle, Light, MAX_COORDINATE, MIN_COORDINATE};
 use crate::point::ShadingPoint;
 use crate::vector::{dot, flush3, greatest_exponent, length_squared};
 
@@ -57,12 +57,13 @@ pub struct Instance {
     pub inverse: [[f32; 3]; 3],
     /// √3 over the Frobenius norm of A⁻¹: makes A⁻ᵀ a map of normals of about unit length.
     pub per_inverse: f32,
-    /// Mean factor from the flux of a triangle of the mesh to that in the world: the Frobenius norm of A's cofactors over
-    /// √3, times `radiance`; zero, or 2^-100 to 2^100.
+    /// Mean factor from the flux of a light of the mesh to that in the world: `radiance`, times what A makes of the measure over which the
+    /// mesh emits ([`Light::FLUX_POWER`]). Of surfaces that is the Frobenius norm of A's cofactors over √3, of volumes the magnitude of A's
+    /// determinant, of lights without size 1. Zero, or 2^-100 to 2^100.
     pub flux: f32,
     /// Factor on the mesh's radiance; 0 turns it off.
     pub radiance: f32,
-    /// 1 where the map mirrors, else 0.
+    /// [`MIRRORS`](Self::MIRRORS) where the map mirrors, and [`IS_NOT_BY_AREA`](Self::IS_NOT_BY_AREA).
     pub mirrored: u32,
     /// Of an instance that is opened, the record of its first part; that of the part in slot k of its bottom level's root is k further.
     /// Of a part, its instance. `u32::MAX` of others.
@@ -91,6 +92,30 @@ impl Instance {
         mirrored: 0,
         part: u32::MAX,
     };
+
+    /// Bit of [`mirrored`](Self::mirrored): the determinant of A is negative.
+    pub const MIRRORS: u32 = 1;
+    /// Bit of [`mirrored`](Self::mirrored): a mesh of [`AnyLight`](crate::light::AnyLight)s, none of which emits from a surface.
+    pub const IS_NOT_BY_AREA: u32 = 2;
+
+    /// Whether its map turns left hands into right ones.
+    #[inline(always)]
+    #[must_use]
+    pub fn mirrors(&self) -> bool {
+        self.mirrored & Self::MIRRORS != 0
+    }
+
+    /// Whether [`flux`](Self::flux) of its lights, of type `L`, grows with area.
+    #[inline(always)]
+    pub(crate) fn is_by_area<L: Light>(&self) -> bool {
+        if L::IS_BY_AREA {
+            true
+        } else if L::HAS_FLUX_POWERS {
+            self.mirrored & Self::IS_NOT_BY_AREA == 0
+        } else {
+            false
+        }
+    }
 
     /// The light that triangle `triangle` of the bottom level is here.
     #[inline(always)]
@@ -167,7 +192,7 @@ impl Instance {
             self.vertex(local.p[1]),
             self.vertex(local.p[2]),
         );
-        let mirrored = self.mirrored != 0;
+        let mirrored = self.mirrors();
         let shines = self.radiance > 0.0 && has_flux(local);
         let shine = |channel: usize| {
             let l = local.radiance[channel];
@@ -184,6 +209,37 @@ impl Instance {
             mesh: index,
             flags: local.flags,
         }
+    }
+
+    /// A direction of the mesh in the world, again of length 1; itself where the map loses it.
+    #[inline(always)]
+    pub(crate) fn direction_to_world(&self, v: Vec3) -> Vec3 {
+        let there = self.forward(flushed(v));
+        let scaled = flushed(there * pow2(-greatest_exponent(there, -100)));
+        let squared = length_squared(scaled);
+        let unit = scaled * exact::rsqrt(exact::max(squared, pow2(-60)));
+        let is_kept = exact::mask_of(squared > pow2(-40));
+        Vec3::new(
+            f32::from_bits(exact::masked_u32(is_kept, unit.x.to_bits(), v.x.to_bits())),
+            f32::from_bits(exact::masked_u32(is_kept, unit.y.to_bits(), v.y.to_bits())),
+            f32::from_bits(exact::masked_u32(is_kept, unit.z.to_bits(), v.z.to_bits())),
+        )
+    }
+
+    /// How much longer lengths are in the world, in the mean: the root of the factor on areas. Of meshes with surfaces alone.
+    #[inline(always)]
+    pub(crate) fn scale(&self) -> f32 {
+        let radiance = if self.radiance > 0.0 { self.radiance } else { 1.0 };
+        exact::sqrt(exact::div(self.flux, radiance))
+    }
+
+    /// A vector of the mesh in the world, metres: within the domain of coordinates.
+    #[inline(always)]
+    pub(crate) fn edge_to_world(&self, v: Vec3) -> Vec3 {
+        let (a, b, c) = (self.column(0) * v.x, self.column(1) * v.y, self.column(2) * v.z);
+        let v = (flush3(a, LEAST_PRODUCT) + flush3(b, LEAST_PRODUCT)) + flush3(c, LEAST_PRODUCT);
+        let within = |x: f32| flush(exact::clamp(x, -MAX_COORDINATE, MAX_COORDINATE), MIN_COORDINATE);
+        Vec3::new(within(v.x), within(v.y), within(v.z))
     }
 
     /// A direction of the world in the space of the mesh, again of about unit length; zero where the map loses it.
@@ -236,26 +292,16 @@ impl Instance {
 /// `instance` is `u32::MAX`, and its one instance is meant.
 #[inline]
 #[must_use]
-pub fn world_light(
-    triangles: &[EmissiveTriangle],
-    instances: &[Instance],
-    light: u32,
-    instance: u32,
-) -> EmissiveTriangle {
+pub fn world_light<L: Light>(triangles: &[L], instances: &[Instance], light: u32, instance: u32) -> L {
     let index = if instance == INVALID { 0 } else { instance };
-    let mut out = EmissiveTriangle {
-        p: [[0.0; 3]; 3],
-        radiance: [0.0; 3],
-        mesh: INVALID,
-        flags: 0,
-    };
+    let mut out = L::DARK;
     if index < instances.len() as u32 {
         let own = instances[index as usize];
         let triangle = own.triangle_of(light);
         let is_own = light.wrapping_sub(own.first) < own.count;
         if is_own && triangle < triangles.len() as u32 {
             let local = triangles[triangle as usize];
-            out = own.triangle(&local, index);
+            out = local.in_world(&own, index);
         }
     }
     out

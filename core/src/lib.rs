@@ -20,6 +20,7 @@
 //! | [`ShadingPoint`], [`Random64`], [`SampledLight`], [`LightPoint`] | what is lit, the number that chooses, the light chosen, a point on it |
 //! | [`Rebuilder`] | rebuilds on a thread beside the frame, or within it where there are no threads |
 //! | [`bvh`], [`build`] | edits, ids, plans and rebuilds; builders |
+//! | [`light`] | lights of other kinds: points, spots, spheres, rectangles, discs, boxes; points on them |
 //! | [`importance`], [`node`] | what children are chosen by, and what nodes store of them |
 //! | [`requirements`] | what a scene requires, and the smallest model that is sufficient |
 //! | [`tree`] | a light BVH as borrowed arrays, the same on devices |
@@ -90,6 +91,7 @@ extern crate std;
 pub mod error;
 pub mod exact;
 pub mod importance;
+pub mod light;
 pub mod node;
 pub mod refit;
 pub mod reservoir;
@@ -109,8 +111,6 @@ pub mod bounds;
 pub mod cone;
 #[doc(hidden)]
 pub mod instance;
-#[doc(hidden)]
-pub mod light;
 #[doc(hidden)]
 pub mod moments;
 #[doc(hidden)]
@@ -159,7 +159,8 @@ pub use lights::Lights;
 #[cfg(feature = "std")]
 pub use rebuilder::Rebuilder;
 
-pub use light::{EmissiveTriangle, LightPoint};
+#[doc(inline)]
+pub use light::EmissiveTriangle;
 pub use point::ShadingPoint;
 pub use traverse::{Random64, SampledLight};
 
@@ -178,9 +179,11 @@ pub use importance::{
     SphericalGaussian,
 };
 #[doc(hidden)]
+pub use light::LightPoint;
+#[doc(hidden)]
 pub use node::{
     BoundsNode, CompactNode, FullMomentNode, FullNode, LeanMomentNode, LightBounds, LightMoments, LightNode,
-    MomentLayout, MomentNode, Summary, TwoSidedMomentNode,
+    MomentLayout, MomentNode, Node, Summary, TwoSidedMomentNode,
 };
 #[doc(hidden)]
 pub use point::{GlossyPoint, Receiver};

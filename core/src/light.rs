@@ -1,12 +1,49 @@
-//! The light that this crate samples: an emissive triangle, and the domain in which it is accepted.
+//! The lights that this crate samples, and the domain in which they are accepted.
+//!
+//! A [`Bvh`](crate::Bvh) is over lights of one type, which its nodes name: [`EmissiveTriangle`], or where they are
+//! [`Lit`](crate::node::Lit) another [`Light`].
+//!
+//! | | emits |
+//! |---|---|
+//! | [`EmissiveTriangle`] | from its front, or from both sides |
+//! | [`RectangleLight`], [`DiscLight`] | as that; parallelograms and ellipses too |
+//! | [`SphereLight`] | from its surface outward |
+//! | [`PointLight`], [`SpotLight`] | from a place without size, in every direction or into a cone |
+//! | [`BoxLight`] | from every place within it in every direction |
+//! | [`AnyLight`] | as the one of these that it is, for trees over several kinds |
+//!
+//! [`Light::point_for`] gives a [`LightPoint`] on each of them, [`LightPoint::irradiance`] what that sends. Builders, refits, samples, pmfs,
+//! instances, edits, rebuilds and files are the same for all; so are mirrors on devices:
+//! `lightbvh_gpu::KernelSet::ANY` are the kernels over [`AnyLight`]. The reference renderer knows triangles alone.
+//!
+//! **Instances scale.** The top level knows how flux grows with an instance's scale: with area where lights are surfaces, with volume where
+//! they are boxes, not at all where they are points and spots ([`Light::FLUX_POWER`]). It takes one rule for all lights of a mesh. A mesh of
+//! [`AnyLight`]s that differ in it goes by area: its scaled instances have too much or too little weight, which costs variance, and
+//! biases nothing.
 
+mod any;
+mod flat;
 mod point;
+mod punctual;
+mod record;
+mod round;
+mod sphere;
+#[cfg(test)]
+mod tests;
+mod volume;
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
+pub use any::AnyLight;
+pub use flat::{DiscLight, RectangleLight};
 pub use point::{LightPoint, uniform_point};
+pub use punctual::{PointLight, SpotLight};
+pub use record::{Light, LightSlots};
+pub use sphere::SphereLight;
+pub use volume::BoxLight;
 
+use crate::emission::luminance_of;
 use crate::error::Number;
 use crate::exact;
 
@@ -67,7 +104,7 @@ impl EmissiveTriangle {
     #[inline]
     #[must_use]
     pub fn luminance(&self) -> f32 {
-        (0.2126 * self.radiance[0] + 0.7152 * self.radiance[1]) + 0.0722 * self.radiance[2]
+        luminance_of(&self.radiance)
     }
 
     /// Brings the triangle into the domain of this crate, or says why it cannot be.
@@ -128,6 +165,46 @@ pub enum LightError {
         /// What was found.
         flags: u32,
     },
+    /// A coordinate of a place, an edge or an axis is NaN, infinite or beyond [`MAX_COORDINATE`].
+    Place {
+        /// Of what.
+        what: &'static str,
+        /// Which coordinate: x, y, z as 0, 1, 2.
+        axis: usize,
+        /// What was found.
+        value: f32,
+    },
+    /// An intensity, or a radiance per metre, is NaN, infinite, negative, above [`MAX_RADIANCE`], or positive and below [`MIN_RADIANCE`].
+    Emission {
+        /// Of what.
+        what: &'static str,
+        /// Which channel: R, G, B as 0, 1, 2.
+        channel: usize,
+        /// What was found.
+        value: f32,
+    },
+    /// The axis of a spot is not of length 1, up to [`NORMAL_TOLERANCE`](crate::error::NORMAL_TOLERANCE).
+    Axis {
+        /// What was found.
+        axis: [f32; 3],
+    },
+    /// The cone of a spot is none: cosines out of −1..=1, the inner one below the outer one, or the outer one within 2^-20 of 1.
+    Cone {
+        /// Cosine of the angle up to which the spot has its intensity.
+        cos_inner: f32,
+        /// Cosine of the angle from which on it has none.
+        cos_outer: f32,
+    },
+    /// A kind that is none of [`AnyLight`]'s.
+    Kind {
+        /// What was found.
+        kind: u32,
+    },
+    /// The radius of a sphere is not from 2^-60 to 2^40 m.
+    Radius {
+        /// What was found.
+        value: f32,
+    },
 }
 
 impl core::fmt::Display for LightError {
@@ -149,6 +226,39 @@ impl core::fmt::Display for LightError {
             Self::Flags { flags } => write!(
                 f,
                 "flags are {flags:#x}, expected 0 or TWO_SIDED ({TWO_SIDED}); clear the other bits"
+            ),
+            Self::Place { what, axis, value } => write!(
+                f,
+                "coordinate {} of the {what} is {}, expected a finite number of magnitude at most 2^40 (1.1e12); scale the scene or \
+                 repair the light",
+                ['x', 'y', 'z'][axis],
+                Number(value)
+            ),
+            Self::Emission { what, channel, value } => write!(
+                f,
+                "{} of the {what} is {}, expected 0 or a number from 2^-100 to 2^100 (7.9e-31 to 1.3e30); repair the light",
+                ["red", "green", "blue"][channel],
+                Number(value)
+            ),
+            Self::Axis { axis: [x, y, z] } => write!(
+                f,
+                "the axis of a spot is ({x}, {y}, {z}), expected length 1; normalize it"
+            ),
+            Self::Cone { cos_inner, cos_outer } => write!(
+                f,
+                "a spot from an inner cosine of {} to an outer one of {}, expected -1 <= outer <= inner <= 1 and outer < 1; swap the \
+                 angles, or widen the cone",
+                Number(cos_inner),
+                Number(cos_outer)
+            ),
+            Self::Kind { kind } => write!(
+                f,
+                "a light of kind {kind}, expected one of AnyLight's; make it by `AnyLight::from`"
+            ),
+            Self::Radius { value } => write!(
+                f,
+                "the radius of a sphere is {}, expected 2^-60 to 2^40 m; make it a point light, or leave it out",
+                Number(value)
             ),
         }
     }

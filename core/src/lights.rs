@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::fmt;
 use core::ops::Range;
 
-use crate::light::{EmissiveTriangle, LightError};
+use crate::light::{EmissiveTriangle, Light, LightError};
 
 /// Most triangles that one light BVH holds: 2^30, so that every index and word address fits 32 bits.
 pub const MAX_LIGHTS: usize = 1 << 30;
@@ -12,20 +12,20 @@ pub const MAX_LIGHTS: usize = 1 << 30;
 /// Emissive triangles within the domain of this crate, ordered by mesh light. Everything behind this type may rely on
 /// that.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Lights {
-    triangles: Vec<EmissiveTriangle>,
+pub struct Lights<L = EmissiveTriangle> {
+    triangles: Vec<L>,
     /// First triangle of each mesh light, then the number of triangles.
     starts: Vec<u32>,
 }
 
-impl Lights {
+impl<L: Light> Lights<L> {
     /// Takes triangles ordered by mesh light: `mesh` starts at 0 and grows by at most one from triangle to triangle. There may be
     /// none.
     ///
     /// # Errors
     /// [`LightsError`], naming the triangle, when one is outside the domain or out of order, and when there are more than
     /// [`MAX_LIGHTS`].
-    pub fn new(mut triangles: Vec<EmissiveTriangle>) -> Result<Self, LightsError> {
+    pub fn new(mut triangles: Vec<L>) -> Result<Self, LightsError> {
         if triangles.len() > MAX_LIGHTS {
             return Err(LightsError::TooMany {
                 count: triangles.len(),
@@ -37,13 +37,13 @@ impl Lights {
                 .checked()
                 .map_err(|error| LightsError::Light { index, error })?;
             let next = starts.len() as u32;
-            if triangle.mesh == next {
+            if triangle.mesh() == next {
                 starts.push(index as u32);
-            } else if next == 0 || triangle.mesh != next - 1 {
+            } else if next == 0 || triangle.mesh() != next - 1 {
                 return Err(LightsError::Order {
                     index,
                     expected: next,
-                    found: triangle.mesh,
+                    found: triangle.mesh(),
                 });
             }
         }
@@ -56,7 +56,7 @@ impl Lights {
     /// # Errors
     /// As [`new`](Self::new), and [`LightsError::Changed`] when the triangles are not those of the same mesh lights;
     /// `self` is then as before.
-    pub fn update(&mut self, triangles: Vec<EmissiveTriangle>) -> Result<(), LightsError> {
+    pub fn update(&mut self, triangles: Vec<L>) -> Result<(), LightsError> {
         let new = Self::new(triangles)?;
         if new.starts != self.starts {
             return Err(LightsError::Changed {
@@ -70,7 +70,7 @@ impl Lights {
 
     /// The triangles.
     #[must_use]
-    pub fn triangles(&self) -> &[EmissiveTriangle] {
+    pub fn triangles(&self) -> &[L] {
         &self.triangles
     }
 

@@ -21,7 +21,7 @@ use self::clock::Clock;
 use self::meshes::Meshes;
 use self::worker::{Built, Job, Product, Worker, build};
 use crate::bvh::{Bvh, RebuildParams, Search, Taken, Trails};
-use crate::node::{DefaultNode, LightNode};
+use crate::node::{DefaultNode, Holds, Node};
 
 /// When results are swapped in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -53,9 +53,8 @@ pub struct RebuilderParams {
     pub bytes: u32,
     /// Large meshes that are under way at a time, each with a thread of its own; at least 1.
     pub meshes: u32,
-    /// Most instances of the parts of the top level that a frame hands to the worker; at least 1536, the default, with which
-    /// start and end of a frame take 0.1 to 0.2 ms, and more than 0.3 ms in a frame now and then (`docs/dynamics.md`). Each further
-    /// 1000 take about 0.1 ms more of each. Where all of many instances move their own ways, what is built in a frame decides how good the tree is: with *N* of them every part has its turn in *N* over
+    /// Most instances of the parts of the top level that a frame hands to the worker; at least 1024, the default, with which
+    /// start and end of a frame take about 0.1 ms, and more than 0.3 ms once in ten thousand on a busy machine (`docs/dynamics.md`). Each further 1000 take about 0.1 ms more of each. Where all of many instances move their own ways, what is built in a frame decides how good the tree is: with *N* of them every part has its turn in *N* over
     /// this many frames.
     pub leaves: u32,
 }
@@ -69,7 +68,7 @@ impl Default for RebuilderParams {
             rebuild: RebuildParams::default(),
             bytes: 1 << 18,
             meshes: 2,
-            leaves: 1536,
+            leaves: 1024,
         }
     }
 }
@@ -89,7 +88,7 @@ pub struct FrameStart {
     /// Number of parts of large meshes that were built anew, the rest of their trees being as good as it was, and put in place since then.
     pub parts: u32,
     /// Number of large meshes, and of parts of them, whose new trees came to nothing since then: the mesh is gone or was built by other means,
-    /// building failed, or a part found no tree of as many nodes. Deformation drops none: what changes meanwhile is computed in the new tree.
+    /// the light BVH is another one than it was taken from, building failed, or a part found no tree of as many nodes. Deformation drops none: what changes meanwhile is computed in the new tree.
     pub dropped: u32,
     /// Whether large meshes wait because another `Rebuilder` has some of the same light BVH under way. One for each light BVH is enough: a
     /// second one begins no large mesh as long as the first has one under way.
@@ -137,7 +136,7 @@ impl core::error::Error for RebuildError {}
 /// `wasm32-unknown-unknown`, where there is no clock either, and all times are zero. Where panics abort, one while building does
 /// too.
 #[derive(Debug)]
-pub struct Rebuilder<N = DefaultNode, const W: usize = 8> {
+pub struct Rebuilder<N: Holds = DefaultNode, const W: usize = 8> {
     params: RebuilderParams,
     worker: Option<Worker<N, W>>,
     flight: Option<Flight<N, W>>,
@@ -155,20 +154,20 @@ pub struct Rebuilder<N = DefaultNode, const W: usize = 8> {
 
 /// A rebuild under way.
 #[derive(Debug)]
-struct Flight<N, const W: usize> {
+struct Flight<N: Holds, const W: usize> {
     /// Frames to begin until it is due; at 1 or below, the next one.
     left: u32,
     /// The result, where it was built at once.
     inline: Option<Built<N, W>>,
 }
 
-impl<N: LightNode<W>, const W: usize> Default for Rebuilder<N, W> {
+impl<N: Node<W>, const W: usize> Default for Rebuilder<N, W> {
     fn default() -> Self {
         Self::new(RebuilderParams::default())
     }
 }
 
-impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
+impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
     /// A rebuilder that has nothing under way; its thread starts with the first rebuild.
     #[must_use]
     pub fn new(params: RebuilderParams) -> Self {
@@ -260,9 +259,10 @@ impl<N: LightNode<W>, const W: usize> Rebuilder<N, W> {
 
     /// Starts the next rebuild, unless one is under way or there is nothing to build. Comes after the frame's
     /// [`Bvh::refit`]. Takes time in proportion to the meshes refitted since the last rebuild started, to the instances of the part of the
-    /// top level that is rebuilt, at most 1536, and to the triangles of small meshes that are built anew.
+    /// top level that is rebuilt, at most [`RebuilderParams::leaves`], and to the triangles of small meshes that are built anew.
     pub fn end_frame<I, T: Trails>(&mut self, scene: &Bvh<N, I, W, T>) {
         let now = scene.now();
+        self.search.note_frame(now);
         if self.taken != Some(now) {
             scene.search_again(&mut self.search);
         }

@@ -8,16 +8,16 @@
 use bytemuck::{Pod, Zeroable};
 
 pub use crate::instance::{Instance, world_light};
-use crate::light::EmissiveTriangle;
-use crate::node::{LightNode, kind};
-use crate::summary::{Lanes, SUMMARY_WORDS, Summary, Triangles};
+use crate::light::{Light, LightSlots};
+use crate::node::{Node, kind};
+use crate::summary::{Lanes, SUMMARY_WORDS, Summary};
 
 /// Node `index` of a bottom level with the summaries of its triangles and of the nodes below it.
 #[inline]
 #[must_use]
-pub fn bottom<N: LightNode<W>, const W: usize>(nodes: &[N], triangles: &[EmissiveTriangle], index: u32) -> N {
+pub fn bottom<N: Node<W>, const W: usize>(nodes: &[N], triangles: &[N::Light], index: u32) -> N {
     let mut node = nodes[index as usize];
-    let mut room = Room::new();
+    let mut room = Room::<N::Light, W>::new();
     below(nodes, 0, triangles, &node, &mut room);
     node.set_lanes(&room.children);
     node
@@ -25,16 +25,16 @@ pub fn bottom<N: LightNode<W>, const W: usize>(nodes: &[N], triangles: &[Emissiv
 
 /// Room for what a node's refit computes; a sweep takes the same for all nodes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Room<const W: usize> {
-    triangles: Triangles<W>,
+pub(crate) struct Room<L: Light, const W: usize> {
+    lights: L::Slots<W>,
     pub children: Lanes<W>,
 }
 
-impl<const W: usize> Room<W> {
+impl<L: Light, const W: usize> Room<L, W> {
     #[inline(always)]
     pub fn new() -> Self {
         Self {
-            triangles: Triangles::NONE,
+            lights: L::Slots::<W>::NONE,
             children: Lanes([[0.0; W]; SUMMARY_WORDS]),
         }
     }
@@ -43,26 +43,26 @@ impl<const W: usize> Room<W> {
 /// The summaries of the children of a bottom level's `node`, put into `room`, whatever that holds. Node `first` and those after
 /// it stand in `nodes`.
 #[inline(always)]
-pub(crate) fn below<N: LightNode<W>, const W: usize>(
+pub(crate) fn below<N: Node<W>, const W: usize>(
     nodes: &[N],
     first: u32,
-    triangles: &[EmissiveTriangle],
+    triangles: &[N::Light],
     node: &N,
-    room: &mut Room<W>,
+    room: &mut Room<N::Light, W>,
 ) {
     // Steps over all slots, for processors compute several triangles and several codes at a time.
     let (mut lights, mut inner) = (0, 0);
     for slot in 0..W {
         let (to, link) = (node.kind(slot), node.link(slot));
-        room.triangles.remove(slot);
+        room.lights.remove(slot);
         if to == kind::LIGHT && link < triangles.len() as u32 {
-            room.triangles.set(slot, &triangles[link as usize]);
+            room.lights.set(slot, &triangles[link as usize]);
             lights = 1;
         }
         inner |= u32::from(to == kind::INNER);
     }
     if lights != 0 {
-        N::Summary::of_triangles(&room.triangles, &mut room.children);
+        N::Summary::of_lights::<N::Light, W>(&room.lights, &mut room.children);
     } else {
         room.children.fill(&N::Summary::EMPTY);
     }
@@ -80,7 +80,7 @@ pub(crate) fn below<N: LightNode<W>, const W: usize>(
 /// instances need not merge it anew.
 #[inline]
 #[must_use]
-pub fn root<N: LightNode<W>, const W: usize>(nodes: &[N], root: u32) -> BlasRoot {
+pub fn root<N: Node<W>, const W: usize>(nodes: &[N], root: u32) -> BlasRoot {
     let node = if root < nodes.len() as u32 { root } else { 0 };
     BlasRoot::new(root, &nodes[node as usize].merged())
 }
@@ -89,7 +89,7 @@ pub fn root<N: LightNode<W>, const W: usize>(nodes: &[N], root: u32) -> BlasRoot
 /// below it.
 #[inline]
 #[must_use]
-pub fn top<N: LightNode<W>, const W: usize>(
+pub fn top<N: Node<W>, const W: usize>(
     nodes: &[N],
     instances: &[Instance],
     roots: &[BlasRoot],
@@ -103,7 +103,7 @@ pub fn top<N: LightNode<W>, const W: usize>(
             let blas = instances[link as usize].blas;
             if blas < roots.len() as u32 {
                 let local = roots[blas as usize].summary::<N::Summary>();
-                children.set(slot, &local.to_world(&instances[link as usize]));
+                children.set(slot, &local.to_world::<N::Light>(&instances[link as usize]));
             }
         } else if to == kind::INNER && link < nodes.len() as u32 {
             children.set(slot, &nodes[link as usize].merged());

@@ -8,7 +8,7 @@ use glam::Vec3;
 
 use crate::bounds::LightBounds;
 use crate::instance::Instance;
-use crate::light::EmissiveTriangle;
+use crate::light::{EmissiveTriangle, Light, LightSlots};
 
 /// Words of a summary in full, as [`BlasRoot`](crate::refit::BlasRoot) keeps them.
 pub const SUMMARY_WORDS: usize = 12;
@@ -21,15 +21,20 @@ pub trait Summary: Copy + PartialEq + Debug + Send + Sync + 'static {
     /// Names of the words of [`to_words`](Self::to_words), for messages.
     const NAMES: [&'static str; SUMMARY_WORDS];
 
-    /// Of one emissive triangle.
-    fn of_triangle(triangle: &EmissiveTriangle) -> Self;
-    /// Of the triangles of a node's slots. A slot without one gets [`EMPTY`](Self::EMPTY), or numbers without flux that mean
+    /// Of one light.
+    fn of_light<L: Light>(light: &L) -> Self;
+    /// Of the lights of a node's slots. A slot without one gets [`EMPTY`](Self::EMPTY), or numbers without flux that mean
     /// nothing.
-    fn of_triangles<const W: usize>(triangles: &Triangles<W>, summaries: &mut Lanes<W>);
+    fn of_lights<L: Light, const W: usize>(lights: &L::Slots<W>, summaries: &mut Lanes<W>);
+    /// Of one emissive triangle.
+    #[inline(always)]
+    fn of_triangle(triangle: &EmissiveTriangle) -> Self {
+        Self::of_light(triangle)
+    }
     /// Of all the children of a node; the order of the slots is part of the result's bits.
     fn merged<const W: usize>(children: &Lanes<W>) -> Self;
-    /// Of the lights of a bottom level that `instance` puts into the world.
-    fn to_world(&self, instance: &Instance) -> Self;
+    /// Of the lights, of type `L`, of a bottom level that `instance` puts into the world.
+    fn to_world<L: Light>(&self, instance: &Instance) -> Self;
 
     /// Radiant flux Φ, W; zero, or in [`MIN_PHI`](crate::bounds::MIN_PHI)`..=2^126`.
     fn phi(&self) -> f32;
@@ -117,17 +122,15 @@ pub struct Triangles<const W: usize> {
     present: [u32; W],
 }
 
-impl<const W: usize> Triangles<W> {
-    /// No triangle.
-    pub const NONE: Self = Self {
+impl<const W: usize> LightSlots<EmissiveTriangle, W> for Triangles<W> {
+    const NONE: Self = Self {
         words: [[0.0; W]; 12],
         flags: [0; W],
         present: [0; W],
     };
 
-    /// Puts `triangle` into `slot`.
     #[inline(always)]
-    pub fn set(&mut self, slot: usize, triangle: &EmissiveTriangle) {
+    fn set(&mut self, slot: usize, triangle: &EmissiveTriangle) {
         for k in 0..3 {
             self.words[k][slot] = triangle.p[0][k];
             self.words[3 + k][slot] = triangle.p[1][k];
@@ -138,23 +141,18 @@ impl<const W: usize> Triangles<W> {
         self.present[slot] = u32::MAX;
     }
 
-    /// Leaves no triangle in `slot`: its words stay, and mean nothing.
     #[inline(always)]
-    pub fn remove(&mut self, slot: usize) {
+    fn remove(&mut self, slot: usize) {
         self.present[slot] = 0;
     }
 
-    /// All ones where there is a triangle in `slot`, else zero.
     #[inline(always)]
-    #[must_use]
-    pub fn present(&self, slot: usize) -> u32 {
+    fn present(&self, slot: usize) -> u32 {
         self.present[slot]
     }
 
-    /// The triangle in `slot`, of mesh 0; any other where there is none.
     #[inline(always)]
-    #[must_use]
-    pub fn get(&self, slot: usize) -> EmissiveTriangle {
+    fn get(&self, slot: usize) -> EmissiveTriangle {
         let w = &self.words;
         EmissiveTriangle {
             p: [

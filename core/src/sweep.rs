@@ -8,8 +8,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use crate::instance::Instance;
-use crate::light::EmissiveTriangle;
-use crate::node::{LightNode, kind};
+use crate::node::{Node, kind};
 use crate::prefetch::fetch;
 use crate::refit::{self, BlasRoot, Room};
 use crate::widest::widest;
@@ -25,16 +24,12 @@ const BLOCK: usize = 1 << 14;
 const PIECE: usize = 256;
 
 /// [`refit::bottom`] over `list`, whose nodes are all of one level.
-pub fn bottom<N: LightNode<W>, const W: usize>(
-    nodes: &mut [N],
-    triangles: &[EmissiveTriangle],
-    list: &[u32],
-) {
+pub fn bottom<N: Node<W>, const W: usize>(nodes: &mut [N], triangles: &[N::Light], list: &[u32]) {
     each(nodes, list, |nodes, index| refit::bottom(nodes, triangles, index));
 }
 
 /// [`refit::top`] over `list`, whose nodes are all of one level.
-pub fn top<N: LightNode<W>, const W: usize>(
+pub fn top<N: Node<W>, const W: usize>(
     nodes: &mut [N],
     instances: &[Instance],
     roots: &[BlasRoot],
@@ -48,10 +43,10 @@ pub fn top<N: LightNode<W>, const W: usize>(
 /// [`refit::bottom`] over all `nodes`, which begin with node `first`: the trees of `roots`, each in depth-first order, one after
 /// another. Children come before parents, from the last node to the first, so that memory is read in one direction; subtrees go
 /// to several threads.
-pub fn bottom_sweep<N: LightNode<W>, const W: usize>(
+pub fn bottom_sweep<N: Node<W>, const W: usize>(
     nodes: &mut [N],
     first: u32,
-    triangles: &[EmissiveTriangle],
+    triangles: &[N::Light],
     roots: &[u32],
 ) {
     #[cfg(feature = "rayon")]
@@ -63,11 +58,7 @@ pub fn bottom_sweep<N: LightNode<W>, const W: usize>(
 }
 
 /// [`bottom_sweep`] of each of `trees`, ranges of nodes that do not overlap.
-pub fn trees<N: LightNode<W>, const W: usize>(
-    nodes: &mut [N],
-    triangles: &[EmissiveTriangle],
-    trees: &[Range<u32>],
-) {
+pub fn trees<N: Node<W>, const W: usize>(nodes: &mut [N], triangles: &[N::Light], trees: &[Range<u32>]) {
     #[cfg(feature = "rayon")]
     if trees.len() > 1 && rayon::current_num_threads() > 1 {
         use rayon::prelude::*;
@@ -95,7 +86,7 @@ const AHEAD: usize = 4;
 
 /// Asks for the triangles that a node's refit will read.
 #[inline(always)]
-fn fetch_triangles<N: LightNode<W>, const W: usize>(node: &N, triangles: &[EmissiveTriangle]) {
+fn fetch_triangles<N: Node<W>, const W: usize>(node: &N, triangles: &[N::Light]) {
     if cfg!(feature = "prefetch") {
         for slot in 0..W {
             if node.kind(slot) == kind::LIGHT {
@@ -106,16 +97,11 @@ fn fetch_triangles<N: LightNode<W>, const W: usize>(node: &N, triangles: &[Emiss
 }
 
 /// The first `count` nodes, from the last to the first; node `first` stands first.
-fn one_by_one<N: LightNode<W>, const W: usize>(
-    nodes: &mut [N],
-    count: usize,
-    first: u32,
-    triangles: &[EmissiveTriangle],
-) {
+fn one_by_one<N: Node<W>, const W: usize>(nodes: &mut [N], count: usize, first: u32, triangles: &[N::Light]) {
     widest(
         #[inline(always)]
         || {
-            let mut room = Room::new();
+            let mut room = Room::<N::Light, W>::new();
             for index in (0..count).rev() {
                 if let Some(soon) = index.checked_sub(AHEAD) {
                     fetch_triangles(&nodes[soon], triangles);
@@ -129,10 +115,10 @@ fn one_by_one<N: LightNode<W>, const W: usize>(
 
 /// The subtrees that begin at nodes `starts` on several threads, then the nodes before them.
 #[cfg(feature = "rayon")]
-fn subtrees<N: LightNode<W>, const W: usize>(
+fn subtrees<N: Node<W>, const W: usize>(
     nodes: &mut [N],
     first: u32,
-    triangles: &[EmissiveTriangle],
+    triangles: &[N::Light],
     mut starts: Vec<u32>,
 ) {
     use rayon::prelude::*;
@@ -206,6 +192,7 @@ fn each_parallel<N: Copy + Send + Sync>(
 #[cfg(all(test, feature = "rayon"))]
 mod tests {
     use super::*;
+    use crate::light::EmissiveTriangle;
     use crate::{BuildParams, LightBvh, Lights, MomentNode};
 
     /// Subtrees in subtrees, each on the thread that is free.

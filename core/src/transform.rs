@@ -96,7 +96,13 @@ impl Transform {
     ///
     /// The inverse is computed in `f64` from the cofactors. Where the map is flat the cofactors take its place, as large as
     /// `f32` products allow: weights then mean little, and stay positive.
+    #[cfg(test)]
     pub(crate) fn instance(&self, radiance: f32) -> Instance {
+        self.instance_by(radiance, 2)
+    }
+
+    /// The same of a mesh whose flux grows as lengths to `power`: [`Light::FLUX_POWER`](crate::light::Light::FLUX_POWER).
+    pub(crate) fn instance_by(&self, radiance: f32, power: u32) -> Instance {
         let columns = [self.column(0), self.column(1), self.column(2)];
         // Entries of about 1, so that products of three stay in range.
         let entry = columns
@@ -126,7 +132,12 @@ impl Transform {
         let norm = exact::sqrt(squares(&inverse.map(|column| column.map(f64::from))) as f32);
         let per_inverse = if norm > 0.0 { SQRT_3 / f64::from(norm) } else { 0.0 };
         let area = f64::from(exact::sqrt(squares(&cofactors) as f32)) / SQRT_3 * (entry * entry);
-        let flux = (area * f64::from(radiance)) as f32;
+        let measure = match power {
+            0 => 1.0,
+            3 => magnitude(determinant) * (entry * entry * entry),
+            _ => area,
+        };
+        let flux = (measure * f64::from(radiance)) as f32;
         Instance {
             columns: self
                 .columns

@@ -6,8 +6,8 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::importance::DefaultImportance;
 use crate::instance::{Instance, world_light};
-use crate::light::EmissiveTriangle;
 pub use crate::light::INVALID;
+use crate::light::Light;
 use crate::node::DefaultNode;
 use crate::trail::{BitTrail, Path, max_levels, place_parts};
 
@@ -71,7 +71,7 @@ impl<'a, N, I, const W: usize> LightTree<'a, N, I, W> {
     /// instance, whichever is named.
     #[inline]
     #[must_use]
-    pub fn triangle(&self, triangles: &[EmissiveTriangle], light: u32, instance: u32) -> EmissiveTriangle {
+    pub fn triangle<L: Light>(&self, triangles: &[L], light: u32, instance: u32) -> L {
         // A single level has one instance, whatever is named; of several, none is meant by no index.
         let instance = match (self.live, instance) {
             (0, _) => INVALID,

@@ -7,6 +7,7 @@ mod work;
 
 use arbitrary::{Result, Unstructured};
 use lightbvh::bvh::{Rebuild, RebuildParams, Rebuilt};
+use lightbvh::node::Holds;
 use lightbvh::{
     Bvh, CompactNode, Eq4, FullNode, INVALID, ImportanceModel, InstanceId, LightNode, MomentNode, Moments,
 };
@@ -33,7 +34,7 @@ pub fn edits(data: &[u8], forms: Forms) {
 }
 
 /// A rebuild under way: not begun, or waiting to be swapped in.
-enum Flying<N, const W: usize> {
+enum Flying<N: Holds, const W: usize> {
     Planned(Rebuild<N, W>),
     Built(Rebuilt<N, W>),
 }

@@ -15,6 +15,7 @@
 #![allow(clippy::too_many_arguments)]
 
 pub mod bvh;
+pub mod kinds;
 pub mod path;
 pub mod query;
 pub mod refit;

@@ -8,8 +8,9 @@ use std::time::Duration;
 use bytemuck::{Pod, Zeroable};
 use lightbvh::bounds::LightBounds;
 use lightbvh::importance::Cluster;
+use lightbvh::node::Holds;
 use lightbvh::summary::Lanes;
-use lightbvh::{BoundsNode, CompactNode, LightNode};
+use lightbvh::{BoundsNode, CompactNode, EmissiveTriangle, Node};
 
 /// Number of tests that may use [`Slowed`] in one program; each needs a number of its own.
 pub const TESTS: usize = 8;
@@ -111,10 +112,14 @@ fn touch<const TEST: usize>() {
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Slowed<const TEST: usize>(CompactNode<4>);
 
-impl<const TEST: usize> LightNode<4> for Slowed<TEST> {
+impl<const TEST: usize> Holds for Slowed<TEST> {
+    type Light = EmissiveTriangle;
+}
+
+impl<const TEST: usize> Node<4> for Slowed<TEST> {
     type Summary = LightBounds;
 
-    const EMPTY: Self = Self(<CompactNode<4> as LightNode<4>>::EMPTY);
+    const EMPTY: Self = Self(<CompactNode<4> as Node<4>>::EMPTY);
     const NAME: &'static str = "slowed";
 
     fn kind(&self, slot: usize) -> u32 {

@@ -4,7 +4,7 @@ use glam::Vec3;
 use lightbvh::bounds::{MAX_PHI, MIN_PHI};
 use lightbvh::cone::{Cone, normalized};
 use lightbvh::node::kind;
-use lightbvh::{BoundsNode, CompactNode, FullNode, Instance, LightBounds, LightNode, Summary, exact};
+use lightbvh::{BoundsNode, CompactNode, FullNode, Instance, LightBounds, LightNode, Node, Summary, exact};
 use lightbvh_tests::each_node;
 use lightbvh_tests::generate::{self, Random, any_bounds, extreme_triangle};
 use lightbvh_tests::oracle::{assert_cone_contains, box_contains, half_angle};
@@ -205,7 +205,7 @@ fn flux_is_kept<N: LightNode<W>, const W: usize>() {
                 flux,
                 ..Instance::IDENTITY
             };
-            let world = all.to_world(&instance).phi();
+            let world = all.to_world::<lightbvh::EmissiveTriangle>(&instance).phi();
             assert_eq!(world > 0.0, any && flux > 0.0, "{all:?} times {flux}");
             assert!(world == 0.0 || (MIN_PHI..=exact::pow2(126)).contains(&world));
         }

@@ -5,7 +5,7 @@ use lightbvh::importance::Cluster;
 use lightbvh::node::kind;
 use lightbvh::{
     BoundsNode, BuildParams, Bvh, CompactNode, EmissiveTriangle, Eq4, FluxOverDistance, FullNode,
-    ImportanceModel, LightBounds, LightNode, Lights, ShadingPoint, Summary, exact,
+    ImportanceModel, LightBounds, LightNode, Lights, Node, ShadingPoint, Summary, exact,
 };
 use lightbvh_tests::each_layout;
 use lightbvh_tests::generate::{self, Random, any_bounds, extreme_triangle, log_uniform};

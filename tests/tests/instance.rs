@@ -241,7 +241,7 @@ fn bounds_in_the_world() {
         let instance = placed(transform);
         let local = generate::small_triangles(1, 1, 2.0, 0.5, random.below(4) == 0, random.bits())[0];
         let known = LightBounds::of_triangle(&local);
-        let bounds = known.to_world(&instance);
+        let bounds = known.to_world::<lightbvh::EmissiveTriangle>(&instance);
         let world = instance.triangle(&local, 0);
         let entries = norm(&matrix(&transform.columns));
         let reach = entries * 8.0 + vector(transform.translation).length();
@@ -307,7 +307,7 @@ fn flux_in_the_world_is_a_mean() {
         let all = LightBounds::merged(&Lanes::of(
             &faces.map(|triangle| LightBounds::of_triangle(&triangle)),
         ));
-        let found = f64::from(all.to_world(&instance).phi);
+        let found = f64::from(all.to_world::<lightbvh::EmissiveTriangle>(&instance).phi);
         let ratio = found / world;
         assert!((0.9999..=1.7322).contains(&ratio), "{ratio}: {transform:?}");
     }
@@ -326,7 +326,7 @@ fn an_instance_in_world_space() {
         let triangle = extreme_triangle(random);
         let bounds = LightBounds::of_triangle(&triangle);
         if bounds.phi > 0.0 {
-            let world = bounds.to_world(&Instance::IDENTITY);
+            let world = bounds.to_world::<lightbvh::EmissiveTriangle>(&Instance::IDENTITY);
             assert_eq!((world.phi, world.cos_theta_o), (bounds.phi, bounds.cos_theta_o));
             let size = bounds.max.abs().max(bounds.min.abs()).max_element();
             let off = (world.max - bounds.max).abs().max((world.min - bounds.min).abs());

@@ -22,6 +22,7 @@ mod hostile;
 mod importance;
 mod instance;
 mod instanced;
+mod kinds_device;
 mod known_answers;
 mod known_words;
 mod light_identity;

@@ -388,7 +388,7 @@ fn a_mesh_bent_while_a_rebuild_is_under_way_is_built_anew_by_the_next() {
 /// Sum of the surface areas that the bottom level's nodes give their children, which for triangles of even flux ranks
 /// trees much as Eq. 3 does; measured apart from the library's own cost.
 fn scene_cost<const TEST: usize>(scene: &Tree<TEST>, model: &Model) -> f64 {
-    use lightbvh::LightNode;
+    use lightbvh::Node;
     use lightbvh::node::kind;
     let id = *model.instances.keys().next().expect("one");
     let mut stack = vec![scene.instances()[id.index() as usize].root];

@@ -3,7 +3,7 @@
 use lightbvh::node::kind;
 use lightbvh::validate::What;
 use lightbvh::{
-    BuildParams, Bvh, CompactNode, EmissiveTriangle, FullNode, Heuristic, Instance, LightNode, Lights,
+    BuildParams, Bvh, CompactNode, EmissiveTriangle, FullNode, Heuristic, Instance, LightNode, Lights, Node,
     Summary, bvh, exact, refit,
 };
 use lightbvh_tests::each_node;
@@ -56,7 +56,7 @@ fn recomputed<N: LightNode<W>, const W: usize>(
                     // The root above the parts, which no leaf leads to.
                     recomputed(bvh, lights, tree.instances[instance.part as usize].root, out);
                 }
-                recomputed(bvh, lights, instance.root, out).to_world(instance)
+                recomputed(bvh, lights, instance.root, out).to_world::<lightbvh::EmissiveTriangle>(instance)
             }
             _ => recomputed(bvh, lights, link, out),
         };

@@ -7,9 +7,8 @@ use super::binary::{Binary, LEAF, binary_tree};
 use super::collapse::{Collapse, binary_levels};
 use super::primitive::Primitive;
 use super::ward::{WardPrimitive, build_ward, ward_primitives};
-use crate::bounds::LightBounds;
-use crate::light::EmissiveTriangle;
-use crate::node::{LightNode, kind};
+use crate::light::Light;
+use crate::node::{Node, kind};
 use crate::summary::Summary;
 use crate::trail::BitTrail;
 
@@ -35,7 +34,7 @@ impl<N> Topology<N> {
     /// Numbers the triangles from `first` instead of 0.
     pub fn move_primitives<const W: usize>(&mut self, first: u32)
     where
-        N: LightNode<W>,
+        N: Node<W>,
     {
         for node in &mut self.nodes {
             for slot in 0..W {
@@ -51,8 +50,8 @@ impl<N> Topology<N> {
 }
 
 /// Builds a tree over each mesh.
-pub(crate) fn build_each<N: LightNode<W>, const W: usize>(
-    meshes: &[&[EmissiveTriangle]],
+pub(crate) fn build_each<N: Node<W>, const W: usize>(
+    meshes: &[&[N::Light]],
     params: &BuildParams,
 ) -> Vec<Topology<N>> {
     #[cfg(feature = "rayon")]
@@ -65,12 +64,12 @@ pub(crate) fn build_each<N: LightNode<W>, const W: usize>(
 }
 
 /// Builds a tree over `triangles`, at least one, numbered from 0.
-pub(crate) fn build_over<N: LightNode<W>, const W: usize>(
-    triangles: &[EmissiveTriangle],
+pub(crate) fn build_over<N: Node<W>, const W: usize>(
+    triangles: &[N::Light],
     params: &BuildParams,
 ) -> Topology<N> {
     if params.heuristic.is_binary() {
-        let bounds = |(i, triangle)| Primitive::new(i, &LightBounds::of_triangle(triangle));
+        let bounds = |(i, light): (u32, &N::Light)| Primitive::new(i, &light.bounds());
         let mut primitives: Vec<Primitive> = (0..).zip(triangles).map(bounds).collect();
         return build_binary::<N, W>(&mut primitives, kind::LIGHT, params);
     }
@@ -78,7 +77,7 @@ pub(crate) fn build_over<N: LightNode<W>, const W: usize>(
 }
 
 /// Builds a tree over what is known of instances, at least one: pairs of an instance's index and its summary.
-pub(crate) fn build_top<N: LightNode<W>, const W: usize>(
+pub(crate) fn build_top<N: Node<W>, const W: usize>(
     instances: impl Iterator<Item = (u32, N::Summary)>,
     params: &BuildParams,
 ) -> Topology<N> {
@@ -102,7 +101,7 @@ pub(crate) fn build_top<N: LightNode<W>, const W: usize>(
 }
 
 /// Builds a binary tree by the paper's heuristics, and collapses it.
-fn build_binary<N: LightNode<W>, const W: usize>(
+fn build_binary<N: Node<W>, const W: usize>(
     primitives: &mut [Primitive],
     leaf_kind: u32,
     params: &BuildParams,
@@ -139,7 +138,7 @@ struct Emitter<'a, N, const W: usize> {
     out: &'a mut Topology<N>,
 }
 
-impl<N: LightNode<W>, const W: usize> Emitter<'_, N, W> {
+impl<N: Node<W>, const W: usize> Emitter<'_, N, W> {
     /// Emits the wide node in place of a binary one at `level`; recursion is as deep as the tree, at most 64.
     fn node(&mut self, binary: u32, level: u32, trail: BitTrail) {
         let index = self.out.nodes.len();

@@ -7,8 +7,7 @@ use super::edit::{Edit, EditError, InstanceId, MeshId};
 use super::{Bvh, InstanceState, Mesh, Trails};
 use crate::build::{Topology, build_each};
 use crate::instance::Instance;
-use crate::light::EmissiveTriangle;
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::transform::Transform;
 use crate::tree::INVALID;
 
@@ -22,22 +21,22 @@ pub struct Added {
     pub instances: Vec<InstanceId>,
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Does a batch of edits, all or none. Sampling is as good as before after the next [`refit`](Self::refit); until then
     /// probabilities are exact and no light that is gone is returned, but there may be none where one was removed, and lights that
     /// were added may have the uniform share alone.
     ///
-    /// Time is in proportion to the edits, to the triangles in them, and to the instances of each mesh that is deformed as a whole or
-    /// reaches farther than before, as often as it is. An instance that is added, removed, or put in elsewhere since it moved far or
+    /// Time is in proportion to the edits, to the triangles in them, and to the instances of each mesh that is deformed as a whole,
+    /// reaches farther than before, or has lights of another [`flux_power`](crate::light::Light::flux_power) than before, as often as it is. An instance that is added, removed, or put in elsewhere since it moved far or
     /// changed its radiance by more than a factor of 2, takes one node of each level, and on average a share of 16 instances in building
     /// subtrees of at most 512 anew; a mirror copies what that writes (measured: `docs/dynamics.md`). One call puts in
     /// elsewhere 64 instances at most, and one more for each 64 that there are; the others keep their places until they move again, or a
     /// rebuild. Where at least as many instances are added as there are, the top level is built anew within the call. A mesh is
-    /// built within the call that adds it: about 0.2 µs for each triangle.
+    /// built within the call that adds it: 0.2 to 0.4 µs for each triangle.
     ///
     /// # Errors
     /// [`EditError`] naming the first edit that cannot be done; the scene is as before then.
-    pub fn apply(&mut self, mut edits: Vec<Edit>) -> Result<Added, EditError> {
+    pub fn apply(&mut self, mut edits: Vec<Edit<N::Light>>) -> Result<Added, EditError> {
         for (mesh, extent) in self.check(&mut edits)? {
             let blas = self.meshes[mesh.index as usize].blas;
             self.blases[blas as usize].extent = extent;
@@ -112,7 +111,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         Ok(updated)
     }
 
-    pub(super) fn insert_mesh(&mut self, triangles: &[EmissiveTriangle], topology: Topology<N>) -> MeshId {
+    pub(super) fn insert_mesh(&mut self, triangles: &[N::Light], topology: Topology<N>) -> MeshId {
         let index = self.mesh_ranges.take(1).start;
         let blas = self.add_blas(index, triangles, topology);
         let generation = match self.meshes.get(index as usize) {
@@ -257,7 +256,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             place: old.place,
             above: old.above,
             part: old.part,
-            ..placed.transform.instance(placed.radiance)
+            ..self.in_place(blas, placed.transform, placed.radiance)
         };
         self.changes.new.mark_instance(index);
         self.write_parts(index);

@@ -4,12 +4,13 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use super::powers::Powers;
 use super::stage::Staged;
 use super::{Bvh, Trails};
 use crate::build::Topology;
 use crate::levels::Levels;
-use crate::light::EmissiveTriangle;
-use crate::node::{LightNode, kind};
+use crate::light::Light;
+use crate::node::{Node, kind};
 use crate::refit::{self, BlasRoot};
 use crate::summary::Summary;
 use crate::sweep;
@@ -32,6 +33,8 @@ pub(super) struct Blas {
     pub misfits: Vec<u32>,
     pub depth: u32,
     pub extent: Extent,
+    /// How the flux of its lights grows with an instance's scale.
+    pub powers: Powers,
     /// When its topology was made.
     pub created: u64,
     /// When what is known of it as a whole changed last.
@@ -46,14 +49,9 @@ pub(super) struct Blas {
     pub opened: u32,
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// A bottom level over `triangles`, as `topology` has it, whose primitives are numbered from 0; returns its index.
-    pub(super) fn add_blas(
-        &mut self,
-        mesh: u32,
-        triangles: &[EmissiveTriangle],
-        mut topology: Topology<N>,
-    ) -> u32 {
+    pub(super) fn add_blas(&mut self, mesh: u32, triangles: &[N::Light], mut topology: Topology<N>) -> u32 {
         let index = self.blas_ranges.take(1).start;
         let range = self.triangle_ranges.take(triangles.len() as u32);
         let empty = Blas {
@@ -65,6 +63,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             misfits: Vec::new(),
             depth: 0,
             extent: Extent::of(triangles),
+            powers: Powers::of(triangles),
             created: 0,
             changed: 0,
             staged: None,
@@ -108,13 +107,13 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// Writes the triangles of a bottom level and marks it for refit.
-    pub(super) fn write_triangles(&mut self, index: u32, triangles: &[EmissiveTriangle]) {
+    pub(super) fn write_triangles(&mut self, index: u32, triangles: &[N::Light]) {
         self.put_triangles(index, 0, triangles);
         self.changes.new.mark_blas(index);
     }
 
     /// Writes those of its triangles that begin with its `first`-th, and marks them for refit.
-    pub(super) fn write_triangle_range(&mut self, index: u32, first: u32, triangles: &[EmissiveTriangle]) {
+    pub(super) fn write_triangle_range(&mut self, index: u32, first: u32, triangles: &[N::Light]) {
         if triangles.is_empty() {
             return;
         }
@@ -126,28 +125,25 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    fn put_triangles(&mut self, index: u32, first: u32, triangles: &[EmissiveTriangle]) -> Range<u32> {
+    fn put_triangles(&mut self, index: u32, first: u32, triangles: &[N::Light]) -> Range<u32> {
         let start = self.blases[index as usize].triangles.start + first;
         let range = start..start + triangles.len() as u32;
         self.cover_triangles(range.end);
+        let powers = self.powers_with(index, range.clone(), triangles);
         let own = &mut self.triangles[range.start as usize..range.end as usize];
         for (to, from) in own.iter_mut().zip(triangles) {
-            *to = EmissiveTriangle { mesh: index, ..*from };
+            *to = from.of_mesh(index);
         }
         self.changes.new.written_triangles.push(range.clone());
         self.write_staged(index, first, triangles.len() as u32);
+        self.set_powers(index, powers);
         range
     }
 
     /// Makes room for triangles up to `end`.
     pub(super) fn cover_triangles(&mut self, end: u32) {
         if self.triangles.len() < end as usize {
-            let dark = EmissiveTriangle {
-                p: [[0.0; 3]; 3],
-                radiance: [0.0; 3],
-                mesh: INVALID,
-                flags: 0,
-            };
+            let dark = N::Light::DARK;
             self.triangles.resize(end as usize, dark);
         }
     }

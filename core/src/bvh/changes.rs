@@ -151,7 +151,7 @@ impl Pending {
     }
 
     /// Entries of the lists that may repeat.
-    fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.parts.len()
             + self.instances.len()
             + self.top_nodes.len()

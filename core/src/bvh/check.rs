@@ -8,9 +8,9 @@ use alloc::vec::Vec;
 use super::edit::{Edit, EditError, EditReason, InstanceId, MeshId, RADIANCE_FACTORS};
 use super::ranges::Ranges;
 use super::{Bvh, Trails};
-use crate::light::EmissiveTriangle;
+use crate::light::Light;
 use crate::lights::MAX_LIGHTS;
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::transform::{Extent, Transform};
 
 /// Triangles that one thread looks at.
@@ -20,8 +20,7 @@ const PIECE: usize = 4096;
 type Extents = BTreeMap<MeshId, Extent>;
 
 /// What the edits before this one in the batch have done.
-#[derive(Default)]
-struct Batch {
+struct Batch<L> {
     removed_instances: BTreeSet<InstanceId>,
     removed_meshes: BTreeSet<MeshId>,
     /// Change of a mesh's number of instances.
@@ -40,13 +39,33 @@ struct Batch {
     /// Meshes added: number of triangles, and extent.
     meshes: Vec<(usize, Extent)>,
     /// The triangles of deformed meshes, where extents are to be exact.
-    copies: Option<BTreeMap<MeshId, Vec<EmissiveTriangle>>>,
+    copies: Option<BTreeMap<MeshId, Vec<L>>>,
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+// Derived, it would ask the same of lights.
+impl<L> Default for Batch<L> {
+    fn default() -> Self {
+        Self {
+            removed_instances: BTreeSet::new(),
+            removed_meshes: BTreeSet::new(),
+            uses: BTreeMap::new(),
+            extents: Extents::new(),
+            transforms: BTreeMap::new(),
+            added: BTreeMap::new(),
+            deforms: false,
+            lights: 0,
+            triangles: 0,
+            space: None,
+            meshes: Vec::new(),
+            copies: None,
+        }
+    }
+}
+
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Brings all triangles of the batch into the domain, or says which edit cannot be done. Returns the extents of meshes that are
     /// others, or known better, after it.
-    pub(super) fn check(&self, edits: &mut [Edit]) -> Result<Extents, EditError> {
+    pub(super) fn check(&self, edits: &mut [Edit<N::Light>]) -> Result<Extents, EditError> {
         let (mut is_crowded, mut is_exact) = (false, false);
         loop {
             match self.check_all(edits, is_crowded, is_exact) {
@@ -59,8 +78,14 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    fn check_all(&self, edits: &mut [Edit], is_crowded: bool, is_exact: bool) -> Result<Extents, EditError> {
-        let deforms = |edit: &Edit| matches!(edit, Edit::SetTriangles { .. } | Edit::SetTriangleRange { .. });
+    fn check_all(
+        &self,
+        edits: &mut [Edit<N::Light>],
+        is_crowded: bool,
+        is_exact: bool,
+    ) -> Result<Extents, EditError> {
+        let deforms =
+            |edit: &Edit<N::Light>| matches!(edit, Edit::SetTriangles { .. } | Edit::SetTriangleRange { .. });
         let mut batch = Batch {
             lights: self.lights.end() as usize,
             triangles: self.triangle_ranges.end() as usize,
@@ -76,7 +101,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         Ok(batch.extents)
     }
 
-    fn check_one(&self, batch: &mut Batch, edit: &mut Edit) -> Result<(), EditReason> {
+    fn check_one(&self, batch: &mut Batch<N::Light>, edit: &mut Edit<N::Light>) -> Result<(), EditReason> {
         if self.single && !matches!(edit, Edit::SetTriangles { .. } | Edit::SetTriangleRange { .. }) {
             return Err(EditReason::SingleLevel);
         }
@@ -182,7 +207,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// Number of triangles of a mesh that is there.
-    fn known_mesh(&self, batch: &Batch, id: MeshId) -> Result<usize, EditReason> {
+    fn known_mesh(&self, batch: &Batch<N::Light>, id: MeshId) -> Result<usize, EditReason> {
         let known = self
             .meshes
             .get(id.index as usize)
@@ -195,7 +220,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// The mesh of an instance that is there.
-    fn known_instance(&self, batch: &Batch, id: InstanceId) -> Result<MeshId, EditReason> {
+    fn known_instance(&self, batch: &Batch<N::Light>, id: InstanceId) -> Result<MeshId, EditReason> {
         match self.live(id) {
             Some(placed) if !batch.removed_instances.contains(&id) => Ok(MeshId {
                 tree: self.id.0,
@@ -213,7 +238,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 }
 
-impl Batch {
+impl<L> Batch<L> {
     fn take_lights(&mut self, count: usize) {
         self.lights = match &mut self.space {
             Some((lights, _)) => end_after(lights, count),
@@ -238,14 +263,14 @@ fn end_after(ranges: &mut Ranges, count: usize) -> usize {
     ranges.end() as usize
 }
 
-fn not_empty(triangles: &[EmissiveTriangle]) -> Result<(), EditReason> {
+fn not_empty<L>(triangles: &[L]) -> Result<(), EditReason> {
     match triangles {
         [] => Err(EditReason::EmptyMesh),
         _ => Ok(()),
     }
 }
 
-fn checked(triangles: &mut [EmissiveTriangle]) -> Result<(), EditReason> {
+fn checked<L: Light>(triangles: &mut [L]) -> Result<(), EditReason> {
     #[cfg(feature = "rayon")]
     let wrong = {
         use rayon::prelude::*;
@@ -260,7 +285,7 @@ fn checked(triangles: &mut [EmissiveTriangle]) -> Result<(), EditReason> {
 }
 
 /// Brings triangles into the domain up to the first that cannot be; they are numbered from `first`.
-fn first_wrong(triangles: &mut [EmissiveTriangle], first: usize) -> Option<EditReason> {
+fn first_wrong<L: Light>(triangles: &mut [L], first: usize) -> Option<EditReason> {
     for (index, triangle) in (first..).zip(triangles) {
         match triangle.checked() {
             Ok(checked) => *triangle = checked,

@@ -6,8 +6,9 @@ use core::ops::Range;
 
 use super::edit::EditReason;
 use super::{Bvh, Trails};
+use crate::light::Light;
 use crate::lights::Lights;
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::transform::Extent;
 
 /// How many triangles each mesh of a BVH has: what [`Lights`] must have for the BVH, or a copy of it, to follow them.
@@ -25,7 +26,7 @@ impl MeshCounts {
     ///
     /// # Errors
     /// [`FollowError`] naming the first mesh light whose number of triangles is another, 0 where there is no such.
-    pub fn check(&self, lights: &Lights) -> Result<(), FollowError> {
+    pub fn check<L: Light>(&self, lights: &Lights<L>) -> Result<(), FollowError> {
         let meshes = if self.single { 1 } else { lights.mesh_count() };
         for mesh in 0..meshes.max(self.counts.len()) {
             let expected = self.counts.get(mesh).copied().unwrap_or(0);
@@ -39,7 +40,7 @@ impl MeshCounts {
     }
 
     /// The triangles of `lights` that are those of mesh `mesh`; none where there is no such mesh light.
-    fn range(&self, lights: &Lights, mesh: usize) -> Range<usize> {
+    fn range<L: Light>(&self, lights: &Lights<L>, mesh: usize) -> Range<usize> {
         match mesh {
             0 if self.single => 0..lights.triangles().len(),
             _ if mesh < lights.mesh_count() => lights.mesh(mesh),
@@ -48,7 +49,7 @@ impl MeshCounts {
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// How many triangles each mesh has.
     #[doc(hidden)]
     #[must_use]
@@ -69,7 +70,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// # Errors
     /// [`FollowError`] naming the mesh light whose number of triangles is another (0 where there is no such), or that would be out of
     /// range where an instance has moved it meanwhile; the BVH is as before then.
-    pub fn follow(&mut self, lights: &Lights) -> Result<(), FollowError> {
+    pub fn follow(&mut self, lights: &Lights<N::Light>) -> Result<(), FollowError> {
         let counts = self.mesh_counts();
         counts.check(lights)?;
         let mut changes = Vec::new();

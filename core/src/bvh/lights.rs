@@ -5,17 +5,17 @@ use core::ops::Range;
 
 use super::edit::{InstanceId, MeshId};
 use super::{Bvh, Trails};
-use crate::light::EmissiveTriangle;
+use crate::light::Light;
 use crate::lights::{Lights, LightsError, MAX_LIGHTS};
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::requirements::Placed;
-use crate::tree::INVALID;
 
 /// So many numbers of removed lights wait to be taken, and as many as there are lights.
 const LEAST_WAITING: usize = 1 << 16;
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// The lights of an instance: numbered without gaps, triangle by triangle, the same as long as the instance lives.
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+    /// The lights of an instance: numbered without gaps, the same as long as the instance lives; that of triangle
+    /// `k`, as the mesh was given, is `start + k`.
     #[must_use]
     pub fn lights_of(&self, instance: InstanceId) -> Option<Range<u32>> {
         self.live(instance).map(|placed| placed.lights.clone())
@@ -30,7 +30,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Light `light` of the instance of index `instance` in the world, as a [`SampledLight`](crate::SampledLight) names them; `None` where there is
     /// no such. In a single-level BVH, where samples name no instance, that is not looked at.
     #[must_use]
-    pub fn triangle(&self, light: u32, instance: u32) -> Option<EmissiveTriangle> {
+    pub fn triangle(&self, light: u32, instance: u32) -> Option<N::Light> {
         let index = if self.single { 0 } else { instance };
         let placed = self
             .placed
@@ -38,7 +38,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             .filter(|placed| placed.live && placed.lights.contains(&light))?;
         let own = &self.instances[index as usize];
         let triangle = self.blas_of(placed).triangles.start + (light - placed.lights.start);
-        Some(own.triangle(&self.triangles[triangle as usize], index))
+        Some(self.triangles[triangle as usize].in_world(own, index))
     }
 
     /// The id of the instance of index `instance`, as a [`SampledLight`](crate::SampledLight) names it; `None` where there is no such.
@@ -60,7 +60,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// The triangles of a mesh, in its own space and in the order in which it was given; `None` where there is no such mesh.
     #[must_use]
-    pub fn mesh_triangles(&self, mesh: MeshId) -> Option<&[EmissiveTriangle]> {
+    pub fn mesh_triangles(&self, mesh: MeshId) -> Option<&[N::Light]> {
         let own = self.mesh_id(mesh.index).filter(|&own| own == mesh)?;
         let range = &self.blases[self.meshes[own.index as usize].blas as usize].triangles;
         Some(&self.triangles[range.start as usize..range.end as usize])
@@ -80,13 +80,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// All lights in the world by number. Their `mesh` is the index of the instance; numbers not in use get triangles without radiance of
     /// mesh `u32::MAX`. [`to_lights`](Self::to_lights) has those in use alone.
     #[must_use]
-    pub fn world_lights(&self) -> Vec<EmissiveTriangle> {
-        let dark = EmissiveTriangle {
-            p: [[0.0; 3]; 3],
-            radiance: [0.0; 3],
-            mesh: INVALID,
-            flags: 0,
-        };
+    pub fn world_lights(&self) -> Vec<N::Light> {
+        let dark = N::Light::DARK;
         let mut out = alloc::vec![dark; self.lights.end() as usize];
         for (index, placed) in self.placed.iter().enumerate().filter(|(_, placed)| placed.live) {
             let own = &self.instances[index];
@@ -94,7 +89,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             let local = &self.triangles[range.start as usize..range.end as usize];
             let lights = placed.lights.start as usize..placed.lights.end as usize;
             for (light, triangle) in out[lights].iter_mut().zip(local) {
-                *light = own.triangle(triangle, index as u32);
+                *light = triangle.in_world(own, index as u32);
             }
         }
         out
@@ -106,20 +101,20 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     ///
     /// # Errors
     /// [`LightsError`] naming a light that its instance puts outside of the domain.
-    pub fn to_lights(&self) -> Result<Lights, LightsError> {
+    pub fn to_lights(&self) -> Result<Lights<N::Light>, LightsError> {
         let mut out = Vec::with_capacity(self.light_count());
         let placed = self.placed.iter().enumerate().filter(|(_, placed)| placed.live);
         for (mesh, (index, placed)) in (0..).zip(placed) {
             let own = &self.instances[index];
             let range = self.blas_of(placed).triangles.clone();
             let local = &self.triangles[range.start as usize..range.end as usize];
-            out.extend(local.iter().map(|triangle| own.triangle(triangle, mesh)));
+            out.extend(local.iter().map(|light| light.in_world(own, mesh)));
         }
         Lights::new(out)
     }
 
     /// The meshes, and their places in the world.
-    pub(crate) fn meshes_and_places(&self) -> (Vec<&[EmissiveTriangle]>, Vec<Placed>) {
+    pub(crate) fn meshes_and_places(&self) -> (Vec<&[N::Light]>, Vec<Placed>) {
         let mut found = alloc::vec![0; self.meshes.len()];
         let mut meshes = Vec::new();
         for (index, mesh) in self.meshes.iter().enumerate().filter(|(_, mesh)| mesh.live) {
@@ -156,7 +151,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// [`triangles`](Self::triangles) and [`instances`](Self::instances) are kept for [`world_light`](crate::refit::world_light).
     ///
     /// No new light gets such a number before it is taken. The exception keeps numbers from running out where they never are: once more
-    /// than 65,536 wait, and more than there are lights, all of them are free, and the first range is that of every number there was.
+    /// than 65,536 numbers wait, and more than there are lights, all of them are free, and the first range is that of every number there was.
     /// The edit at which that happens takes time in proportion to all that waited.
     #[must_use]
     pub fn removed_lights(&self) -> &[Range<u32>] {

@@ -29,6 +29,7 @@ mod follow;
 mod lights;
 mod one;
 mod opened;
+mod powers;
 mod quality;
 mod query;
 mod ranges;
@@ -86,8 +87,7 @@ use self::top::Top;
 use crate::build::BuildParams;
 use crate::importance::DefaultImportance;
 use crate::instance::Instance;
-use crate::light::EmissiveTriangle;
-use crate::node::{DefaultNode, LightNode};
+use crate::node::{DefaultNode, Holds, Node};
 use crate::refit::BlasRoot;
 use crate::tree::LightTree;
 
@@ -100,7 +100,7 @@ use crate::tree::LightTree;
 /// `T` says whether the probability of a given light can be asked for: [`WithTrails`] unless
 /// [`without_trails`](Self::without_trails) gave them up.
 #[derive(Clone, Debug)]
-pub struct Bvh<N, I, const W: usize, T = WithTrails> {
+pub struct Bvh<N: Holds, I, const W: usize, T = WithTrails> {
     /// What its ids belong to.
     id: TreeId,
     params: BuildParams,
@@ -109,7 +109,7 @@ pub struct Bvh<N, I, const W: usize, T = WithTrails> {
     /// By node: the node above it in the same tree, or [`INVALID`](crate::INVALID).
     parents: Vec<u32>,
     /// In the space of their meshes, grouped by bottom level.
-    triangles: Vec<EmissiveTriangle>,
+    triangles: Vec<N::Light>,
     triangle_ranges: Ranges,
     trails: Vec<u32>,
     trail_words: u32,
@@ -174,13 +174,13 @@ pub struct Parts<'a, N> {
 /// The light BVH with what measured best for its time: moments on packed nodes of 8 children, 1/64 of uniform choice.
 pub type LightBvh = Bvh<DefaultNode, DefaultImportance, 8>;
 
-impl<N: LightNode<W>, I, const W: usize> Default for Bvh<N, I, W> {
+impl<N: Node<W>, I, const W: usize> Default for Bvh<N, I, W> {
     fn default() -> Self {
         Self::new(BuildParams::default())
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// A BVH without lights, whose trees will be built by `params`.
     #[must_use]
     pub fn new(params: BuildParams) -> Self {
@@ -256,7 +256,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// The arrays as traversal takes them. Without trails, no probability may be asked of them.
     pub(super) fn arrays(&self) -> LightTree<'_, N, I, W> {
         let mut tree = LightTree {
@@ -305,7 +305,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// The triangles of all bottom levels, in the spaces of their meshes. Where those of a mesh begin may change with its tree; its
     /// instances tell.
     #[must_use]
-    pub fn triangles(&self) -> &[EmissiveTriangle] {
+    pub fn triangles(&self) -> &[N::Light] {
         &self.triangles
     }
 

@@ -4,16 +4,15 @@ use alloc::vec::Vec;
 
 use super::edit::{Edit, EditReason, InstanceId, MeshId};
 use super::{Added, Bvh, Trails};
-use crate::light::EmissiveTriangle;
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::transform::Transform;
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Adds a mesh of at least one triangle, in its own space; it lights nothing before an instance puts it into the world.
     ///
     /// # Errors
     /// [`EditReason`]; nothing is changed then.
-    pub fn add_mesh(&mut self, triangles: Vec<EmissiveTriangle>) -> Result<MeshId, EditReason> {
+    pub fn add_mesh(&mut self, triangles: Vec<N::Light>) -> Result<MeshId, EditReason> {
         Ok(self.one(Edit::AddMesh { triangles })?.meshes[0])
     }
 
@@ -52,11 +51,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     ///
     /// # Errors
     /// [`EditReason`]; nothing is changed then.
-    pub fn set_triangles(
-        &mut self,
-        mesh: MeshId,
-        triangles: Vec<EmissiveTriangle>,
-    ) -> Result<(), EditReason> {
+    pub fn set_triangles(&mut self, mesh: MeshId, triangles: Vec<N::Light>) -> Result<(), EditReason> {
         self.one(Edit::SetTriangles { mesh, triangles }).map(|_| ())
     }
 
@@ -71,7 +66,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         &mut self,
         mesh: MeshId,
         first: u32,
-        triangles: Vec<EmissiveTriangle>,
+        triangles: Vec<N::Light>,
     ) -> Result<(), EditReason> {
         let edit = Edit::SetTriangleRange {
             mesh,
@@ -97,7 +92,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.one(Edit::RemoveMesh(mesh)).map(|_| ())
     }
 
-    fn one(&mut self, edit: Edit) -> Result<Added, EditReason> {
+    fn one(&mut self, edit: Edit<N::Light>) -> Result<Added, EditReason> {
         self.apply(alloc::vec![edit]).map_err(|error| error.reason)
     }
 }

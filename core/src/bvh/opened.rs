@@ -13,11 +13,12 @@ use core::ops::Range;
 
 use super::apply::NO_INSTANCE;
 use super::blas::{Blas, put};
+use super::powers::Powers;
 use super::records::InstanceState;
 use super::{Bvh, Trails};
 use crate::instance::Instance;
 use crate::levels::Levels;
-use crate::node::{LightNode, kind};
+use crate::node::{Node, kind};
 use crate::refit::{self, BlasRoot};
 use crate::summary::Summary;
 use crate::transform::Extent;
@@ -88,7 +89,7 @@ pub(super) fn is_to_open(own: f64, whole: f64, is_open: bool) -> bool {
 
 /// Number of parts that the bottom level with this root can be opened into: its children, where all are nodes and lie in slots
 /// without gaps; else 0. A light has no node that could be a root.
-pub(super) fn parts_below<N: LightNode<W>, const W: usize>(root: &N) -> u32 {
+pub(super) fn parts_below<N: Node<W>, const W: usize>(root: &N) -> u32 {
     let count = (0..W).take_while(|&slot| root.kind(slot) == kind::INNER).count();
     let is_all = (count..W).all(|slot| root.kind(slot) == kind::EMPTY);
     if is_all && count > 1 { count as u32 } else { 0 }
@@ -96,10 +97,13 @@ pub(super) fn parts_below<N: LightNode<W>, const W: usize>(root: &N) -> u32 {
 
 /// Of the `openable` instances, each with the root of its bottom level, those that are to be opened, and those that are to be closed,
 /// the costliest first; at most [`MOST`] of both, so that no frame has much to do for them. All lights together cost `whole`.
-pub(super) fn wanted<S: Summary>(whole: f64, openable: &[(u32, Instance, BlasRoot)]) -> [Vec<u32>; 2] {
+pub(super) fn wanted<N: Node<W>, const W: usize>(
+    whole: f64,
+    openable: &[(u32, Instance, BlasRoot)],
+) -> [Vec<u32>; 2] {
     let mut changes: Vec<(f64, u32, bool)> = Vec::new();
     for (index, instance, root) in openable {
-        let own = cost(&root.summary::<S>().to_world(instance));
+        let own = cost(&root.summary::<N::Summary>().to_world::<N::Light>(instance));
         let is_open = instance.part != INVALID;
         let wanted = is_to_open(own, whole, is_open);
         if wanted != is_open {
@@ -114,7 +118,7 @@ pub(super) fn wanted<S: Summary>(whole: f64, openable: &[(u32, Instance, BlasRoo
     })
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Those of some instances that are opened or could be.
     pub(super) fn openable(&self, some: impl Iterator<Item = u32>) -> Vec<(u32, Instance, BlasRoot)> {
         if !self.params.opens {
@@ -251,29 +255,25 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// A record for a part of `instance`, its words still to be written.
     pub(super) fn put_part(&mut self, part: u32, instance: u32) {
-        let generation = self.placed.get(part as usize).map_or(0, |old| old.generation + 1);
-        let placed = InstanceState {
+        let old = self.placed.get(part as usize);
+        // What it was when it was hung is set as it is hung, and is there already where it was read.
+        let hung = old.map_or([0, INVALID, INVALID, INVALID], InstanceState::hung_words);
+        let mut placed = InstanceState {
             live: false,
-            generation,
+            generation: old.map_or(0, |old| old.generation + 1),
             user: 0,
             listed: 0,
             lights: 0..0,
             node: INVALID,
             slot: 0,
-            // Both are set as it is hung.
             hung: 0,
-            hung_radiance: self
-                .placed
-                .get(part as usize)
-                .map_or(0.0, |old| old.hung_radiance),
-            flickers: self.placed.get(part as usize).is_some_and(|old| old.flickers),
-            hung_center: [f32::NAN; 3],
             mark: 0,
             changed: self.epoch,
             parts: 0..0,
             part_of: instance,
             ..self.placed[instance as usize].clone()
         };
+        placed.set_hung_words(hung);
         put(&mut self.placed, part, placed.clone(), &placed);
         let old = self.instances.get(part as usize).copied().unwrap_or(NO_INSTANCE);
         let record = Instance {
@@ -360,7 +360,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             is_unlisted: false,
             misfits: Vec::new(),
             depth: 0,
-            extent: Extent::of(&[]),
+            extent: Extent::of::<N::Light>(&[]),
+            powers: Powers::default(),
             created: 0,
             changed: 0,
             staged: None,
@@ -397,10 +398,13 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 above: old.above,
                 ..own
             };
-            let radiance = self.placed[index as usize].radiance;
+            let InstanceState {
+                radiance, transform, ..
+            } = self.placed[index as usize];
             let placed = &mut self.placed[part as usize];
             placed.changed = self.epoch;
             placed.radiance = radiance;
+            placed.transform = transform;
             self.changes.new.mark_instance(part);
         }
     }

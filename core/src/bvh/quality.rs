@@ -1,10 +1,11 @@
 //! How much worse a bottom level is than when it was built: what decides whether it is built anew.
 //!
 //! A node stands for the lights below each of its children by a few moments. What it cannot tell apart is the share of its lights'
-//! variance of position that lies within its inner children, r = Σ Φ_c σ²_c / (Φ σ²), from 0 to 1 and without unit or scale. As refits
-//! stretch the nodes, r grows. The mean of its growth over a tree's nodes, by flux, is what of the order of its lights the tree has
-//! lost: 0 as built and for any motion of the whole, 0.6 to 0.85 where the triangles change places at random. Each node is compared
-//! with itself, so nothing that happens elsewhere hides it.
+//! variance of position that lies within its inner children, r = Σ Φ_c s²_c / (Φ σ²), from 0 to 1 and without unit or scale. In σ² is
+//! each light's own extent, in s² the distance of their centers alone: no tree tells points of one light apart, and lamps that start
+//! at one point as r = 0 have all to lose. As refits stretch the nodes, r grows. The mean of its growth over a tree's nodes, by
+//! flux, is what of the order of its lights the tree has lost: 0 as built and for any motion of the whole, 0.6 to 0.85 where
+//! the triangles change places at random. Each node is compared with itself, so nothing that happens elsewhere hides it.
 //!
 //! Means of subtrees are kept by node and computed along the paths of a refit. They follow from the words of the nodes and what was
 //! noted at the build, however many refits lie between.
@@ -14,7 +15,7 @@ use core::ops::Range;
 
 use super::{Bvh, Trails};
 use crate::exact::max;
-use crate::node::{LightNode, kind};
+use crate::node::{Node, kind};
 use crate::summary::Summary;
 use crate::widest::widest;
 
@@ -29,6 +30,8 @@ pub(super) struct Quality {
     lost: f32,
     /// Mean over the lights of the number of those nodes.
     levels: f32,
+    /// Variance of the centers of the lights, or instances, by flux: s² above.
+    apart: f32,
 }
 
 impl Quality {
@@ -39,6 +42,11 @@ impl Quality {
         } else {
             1.0
         }
+    }
+
+    /// Variance of the centers of the lights, m².
+    pub fn apart(&self) -> f32 {
+        self.apart
     }
 
     /// What is lost on the ways down, for a unit of flux.
@@ -53,7 +61,7 @@ impl Quality {
     }
 
     /// Those of the nodes of a tree in depth-first order, links counting from its root.
-    pub fn as_built<N: LightNode<W>, const W: usize>(nodes: &[N]) -> Vec<Self> {
+    pub fn as_built<N: Node<W>, const W: usize>(nodes: &[N]) -> Vec<Self> {
         let mut known = alloc::vec![Self::default(); nodes.len()];
         for index in (0..nodes.len() as u32).rev() {
             known[index as usize] = Self::of(nodes, &known, index, true);
@@ -63,13 +71,67 @@ impl Quality {
 
     /// That of node `index`, whose children's stand in `known`; as built with `is_new`.
     #[inline(always)]
-    fn of<N: LightNode<W>, const W: usize>(nodes: &[N], known: &[Self], index: u32, is_new: bool) -> Self {
+    fn of<N: Node<W>, const W: usize>(nodes: &[N], known: &[Self], index: u32, is_new: bool) -> Self {
         let node = &nodes[index as usize];
-        // A node of triangles alone tells all of them apart.
-        if !(0..W).any(|slot| node.kind(slot) == kind::INNER) {
-            return Self::default();
+        let (mut lost, mut levels) = (0.0, 0.0);
+        let mut is_last = true;
+        for slot in (0..W).filter(|&slot| node.kind(slot) == kind::INNER) {
+            let (below, flux) = (
+                &known[node.link(slot) as usize],
+                f64::from(node.summary(slot).phi()),
+            );
+            is_last = false;
+            lost += flux * f64::from(below.lost);
+            levels += flux * f64::from(below.levels);
         }
-        let (mut within, mut all, mut phi, mut lost, mut levels) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        let spread = Spread::of(node, |slot| known[node.link(slot) as usize].apart);
+        let per_phi = if spread.phi > 0.0 { 1.0 / spread.phi } else { 0.0 };
+        let apart = (spread.apart() * per_phi).min(f64::from(f32::MAX)) as f32;
+        // A node of lights alone tells all of them apart.
+        if is_last {
+            return Self {
+                apart,
+                ..Self::default()
+            };
+        }
+        let total = spread.apart() + spread.extents;
+        let share = if total > 0.0 {
+            (spread.within / total).min(1.0) as f32
+        } else {
+            0.0
+        };
+        let built = if is_new {
+            share
+        } else {
+            known[index as usize].built
+        };
+        let own = max(share - built, 0.0);
+        Self {
+            built,
+            own,
+            lost: own + (lost * per_phi) as f32,
+            levels: 1.0 + (levels * per_phi) as f32,
+            apart,
+        }
+    }
+}
+
+/// Flux times variance of position of a node's lights, W m², by where it lies.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spread {
+    pub phi: f64,
+    /// Of the centers of the lights of each inner child, and of the children's means.
+    within: f64,
+    between: f64,
+    /// Of the lights themselves.
+    extents: f64,
+}
+
+impl Spread {
+    /// That of a node, given the variance of the lights' centers of each slot that holds a node.
+    #[inline(always)]
+    pub fn of<N: Node<W>, const W: usize>(node: &N, apart_of: impl Fn(usize) -> f32) -> Self {
+        let (mut within, mut extents, mut phi) = (0.0, 0.0, 0.0);
         // Positions from the first child's, for the differences of `f32` are exact.
         let first = node.summary(0).center();
         let (mut moved, mut squares) = ([0.0; 3], 0.0);
@@ -85,49 +147,43 @@ impl Quality {
                 f64::from(c.z) - f64::from(first.z),
             ];
             phi += flux;
-            all += flux * spread;
             for axis in 0..3 {
                 moved[axis] += flux * from[axis];
                 squares += flux * from[axis] * from[axis];
             }
             if node.kind(slot) == kind::INNER {
-                let below = &known[node.link(slot) as usize];
-                within += flux * spread;
-                lost += flux * f64::from(below.lost);
-                levels += flux * f64::from(below.levels);
+                let apart = f64::from(apart_of(slot));
+                within += flux * apart;
+                extents += flux * (spread - apart).max(0.0);
+            } else {
+                extents += flux * spread;
             }
         }
         let per_phi = if phi > 0.0 { 1.0 / phi } else { 0.0 };
         let mean = moved.map(|sum| sum * per_phi);
-        let total = all + (squares - (moved[0] * mean[0] + moved[1] * mean[1] + moved[2] * mean[2])).max(0.0);
-        let share = if total > 0.0 {
-            (within / total).min(1.0) as f32
-        } else {
-            0.0
-        };
-        let built = if is_new {
-            share
-        } else {
-            known[index as usize].built
-        };
-        let own = max(share - built, 0.0);
+        let between = (squares - (moved[0] * mean[0] + moved[1] * mean[1] + moved[2] * mean[2])).max(0.0);
         Self {
-            built,
-            own,
-            lost: own + (lost * per_phi) as f32,
-            levels: 1.0 + (levels * per_phi) as f32,
+            phi,
+            within,
+            between,
+            extents,
         }
+    }
+
+    /// What a node costs that has these lights below: all but what no tree could help.
+    pub fn apart(&self) -> f64 {
+        self.within + self.between
     }
 }
 
 /// Looks at nodes that were refitted, children before parents.
-pub(super) fn judge<N: LightNode<W>, const W: usize>(nodes: &[N], known: &mut [Quality], list: &[u32]) {
+pub(super) fn judge<N: Node<W>, const W: usize>(nodes: &[N], known: &mut [Quality], list: &[u32]) {
     for &index in list {
         known[index as usize] = Quality::of(nodes, known, index, false);
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Looks at nodes in depth-first order, all below each of them among them; as built with `is_new`.
     pub(super) fn judge_range(&mut self, range: Range<u32>, is_new: bool) {
         if self.quality.len() < self.nodes.len() {

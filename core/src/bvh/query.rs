@@ -4,13 +4,13 @@ use super::edit::InstanceId;
 use super::trails::Sampled;
 use super::{Bvh, Trails};
 use crate::importance::ImportanceModel;
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::point::{Receiver, ShadingPoint};
 use crate::traverse::{Random64, SampledLight};
 #[cfg(doc)]
 use crate::tree::LightTree;
 
-impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Chooses a light for `point`, which is within the domain of [`ShadingPoint::checked`]; see [`LightTree::sample`]. Without
     /// lights none is chosen.
     #[must_use]
@@ -54,7 +54,7 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, T: Trails> Bvh<N
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// [`sample`](Self::sample) for a receiver of which an importance may know more than a [`ShadingPoint`] says; see
     /// [`LightTree::sample_for`].
     #[must_use]
@@ -81,7 +81,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 }
 
-impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
+impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
     /// Probability with which [`sample`](Self::sample) returns `light` of `instance`, as a [`SampledLight`] names them, at `point`:
     /// to the bit the one that comes with the sample. 0 where there is no such light, and where it is not that instance's. A single level has
     /// one instance, whichever is named.

@@ -7,23 +7,22 @@ use core::ops::Range;
 
 use super::blas::Blas;
 use super::edit::MeshId;
-use super::top::{TopCopy, TopTree};
+use super::top::{Quota, TopCopy, TopTree};
 use super::{Bvh, Trails};
 use crate::build::{BuildParams, Topology, build_over};
-use crate::light::EmissiveTriangle;
-use crate::node::LightNode;
+use crate::node::{Holds, Node};
 
 /// When trees are built anew: by default once they are 1.1 times worse than when they were built, either level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RebuildParams {
     /// The top level is once it is worse than when it was built by this factor, as below: 1 for whenever something has changed, infinite
-    /// for never. Of a top level of more than 1536 instances a [`Rebuilder`](crate::Rebuilder) builds parts that are worse by as much,
+    /// for never. Of a top level of more than 1024 instances a [`Rebuilder`](crate::Rebuilder) builds parts that are worse by as much,
     /// and the nodes above them where those lost a twentieth at least. At the default of 1.1 trees were better than at 1, for a third of
     /// the time where lamps mix and about the same where clusters of them change places (`docs/dynamics.md`, "When it pays").
     pub top: f64,
     /// A bottom level is once it is worse than when it was built by more than this factor; infinite for never. The factor is
-    /// 1 / (1 - l), where l is the mean by flux, over the nodes, of how much more of their lights' variance of position lies within their
-    /// children: 0 as built, wherever the mesh goes, however it is scaled, and whatever happens elsewhere; 0.65 to 0.85, a factor of 3
+    /// 1 / (1 - l), where l is the mean by flux, over the nodes, of how much more of their lights' variance of position lies between the
+    /// lights of each of their children: 0 as built, wherever the mesh goes, however it is scaled, and whatever happens elsewhere; 0.65 to 0.85, a factor of 3
     /// to 7, where all triangles changed places. What only a device has refitted is not seen to lose quality.
     pub drift: f64,
 }
@@ -40,7 +39,8 @@ impl Default for RebuildParams {
 const LARGE: usize = 512;
 
 impl RebuildParams {
-    /// The top level whatever it lost, as the paper does in each frame; bottom levels as by default.
+    /// The top level whatever it lost, as the paper does in each frame; bottom levels as by default. By [`Bvh::rebuild`](crate::Bvh::rebuild) that is
+    /// the whole of it; by a [`Rebuilder`](crate::Rebuilder), where it has more than 1024 instances, each part that lost anything at all.
     #[must_use]
     pub fn eager() -> Self {
         Self {
@@ -62,13 +62,20 @@ pub struct Due {
     pub limit: f64,
 }
 
+/// Most instances of subtrees that are built anew for what came while a tree was built and was put into it.
+pub(super) const ADOPTED: u64 = 64;
+
+/// Entries of the lists of what changed that are not sorted: the refit that comes next takes them, and to sort those of a part was a
+/// tenth of the time that putting it in place took.
+const MANY: usize = 8192;
+
 /// Work for any thread: a copy of what is to be built anew.
 #[derive(Clone, Debug)]
-pub struct Rebuild<N, const W: usize> {
+pub struct Rebuild<N: Holds, const W: usize> {
     params: BuildParams,
     taken: Taken,
     top: Vec<TopCopy<N>>,
-    bottoms: Vec<Bottom>,
+    bottoms: Vec<Bottom<N::Light>>,
     layout: PhantomData<N>,
 }
 
@@ -76,25 +83,25 @@ pub struct Rebuild<N, const W: usize> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Taken {
     tree: u32,
-    epoch: u64,
+    pub epoch: u64,
 }
 
 /// A bottom level that lost quality.
 #[derive(Clone, Debug)]
-struct Bottom {
+struct Bottom<L> {
     blas: u32,
     created: u64,
     range: Range<u32>,
-    triangles: Vec<EmissiveTriangle>,
+    triangles: Vec<L>,
 }
 
 /// What a [`Rebuild`] gives: trees to be swapped in by [`Bvh::install`].
 #[derive(Debug)]
-pub struct Rebuilt<N, const W: usize> {
+pub struct Rebuilt<N: Holds, const W: usize> {
     taken: Taken,
     /// The top level or parts of it, refitted.
     top: Vec<TopTree<N>>,
-    bottoms: Vec<(Bottom, Topology<N>)>,
+    bottoms: Vec<(Bottom<N::Light>, Topology<N>)>,
 }
 
 /// What was built belongs to another light BVH.
@@ -113,14 +120,14 @@ impl fmt::Display for Foreign {
 impl core::error::Error for Foreign {}
 
 #[cfg(feature = "std")]
-impl<N, const W: usize> Rebuilt<N, W> {
+impl<N: Holds, const W: usize> Rebuilt<N, W> {
     /// What nodes above parts cost over those that they replace.
     pub(crate) fn gain_above(&self) -> Option<f64> {
         self.top.iter().find_map(TopTree::gain_above)
     }
 }
 
-impl<N: LightNode<W>, const W: usize> Rebuild<N, W> {
+impl<N: Node<W>, const W: usize> Rebuild<N, W> {
     /// Whether there is nothing to build.
     #[must_use]
     pub fn is_empty(&self) -> bool {
@@ -151,7 +158,7 @@ impl<N: LightNode<W>, const W: usize> Rebuild<N, W> {
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Takes a copy of what `params` wants built anew, as it stands after a [`refit`](Self::refit). It asks each
     /// bottom level refitted since it was built for its quality, in no time; copies of the top level's leaves take
     /// time in proportion to all instances.
@@ -267,10 +274,14 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 self.update_root(bottom.blas);
             }
         }
+        let mut room = Quota::default();
         for top in &rebuilt.top {
-            self.install_top(top, rebuilt.taken.epoch);
+            self.install_top(top, rebuilt.taken.epoch, &mut room);
         }
-        self.bound_changes();
+        self.settle_some(ADOPTED);
+        if self.changes.new.len() > MANY {
+            self.bound_changes();
+        }
         Ok(())
     }
 

@@ -59,17 +59,19 @@ impl InstanceState {
         self.hung_center = [f32::NAN; 3];
     }
 
-    /// Radiance as it was put where it is, the sign telling of [`flickers`](Self::flickers): a word of the format.
-    pub fn hung_word(&self) -> u32 {
+    /// Radiance as it was put where it is, the sign telling of [`flickers`](Self::flickers), and the centre then: words of the format.
+    pub fn hung_words(&self) -> [u32; 4] {
         let sign = if self.flickers { -1.0 } else { 1.0 };
-        self.hung_radiance.copysign(sign).to_bits()
+        let [x, y, z] = self.hung_center;
+        [self.hung_radiance.copysign(sign), x, y, z].map(f32::to_bits)
     }
 
-    /// Takes what [`hung_word`](Self::hung_word) told.
-    pub fn set_hung_word(&mut self, word: u32) {
-        let radiance = f32::from_bits(word);
+    /// Takes what [`hung_words`](Self::hung_words) told.
+    pub fn set_hung_words(&mut self, words: [u32; 4]) {
+        let [radiance, x, y, z] = words.map(f32::from_bits);
         self.hung_radiance = crate::exact::abs(radiance);
         self.flickers = radiance.is_sign_negative();
+        self.hung_center = [x, y, z];
     }
 }
 

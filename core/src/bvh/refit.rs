@@ -6,7 +6,7 @@ use core::ops::Range;
 use super::changes::Pending;
 use super::{Bvh, Trails};
 use crate::levels::Levels;
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::refit;
 use crate::sweep;
 use crate::tree::INVALID;
@@ -49,7 +49,7 @@ impl RefitPlan {
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Says what changed since the last call: the lists of [`work`](Self::work), for a mirror on a device that does them in its place,
     /// call by call without gaps. Whether and when the BVH is refitted here does not matter. The first call says what changed since
     /// the last [`refit`](Self::refit); a mirror takes over all arrays before it.
@@ -211,6 +211,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         } else {
             self.dirty_top(&instances, &pending.top_nodes, &mut work);
         }
+        self.note_changes(&instances, &work.top);
         work
     }
 

@@ -9,8 +9,7 @@ use core::ops::Range;
 
 use super::quality::Quality;
 use super::{Bvh, Trails};
-use crate::light::EmissiveTriangle;
-use crate::node::LightNode;
+use crate::node::Node;
 
 /// So many bytes are copied in the time in which one is written for the first time: a page fault is 0.25 µs at best and 10 µs on a virtual
 /// machine that has to ask for the page.
@@ -20,7 +19,7 @@ const MESHES: usize = 2;
 /// And a part of all nodes, for what is built in the place of small trees and of parts of the top level and fits into no hole.
 const PART: usize = 4;
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// A bottom level of so many triangles and nodes is there.
     pub(super) fn note_size(&mut self, triangles: usize, nodes: usize) {
         let [t, n] = self.largest;
@@ -55,7 +54,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     pub(super) fn take_triangles(&mut self, count: u32, bytes: &mut usize) -> Option<Range<u32>> {
         let range = self.triangle_ranges.take(count);
         let words = if T::KEPT { self.trail_words as usize } else { 0 };
-        let size = FRESH * (size_of::<EmissiveTriangle>() + 4 * words);
+        let size = FRESH * (size_of::<N::Light>() + 4 * words);
         let end = next(self.triangles.len(), range.end, size, bytes);
         self.cover_triangles(end);
         if T::KEPT {

@@ -22,7 +22,7 @@ pub(crate) use self::job::{MeshJob, MeshTree};
 use self::part::Part;
 use super::{Bvh, Trails};
 use crate::levels::Levels;
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::refit;
 
 /// Where more than this share of the triangles changed since they were copied, all nodes are swept.
@@ -113,7 +113,7 @@ impl Staged {
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Number of triangles of a bottom level.
     pub(crate) fn blas_len(&self, blas: u32) -> usize {
         self.blases[blas as usize].triangles.len()
@@ -191,6 +191,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.changes.forget_lists();
         self.changes.new.built.insert(blas);
         self.update_parts(blas);
+        self.settle_some(super::rebuild::ADOPTED);
         // Built for triangles that have changed since, it may be due again.
         if self.drift(blas) > 1.0 {
             self.epoch += 1;

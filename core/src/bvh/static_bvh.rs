@@ -6,7 +6,7 @@ use super::trails::Sampled;
 use super::{Bvh, Trails, WithTrails};
 use crate::importance::ImportanceModel;
 use crate::instance::Instance;
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::point::{Receiver, ShadingPoint};
 use crate::traverse::{Random64, SampledLight};
 use crate::tree::{LightTree, TreeWords};
@@ -31,7 +31,7 @@ pub struct StaticBvh<N, I, const W: usize, T = WithTrails> {
     chosen: core::marker::PhantomData<(I, T)>,
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// What sampling reads, refitted: an instance removed and still in the tree would take its share of the samples for ever.
     #[must_use]
     pub fn into_static(mut self) -> StaticBvh<N, I, W, T> {
@@ -47,7 +47,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> StaticBvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> StaticBvh<N, I, W, T> {
     fn arrays(&self) -> LightTree<'_, N, I, W> {
         self.words.tree(&self.nodes, &self.instances, &self.trails)
     }
@@ -59,7 +59,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> StaticBvh<N, I, W, T> {
     }
 }
 
-impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, T: Trails> StaticBvh<N, I, W, T> {
+impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize, T: Trails> StaticBvh<N, I, W, T> {
     /// As [`Bvh::sample`].
     #[must_use]
     pub fn sample(&self, point: &ShadingPoint, random: impl Into<Random64>) -> SampledLight {
@@ -98,7 +98,7 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, T: Trails> Stati
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> StaticBvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> StaticBvh<N, I, W, T> {
     /// As [`Bvh::sample_for`].
     #[must_use]
     pub fn sample_for<P: Receiver>(&self, receiver: &P, random: impl Into<Random64>) -> SampledLight
@@ -124,7 +124,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> StaticBvh<N, I, W, T> {
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize> StaticBvh<N, I, W> {
+impl<N: Node<W>, I, const W: usize> StaticBvh<N, I, W> {
     /// The arrays as traversal takes them, on devices too.
     #[must_use]
     pub fn tree(&self) -> LightTree<'_, N, I, W> {
@@ -132,7 +132,7 @@ impl<N: LightNode<W>, I, const W: usize> StaticBvh<N, I, W> {
     }
 }
 
-impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> StaticBvh<N, I, W> {
+impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> StaticBvh<N, I, W> {
     /// As [`Bvh::pmf`].
     #[must_use]
     pub fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {

@@ -10,7 +10,7 @@ use super::refit::RefitPlan;
 use super::{Added, Bvh, Trails, WithTrails};
 use crate::importance::ImportanceModel;
 use crate::levels::Levels;
-use crate::node::LightNode;
+use crate::node::{Holds, Node};
 use crate::point::{Receiver, ShadingPoint};
 #[cfg(feature = "std")]
 use crate::rebuilder::{FrameStart, RebuildError, Rebuilder};
@@ -42,9 +42,9 @@ use crate::tree::LightTree;
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct StaticMeshBvh<N, I, const W: usize, T = WithTrails>(Bvh<N, I, W, T>);
+pub struct StaticMeshBvh<N: Holds, I, const W: usize, T = WithTrails>(Bvh<N, I, W, T>);
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// The same light BVH for meshes that stay as they are, refitted. Its ids stay; rebuilds of bottom levels that are under way come to
     /// nothing.
     #[must_use]
@@ -76,14 +76,14 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
     /// As [`Bvh::apply`].
     ///
     /// # Errors
     /// [`EditError`] naming the first edit that cannot be done, [`EditReason::StaticMeshes`] for meshes that are added or deformed;
     /// nothing is changed then.
-    pub fn apply(&mut self, edits: Vec<Edit>) -> Result<Added, EditError> {
-        let of_triangles = |edit: &Edit| {
+    pub fn apply(&mut self, edits: Vec<Edit<N::Light>>) -> Result<Added, EditError> {
+        let of_triangles = |edit: &Edit<N::Light>| {
             matches!(
                 edit,
                 Edit::AddMesh { .. } | Edit::SetTriangles { .. } | Edit::SetTriangleRange { .. }
@@ -180,7 +180,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
     }
 }
 
-impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
+impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
     /// As [`Bvh::sample`].
     #[must_use]
     pub fn sample(&self, point: &ShadingPoint, random: impl Into<Random64>) -> SampledLight {
@@ -215,7 +215,7 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, T: Trails> Stati
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
     /// As [`Bvh::sample_for`].
     #[must_use]
     pub fn sample_for<P: Receiver>(&self, receiver: &P, random: impl Into<Random64>) -> SampledLight
@@ -239,7 +239,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> StaticMeshBvh<N, I, W, T> {
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize> StaticMeshBvh<N, I, W> {
+impl<N: Node<W>, I, const W: usize> StaticMeshBvh<N, I, W> {
     /// As [`Bvh::tree`].
     #[must_use]
     pub fn tree(&self) -> LightTree<'_, N, I, W> {
@@ -247,7 +247,7 @@ impl<N: LightNode<W>, I, const W: usize> StaticMeshBvh<N, I, W> {
     }
 }
 
-impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> StaticMeshBvh<N, I, W> {
+impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> StaticMeshBvh<N, I, W> {
     /// As [`Bvh::pmf`].
     #[must_use]
     pub fn pmf(&self, point: &ShadingPoint, light: u32, instance: u32) -> f32 {

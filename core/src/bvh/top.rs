@@ -6,6 +6,7 @@
 //! enough records.
 
 mod adopt;
+mod come;
 mod cost;
 mod cut;
 mod insert;
@@ -16,9 +17,11 @@ mod remove;
 #[cfg(feature = "std")]
 mod search;
 mod settle;
+mod tried;
 
 use alloc::vec::Vec;
 
+pub(super) use self::come::Quota;
 pub(crate) use self::rebuild::TopCopy;
 pub(super) use self::rebuild::TopTree;
 #[cfg(feature = "std")]
@@ -28,7 +31,7 @@ use super::ranges::Ranges;
 use super::{Bvh, Trails};
 use crate::build::{BuildParams, Topology, build_top};
 use crate::levels::Levels;
-use crate::node::{LightNode, kind};
+use crate::node::{Node, kind};
 use crate::refit;
 use crate::summary::Summary;
 use crate::tree::INVALID;
@@ -57,6 +60,14 @@ pub(super) struct Top {
     pub edits: Vec<u32>,
     /// By number: instances below in subtrees that were built since it was tried to build this one.
     pub stirred: Vec<u32>,
+    /// By number: the epoch that the last refit for a change of an instance below made, 0 before any.
+    pub moved: Vec<u64>,
+    /// By number: the epoch of what it was built from, or what it was tried to build anew from.
+    pub tried: Vec<u64>,
+    /// By number: how many changes of instances below refits have seen since.
+    pub changes: Vec<u32>,
+    /// By number: children that came or went since the last refit.
+    pub counted: Vec<u32>,
     /// Nodes whose children edits have changed; they may be gone.
     pub touched: Vec<u32>,
     /// By number: the last search that came by. Instances have theirs.
@@ -105,6 +116,10 @@ impl Top {
             + size_of_val(&*self.edits)
             + size_of_val(&*self.born)
             + size_of_val(&*self.stirred)
+            + size_of_val(&*self.moved)
+            + size_of_val(&*self.tried)
+            + size_of_val(&*self.changes)
+            + size_of_val(&*self.counted)
             + size_of_val(&*self.marks)
             + self
                 .levels
@@ -126,7 +141,7 @@ fn in_full(params: &BuildParams) -> BuildParams {
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// A top level without instances: one empty node.
     pub(super) fn empty_top(&mut self) {
         let mut node = N::EMPTY;
@@ -143,6 +158,10 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.top.nodes = range.collect();
         self.top.edits.clear();
         self.top.stirred.clear();
+        self.top.moved.clear();
+        self.top.tried.clear();
+        self.top.changes.clear();
+        self.top.counted.clear();
         for placed in &mut self.placed {
             placed.settle();
         }
@@ -180,6 +199,8 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             self.replace_top(&topology.nodes);
         }
         self.changes.new.whole_top = true;
+        // That they are new is no change.
+        self.top.tried.fill(self.epoch + 1);
         // Edits before the next refit go by what nodes know, and what they change is no tree as built.
         let levels = self.top.by_height();
         for range in levels.ranges() {
@@ -193,7 +214,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// What is known of an instance in the world.
     pub(super) fn in_world(&self, index: u32) -> N::Summary {
         let instance = &self.instances[index as usize];
-        self.root_of(instance.blas).to_world(instance)
+        self.root_of(instance.blas).to_world::<N::Light>(instance)
     }
 
     /// Notes all of the top level's nodes anew, which have the numbers by which `top.nodes` lists them: heights, counts, and the links

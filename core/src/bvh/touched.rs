@@ -8,7 +8,8 @@ use super::changes::{Pending, merged};
 use super::room::reserve;
 use super::{Bvh, Trails};
 use crate::levels::Levels;
-use crate::node::{LightNode, kind};
+use crate::light::Light;
+use crate::node::{Node, kind};
 
 /// Where more than this share of a bottom level's triangles changed, all of it is swept. Paths to a sixteenth take 0.65 to 0.76 of a
 /// sweep's time where the triangles lie anywhere in the mesh, to an eighth 0.9 to 1.15 (10^5 and 10^6 triangles).
@@ -59,14 +60,14 @@ impl Marks {
 /// Bottom levels that changed in part, by index, with the triangles that did.
 type Parts = BTreeMap<u32, Vec<Range<u32>>>;
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// The bottom levels that changed in part, and not as a whole.
     pub(super) fn parts(&self, pending: &Pending) -> Parts {
         let mut parts = Parts::new();
         for range in merged(pending.parts.clone()) {
             let mut at = range.start;
             while at < range.end {
-                let blas = self.triangles[at as usize].mesh;
+                let blas = self.triangles[at as usize].mesh();
                 let own = self.blases.get(blas as usize).map(|own| &own.triangles);
                 // Those of a bottom level that is gone are of no account.
                 let Some(own) = own.filter(|own| own.contains(&at)) else {

@@ -9,7 +9,7 @@ use core::marker::PhantomData;
 
 use super::Bvh;
 use crate::importance::ImportanceModel;
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::point::ShadingPoint;
 
 /// [`WithTrails`] or [`NoTrails`].
@@ -50,7 +50,7 @@ impl<N, I: ImportanceModel<N, W, P>, const W: usize, T: Trails, P> Sampled<N, I,
     );
 }
 
-impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// The same light BVH without bit trails, 4 to 8 bytes less for each triangle: for direct lighting that chooses lights and never asks
     /// what the probability of a given light would have been. Edits, refits and rebuilds go on as before and keep no trails.
     ///

@@ -10,7 +10,8 @@ use self::walk::{bad, listed};
 use super::apply::NO_INSTANCE;
 use super::{Bvh, Trails};
 use crate::instance::Instance;
-use crate::node::{LightNode, kind};
+use crate::light::Light;
+use crate::node::{Node, kind};
 use crate::refit;
 use crate::trail::place;
 use crate::tree::INVALID;
@@ -32,7 +33,7 @@ pub struct Stats {
     pub depth: u32,
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Checks every invariant, after a [`refit`](Self::refit):
     /// - each node in use is reached once, through links that are in range, and knows its parent;
     /// - each live instance is a leaf of the top level exactly once, each triangle of a bottom level a leaf of it exactly
@@ -75,9 +76,10 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                     equal(node, slot, What::TrailLow, trail.low, own.low)?;
                     equal(node, slot, What::TrailHigh, trail.high, own.high)?;
                 }
-                let owner = self.triangles[link as usize].mesh;
+                let owner = self.triangles[link as usize].mesh();
                 equal(node, slot, What::Owner, index as u32, owner)?;
             }
+            self.check_powers(index as u32)?;
             for (triangle, &count) in (blas.triangles.start..).zip(&times) {
                 equal(INVALID, triangle, What::Triangle, 1, count)?;
             }
@@ -263,7 +265,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             } else {
                 placed.parts.start
             },
-            ..placed.transform.instance(placed.radiance)
+            ..self.in_place(blas, placed.transform, placed.radiance)
         };
         same_words(INVALID, index, &expected, found)?;
         if !placed.parts.is_empty() {

@@ -2,7 +2,7 @@
 
 use super::{ImportanceModel, Scaled, on_one_scale};
 use crate::exact::{self, exponent, pow2, recip_rough, significand};
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::point::ShadingPoint;
 use crate::summary::Summary;
 use crate::vector::length_squared;
@@ -15,7 +15,7 @@ const MIN_DISTANCE_SQUARED: f32 = pow2(-100);
 #[derive(Clone, Copy, Debug)]
 pub struct FluxOverDistance;
 
-impl<N: LightNode<W>, const W: usize> ImportanceModel<N, W> for FluxOverDistance {
+impl<N: Node<W>, const W: usize> ImportanceModel<N, W> for FluxOverDistance {
     const UNIFORM_HALVINGS: u32 = 0;
 
     #[inline(always)]

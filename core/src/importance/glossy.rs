@@ -7,7 +7,7 @@ use glam::Vec3;
 use super::ImportanceModel;
 use super::sight::MIN_DISTANCE_SQUARED;
 use crate::exact::{self, pow2, recip, rsqrt};
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::point::GlossyPoint;
 use crate::summary::Summary;
 use crate::vector::length_squared;
@@ -27,9 +27,7 @@ use crate::vector::length_squared;
 #[derive(Clone, Copy, Debug)]
 pub struct Glossy<I>(PhantomData<I>);
 
-impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W, GlossyPoint>
-    for Glossy<I>
-{
+impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W, GlossyPoint> for Glossy<I> {
     const UNIFORM_HALVINGS: u32 = I::UNIFORM_HALVINGS;
 
     #[inline(always)]

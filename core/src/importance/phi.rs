@@ -2,7 +2,7 @@
 
 use super::{ImportanceModel, Scaled, on_one_scale};
 use crate::exact::{exponent, significand};
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::point::ShadingPoint;
 use crate::summary::Summary;
 
@@ -13,7 +13,7 @@ use crate::summary::Summary;
 #[derive(Clone, Copy, Debug)]
 pub struct Flux;
 
-impl<N: LightNode<W>, const W: usize> ImportanceModel<N, W> for Flux {
+impl<N: Node<W>, const W: usize> ImportanceModel<N, W> for Flux {
     const UNIFORM_HALVINGS: u32 = 0;
 
     #[inline(always)]

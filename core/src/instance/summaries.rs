@@ -7,6 +7,7 @@ use crate::bounds::LightBounds;
 use crate::cone::normalized;
 use crate::emission::{MAX_SUM, MIN_PHI};
 use crate::exact::{self, exponent, pow2, significand};
+use crate::light::Light;
 use crate::moments::LightMoments;
 use crate::vector::{dot, greatest_exponent, length_squared, max3};
 
@@ -51,7 +52,7 @@ impl Instance {
     /// Moments in the world of what has the moments `local` in the space of the mesh: exact for the deviations, as far as they
     /// are alike in all directions across the mean normal.
     #[inline(always)]
-    pub(crate) fn moments_to_world(&self, local: &LightMoments) -> LightMoments {
+    pub(crate) fn moments_to_world<L: Light>(&self, local: &LightMoments) -> LightMoments {
         let m_squared = length_squared(local.m);
         let directed = m_squared > pow2(-16);
         let per_length = exact::rsqrt(if directed { m_squared } else { 1.0 });
@@ -67,7 +68,11 @@ impl Instance {
         } else {
             1.0
         };
-        let area = exact::clamp(1.0 + m_squared * (along_axis - 1.0), pow2(-20), 2.0);
+        let area = if self.is_by_area::<L>() {
+            exact::clamp(1.0 + m_squared * (along_axis - 1.0), pow2(-20), 2.0)
+        } else {
+            1.0
+        };
 
         // Map and deviations of about 1, by powers of two.
         let entries = max3(

@@ -6,28 +6,88 @@ use glam::Vec3;
 use super::EmissiveTriangle;
 use crate::emission::flux;
 use crate::exact;
-use crate::vector::{abs3, greatest_exponent, max3};
+use crate::point::ShadingPoint;
+use crate::vector::{abs3, dot, flush3, greatest_exponent, length_squared, max3};
 
-/// A point on an emissive triangle, and the density with which it was chosen. Plain words, the same on devices.
+/// A point on a light, and the density with which it was chosen. Plain words, the same on devices.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct LightPoint {
     /// The point, metres.
     pub p: [f32; 3],
-    /// Density over the triangle's area, 1/m²: the inverse of its area, at most 2^120; 0 where it has none.
+    /// Density over the light's area, 1/m², at most 2^120; 0 where it has none. Of a triangle, a rectangle and a disc the inverse of their
+    /// area, of a sphere that of the part a receiver may see; [`IS_POINT`](Self::IS_POINT) and [`IS_VOLUME`](Self::IS_VOLUME) say what else it is.
     ///
     /// For a light chosen with probability `pmf`, seen at distance `d` under the cosine `c` of its normal, the density over solid
     /// angle is `pmf · density · d² / c` (pbrt-v4, section 6.5.4).
     pub density: f32,
-    /// Unit normal of the front side; zero where the triangle has no area.
+    /// Unit normal of the front side; zero where the light has no area.
     pub normal: [f32; 3],
-    /// [`EmissiveTriangle::flags`].
+    /// [`EmissiveTriangle::flags`], [`IS_POINT`](Self::IS_POINT) or [`IS_VOLUME`](Self::IS_VOLUME).
     pub flags: u32,
-    /// Radiance, W/(m² sr).
+    /// Radiance, W/(m² sr), where `flags` do not say otherwise.
     pub radiance: [f32; 3],
 }
 
 const _: () = assert!(size_of::<LightPoint>() == 44);
+
+impl LightPoint {
+    /// Bit of [`flags`](Self::flags): a light without size. `radiance` is its intensity towards the receiver, W/sr, `density` 1, and there is
+    /// no cosine at the light.
+    pub const IS_POINT: u32 = 2;
+    /// Bit of [`flags`](Self::flags): a place in a volume. `radiance` is what a metre adds, W/(m³ sr), `density` is over volume, 1/m³, and
+    /// there is no cosine at the light.
+    pub const IS_VOLUME: u32 = 4;
+
+    /// What the light sends to a point, W/m², one estimate: radiance times both cosines over squared distance and density, nothing between
+    /// them. At a point in a volume the receiver's cosine is 1. Zero where it lies within 2^-50 m.
+    #[inline(always)]
+    #[must_use]
+    pub fn irradiance(&self, receiver: &ShadingPoint) -> [f32; 3] {
+        let away = Vec3::new(self.p[0], self.p[1], self.p[2]) - receiver.position();
+        let e = greatest_exponent(away, -50);
+        let d = flush3(away * exact::pow2(-e), exact::pow2(-60));
+        let squared = exact::max(length_squared(d), exact::pow2(-60));
+        let per_distance = exact::rsqrt(squared);
+        let n = receiver.normal();
+        let in_volume = (n.x == 0.0) & (n.y == 0.0) & (n.z == 0.0);
+        let incident = dot(d, n) * per_distance;
+        let incident = if in_volume { 1.0 } else { exact::max(incident, 0.0) };
+        let own = Vec3::new(self.normal[0], self.normal[1], self.normal[2]);
+        let emitted = -(dot(d, own) * per_distance);
+        let emitted = if self.flags & EmissiveTriangle::TWO_SIDED != 0 {
+            exact::abs(emitted)
+        } else {
+            exact::max(emitted, 0.0)
+        };
+        let emitted = if self.flags & (Self::IS_POINT | Self::IS_VOLUME) != 0 {
+            1.0
+        } else {
+            emitted
+        };
+        let cosines = exact::flush(incident * emitted, exact::pow2(-40));
+        let is_near = (squared < 0.25) | (self.density <= 0.0);
+        let per_area = exact::div(
+            cosines,
+            squared * exact::significand(exact::max(self.density, exact::pow2(-120))),
+        );
+        let scale = -(e + e + exact::exponent(exact::max(self.density, exact::pow2(-120))));
+        let scale = if scale > 120 {
+            120
+        } else if scale < -120 {
+            -120
+        } else {
+            scale
+        };
+        let factor = if is_near {
+            0.0
+        } else {
+            per_area * exact::pow2(scale)
+        };
+        let sent = |k: usize| exact::min(self.radiance[k] * factor, f32::MAX);
+        [sent(0), sent(1), sent(2)]
+    }
+}
 
 impl EmissiveTriangle {
     /// A point that is uniformly distributed over the triangle, where the numbers of `uv` are over [0, 1).
@@ -62,7 +122,7 @@ impl EmissiveTriangle {
 }
 
 /// Greatest density over area, 1/m².
-const MAX_DENSITY: f32 = exact::pow2(120);
+pub(super) const MAX_DENSITY: f32 = exact::pow2(120);
 
 /// A uniformly distributed point on the triangle at `p0` with edges `e1` and `e2`, from two numbers in [0, 1): a point of the
 /// parallelogram, folded over its diagonal (G. Turk, "Generating random points in triangles", Graphics Gems, 1990). No root,

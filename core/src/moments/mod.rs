@@ -16,8 +16,8 @@ use crate::bounds::LightBounds;
 use crate::cone::Cone;
 use crate::exact::{self, pow2};
 use crate::instance::Instance;
-use crate::light::EmissiveTriangle;
-use crate::summary::{Lanes, SUMMARY_WORDS, Summary, Triangles};
+use crate::light::{Light, LightSlots};
+use crate::summary::{Lanes, SUMMARY_WORDS, Summary};
 use crate::vector::dot;
 
 pub(crate) use merge::{Frame, Framed};
@@ -84,15 +84,15 @@ impl Summary for LightMoments {
     ];
 
     #[inline(always)]
-    fn of_triangle(triangle: &EmissiveTriangle) -> Self {
-        Self::of_triangle(triangle)
+    fn of_light<L: Light>(light: &L) -> Self {
+        light.moments()
     }
 
     #[inline(always)]
-    fn of_triangles<const W: usize>(triangles: &Triangles<W>, summaries: &mut Lanes<W>) {
+    fn of_lights<L: Light, const W: usize>(lights: &L::Slots<W>, summaries: &mut Lanes<W>) {
         for slot in 0..W {
-            let mut moments = Self::of_triangle(&triangles.get(slot));
-            moments.phi = exact::masked(triangles.present(slot), moments.phi);
+            let mut moments = lights.get(slot).moments();
+            moments.phi = exact::masked(lights.present(slot), moments.phi);
             summaries.set(slot, &moments);
         }
     }
@@ -103,8 +103,8 @@ impl Summary for LightMoments {
     }
 
     #[inline(always)]
-    fn to_world(&self, instance: &Instance) -> Self {
-        instance.moments_to_world(self)
+    fn to_world<L: Light>(&self, instance: &Instance) -> Self {
+        instance.moments_to_world::<L>(self)
     }
 
     #[inline(always)]

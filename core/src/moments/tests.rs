@@ -10,7 +10,7 @@ use super::LightMoments;
 use crate::exact::{self, pow2};
 use crate::kit::Random;
 use crate::light::{EmissiveTriangle, TWO_SIDED};
-use crate::node::{FullMomentNode, LightNode, MomentNode, kind};
+use crate::node::{FullMomentNode, LightNode, MomentNode, Node, kind};
 use crate::summary::Summary;
 use crate::vector::{max3, min3};
 

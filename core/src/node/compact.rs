@@ -3,11 +3,12 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::{BoundsNode, LightNode};
+use super::{BoundsNode, Holds, Node};
 use crate::bounds::LightBounds;
 use crate::cone::{normalized, widened};
 use crate::exact::{self, exponent, pow2};
 use crate::importance::Cluster;
+use crate::light::EmissiveTriangle;
 use crate::summary::Lanes;
 use crate::vector::length_squared;
 
@@ -100,7 +101,11 @@ impl<const W: usize> CompactNode<W> {
     }
 }
 
-impl<const W: usize> LightNode<W> for CompactNode<W> {
+impl<const W: usize> Holds for CompactNode<W> {
+    type Light = EmissiveTriangle;
+}
+
+impl<const W: usize> Node<W> for CompactNode<W> {
     type Summary = LightBounds;
 
     const EMPTY: Self = Self([[0; W]; 7]);

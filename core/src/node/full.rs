@@ -3,10 +3,11 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::{BoundsNode, LightNode};
+use super::{BoundsNode, Holds, Node};
 use crate::bounds::LightBounds;
 use crate::exact;
 use crate::importance::Cluster;
+use crate::light::EmissiveTriangle;
 use crate::summary::Lanes;
 use crate::vector::length_squared;
 
@@ -51,7 +52,11 @@ impl<const W: usize> FullNode<W> {
     }
 }
 
-impl<const W: usize> LightNode<W> for FullNode<W> {
+impl<const W: usize> Holds for FullNode<W> {
+    type Light = EmissiveTriangle;
+}
+
+impl<const W: usize> Node<W> for FullNode<W> {
     type Summary = LightBounds;
 
     const EMPTY: Self = Self([[0; W]; 14]);

@@ -6,6 +6,7 @@
 mod codes;
 mod compact;
 mod full;
+mod lit;
 mod moment;
 mod moment_full;
 mod moment_lean;
@@ -13,6 +14,7 @@ mod moment_lean;
 pub(crate) use codes::BREADTH_BIAS;
 pub use compact::CompactNode;
 pub use full::FullNode;
+pub use lit::Lit;
 pub use moment::{MomentNode, PackedMomentNode, TwoSidedMomentNode};
 pub use moment_full::FullMomentNode;
 pub use moment_lean::LeanMomentNode;
@@ -22,6 +24,7 @@ use glam::Vec3;
 
 pub use crate::bounds::LightBounds;
 use crate::importance::{Cluster, Math};
+use crate::light::{EmissiveTriangle, Light};
 pub use crate::moments::LightMoments;
 use crate::summary::Lanes;
 pub use crate::summary::Summary;
@@ -44,8 +47,14 @@ pub mod kind {
     pub const MESH: u32 = 3;
 }
 
+/// What the lights of a tree with such nodes are.
+pub trait Holds: Pod + Send + Sync {
+    /// The lights that leaves are: emissive triangles, unless a [`Lit`] says otherwise.
+    type Light: Light;
+}
+
 /// A node of width `W`: plain words.
-pub trait LightNode<const W: usize>: Pod + Send + Sync {
+pub trait Node<const W: usize>: Holds {
     /// What a node stores of each child.
     type Summary: Summary;
 
@@ -87,14 +96,19 @@ pub trait LightNode<const W: usize>: Pod + Send + Sync {
     }
 }
 
+/// A node of a tree over emissive triangles.
+pub trait LightNode<const W: usize>: Node<W> + Holds<Light = EmissiveTriangle> {}
+
+impl<N: Node<W> + Holds<Light = EmissiveTriangle>, const W: usize> LightNode<W> for N {}
+
 /// A layout that stores [`LightBounds`].
-pub trait BoundsNode<const W: usize>: LightNode<W, Summary = LightBounds> {
+pub trait BoundsNode<const W: usize>: Node<W, Summary = LightBounds> {
     /// The child's bounds as [`Eq4`](crate::Eq4) needs them.
     fn cluster(&self, slot: usize) -> Cluster;
 }
 
 /// A layout that stores [`LightMoments`].
-pub trait MomentLayout<const W: usize>: LightNode<W, Summary = LightMoments> {
+pub trait MomentLayout<const W: usize>: Node<W, Summary = LightMoments> {
     /// The weights of the children at the point `p` with the normal `n`, in the node's space, by the operations `M`; see
     /// [`ImportanceModel::weights`](crate::ImportanceModel::weights).
     fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3) -> [f32; W];

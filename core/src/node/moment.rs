@@ -8,9 +8,10 @@ use super::codes::{
     SQRT_HALF, WORD_UNIT, breadth_code, breadth_value, field, fraction, frame_of, phi_code, phi_value,
     spread_code,
 };
-use super::{LightNode, MomentLayout};
+use super::{Holds, MomentLayout, Node};
 use crate::exact::{self, pow2};
 use crate::importance::{Lobe, Math, dot_by, frame, side, weight};
+use crate::light::EmissiveTriangle;
 use crate::moments::{Frame, Framed, LightMoments, row};
 use crate::summary::{Lanes, SUMMARY_WORDS};
 use crate::vector::abs3;
@@ -167,7 +168,11 @@ impl<const W: usize, const ROWS: usize> PackedMomentNode<W, ROWS> {
     }
 }
 
-impl<const W: usize, const ROWS: usize> LightNode<W> for PackedMomentNode<W, ROWS> {
+impl<const W: usize, const ROWS: usize> Holds for PackedMomentNode<W, ROWS> {
+    type Light = EmissiveTriangle;
+}
+
+impl<const W: usize, const ROWS: usize> Node<W> for PackedMomentNode<W, ROWS> {
     type Summary = LightMoments;
 
     const EMPTY: Self = {

@@ -4,9 +4,10 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::codes::{SQRT_2, spread};
-use super::{LightNode, MomentLayout};
+use super::{Holds, MomentLayout, Node};
 use crate::exact::{self, exponent, pow2};
 use crate::importance::{Lobe, Math, dot_by, side, weight};
+use crate::light::EmissiveTriangle;
 use crate::moments::{LEAST_EXPONENT, LightMoments};
 use crate::summary::Lanes;
 use crate::vector::abs3;
@@ -74,7 +75,11 @@ impl<const W: usize> FullMomentNode<W> {
     }
 }
 
-impl<const W: usize> LightNode<W> for FullMomentNode<W> {
+impl<const W: usize> Holds for FullMomentNode<W> {
+    type Light = EmissiveTriangle;
+}
+
+impl<const W: usize> Node<W> for FullMomentNode<W> {
     type Summary = LightMoments;
 
     const EMPTY: Self = Self([[0; W]; 15]);

@@ -7,9 +7,10 @@ use super::codes::{
     EXTENT_RANGE, PHI_MASK, PHI_SHIFT, SPREAD_UNIT, SQRT_HALF, WORD_UNIT, breadth_code, breadth_value, field,
     fraction, frame_of, phi_code, phi_value, spread_code,
 };
-use super::{LightNode, MomentLayout};
+use super::{Holds, MomentLayout, Node};
 use crate::exact::pow2;
 use crate::importance::{Lobe, Math, frame, side, weight};
+use crate::light::EmissiveTriangle;
 use crate::moments::LightMoments;
 use crate::summary::Lanes;
 
@@ -75,7 +76,11 @@ impl<const W: usize> LeanMomentNode<W> {
     }
 }
 
-impl<const W: usize> LightNode<W> for LeanMomentNode<W> {
+impl<const W: usize> Holds for LeanMomentNode<W> {
+    type Light = EmissiveTriangle;
+}
+
+impl<const W: usize> Node<W> for LeanMomentNode<W> {
     type Summary = LightMoments;
 
     const EMPTY: Self = {

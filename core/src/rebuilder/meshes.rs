@@ -8,7 +8,7 @@ use super::worker::{Built, Job, Product, Waste, Worker, build};
 use super::{FrameStart, RebuildError, RebuilderParams, Swap};
 use crate::bvh::{Builder, Bvh, MeshJob, MeshTree, StageId, Trails};
 use crate::levels::Levels;
-use crate::node::LightNode;
+use crate::node::{Holds, Node};
 
 /// A mesh with at most one triangle for so many bytes is put in place at once: a sweep takes as long for a triangle as so many bytes.
 const SWEPT: u32 = 256;
@@ -17,7 +17,7 @@ const LEAST: u32 = 1 << 14;
 
 /// The large meshes of one light BVH.
 #[derive(Debug)]
-pub(super) struct Meshes<N, const W: usize> {
+pub(super) struct Meshes<N: Holds, const W: usize> {
     under_way: Vec<Flight<N, W>>,
     /// Bottom levels that are still to begin.
     waiting: Queue,
@@ -38,7 +38,7 @@ pub(super) struct Meshes<N, const W: usize> {
 
 /// A mesh under way.
 #[derive(Debug)]
-struct Flight<N, const W: usize> {
+struct Flight<N: Holds, const W: usize> {
     id: StageId,
     blas: u32,
     /// Whether it is a part of one.
@@ -48,7 +48,7 @@ struct Flight<N, const W: usize> {
 
 /// How far it is.
 #[derive(Debug)]
-enum At<N, const W: usize> {
+enum At<N: Holds, const W: usize> {
     /// Room is made for its triangles, here and, after so many frames, by a thread.
     Room(u32, Worker<N, W>),
     /// Its triangles are copied, for a thread if any could be started.
@@ -71,7 +71,7 @@ const SEARCHED: usize = 2;
 /// Most waiting meshes that a frame looks at.
 const LOOKED_AT: usize = 256;
 
-impl<N, const W: usize> Default for Meshes<N, W> {
+impl<N: Holds, const W: usize> Default for Meshes<N, W> {
     fn default() -> Self {
         Self {
             under_way: Vec::new(),
@@ -87,7 +87,7 @@ impl<N, const W: usize> Default for Meshes<N, W> {
     }
 }
 
-impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
+impl<N: Node<W>, const W: usize> Meshes<N, W> {
     pub fn is_busy(&self) -> bool {
         !self.under_way.is_empty()
             || !self.waiting.is_empty()
@@ -395,11 +395,7 @@ impl<N: LightNode<W>, const W: usize> Meshes<N, W> {
 }
 
 /// Has what was copied built by a thread, or here where there is none.
-fn submit<N: LightNode<W>, const W: usize>(
-    job: MeshJob<N>,
-    after: u32,
-    worker: Option<Worker<N, W>>,
-) -> At<N, W> {
+fn submit<N: Node<W>, const W: usize>(job: MeshJob<N>, after: u32, worker: Option<Worker<N, W>>) -> At<N, W> {
     let Some(worker) = worker else {
         return At::Inline(after, build(Job::Mesh(job)));
     };
@@ -415,7 +411,7 @@ fn most_at_once(params: &RebuilderParams) -> usize {
 }
 
 /// What a thread has built, to be put in place.
-fn taken<N, const W: usize>(built: Built<N, W>, result: &mut Result<(), RebuildError>) -> At<N, W> {
+fn taken<N: Holds, const W: usize>(built: Built<N, W>, result: &mut Result<(), RebuildError>) -> At<N, W> {
     match built {
         Ok((Product::Mesh(tree), _)) => At::Placed(tree),
         Ok((Product::Frame(_) | Product::Room(_) | Product::Nothing, _)) => At::Over,

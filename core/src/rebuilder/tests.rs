@@ -187,7 +187,7 @@ fn large_top_levels_are_built_in_parts() {
 
 /// What a light BVH's nodes cost, by Ward's criterion.
 fn cost(bvh: &LightBvh) -> f64 {
-    use crate::node::{LightNode, kind};
+    use crate::node::{Node, kind};
     use crate::summary::Summary;
     let (mut cost, mut nodes) = (0.0, alloc::vec![bvh.tree().root]);
     while let Some(node) = nodes.pop() {

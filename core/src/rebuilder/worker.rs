@@ -12,11 +12,11 @@ use super::clock::Clock;
 use super::handover::{Handover, Outcome};
 use crate::bvh::{MeshJob, MeshTree, Rebuild, Rebuilt};
 use crate::levels::Levels;
-use crate::node::LightNode;
+use crate::node::{Holds, Node};
 
 /// What is to be built.
 #[derive(Debug)]
-pub(super) enum Job<N, const W: usize> {
+pub(super) enum Job<N: Holds, const W: usize> {
     /// The top level, and small bottom levels.
     Frame(Rebuild<N, W>),
     /// A bottom level that is put in place piece by piece.
@@ -30,7 +30,7 @@ pub(super) enum Job<N, const W: usize> {
 /// What is not needed any more, and is only dropped.
 #[derive(Debug)]
 #[expect(dead_code, reason = "its memory is all that matters")]
-pub(super) enum Waste<N> {
+pub(super) enum Waste<N: Holds> {
     /// Copied triangles that nobody wants built.
     Job(MeshJob<N>),
     /// A tree that is in place, or not wanted.
@@ -41,7 +41,7 @@ pub(super) enum Waste<N> {
 
 /// What was.
 #[derive(Debug)]
-pub(super) enum Product<N, const W: usize> {
+pub(super) enum Product<N: Holds, const W: usize> {
     /// Of [`Job::Frame`].
     Frame(Rebuilt<N, W>),
     /// Of [`Job::Mesh`].
@@ -52,7 +52,7 @@ pub(super) enum Product<N, const W: usize> {
     Nothing,
 }
 
-impl<N, const W: usize> Product<N, W> {
+impl<N: Holds, const W: usize> Product<N, W> {
     /// What nobody wants any more, if it is large.
     pub fn waste(self) -> Option<Waste<N>> {
         match self {
@@ -69,7 +69,7 @@ pub(super) type Built<N, const W: usize> = Result<(Product<N, W>, Duration), Str
 type Shared<N, const W: usize> = Arc<Handover<Job<N, W>, Built<N, W>>>;
 
 /// Builds, here and now.
-pub(super) fn build<N: LightNode<W>, const W: usize>(job: Job<N, W>) -> Built<N, W> {
+pub(super) fn build<N: Node<W>, const W: usize>(job: Job<N, W>) -> Built<N, W> {
     let began = Clock::start();
     // The job is all that building touches, and a panic ends it.
     let rebuilt = catch_unwind(AssertUnwindSafe(|| match job {
@@ -98,12 +98,12 @@ fn message(panic: &(dyn Any + Send)) -> String {
 
 /// A thread that builds what is handed over until it is dropped, which waits for its end.
 #[derive(Debug)]
-pub(super) struct Worker<N, const W: usize> {
+pub(super) struct Worker<N: Holds, const W: usize> {
     handover: Shared<N, W>,
     thread: Option<JoinHandle<()>>,
 }
 
-impl<N: LightNode<W>, const W: usize> Worker<N, W> {
+impl<N: Node<W>, const W: usize> Worker<N, W> {
     /// Starts the thread.
     pub fn start() -> std::io::Result<Self> {
         let handover: Shared<N, W> = Arc::new(Handover::new());
@@ -138,7 +138,7 @@ impl<N: LightNode<W>, const W: usize> Worker<N, W> {
     }
 }
 
-impl<N, const W: usize> Drop for Worker<N, W> {
+impl<N: Holds, const W: usize> Drop for Worker<N, W> {
     fn drop(&mut self) {
         self.handover.close();
         if let Some(thread) = self.thread.take() {

@@ -109,7 +109,7 @@ impl Requirements {
         for placed in &scene.placed {
             users[placed.mesh] += 1;
             found.transforms[TransformKind::of(&placed.transform) as usize] += 1;
-            found.mirrored += usize::from(placed.instance.mirrored != 0);
+            found.mirrored += usize::from(placed.instance.mirrors());
             found.dimmed += usize::from(placed.radiance.to_bits() != 1.0_f32.to_bits());
             for local in scene.meshes[placed.mesh] {
                 let light: EmissiveTriangle = placed.instance.triangle(local, 0);

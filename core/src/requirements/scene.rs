@@ -29,7 +29,10 @@ pub(crate) struct Placed {
     pub instance: Instance,
 }
 
-impl<'a, N: LightNode<W>, I, const W: usize, T: Trails> From<&'a Bvh<N, I, W, T>> for SceneLights<'a> {
+impl<'a, N, I, const W: usize, T: Trails> From<&'a Bvh<N, I, W, T>> for SceneLights<'a>
+where
+    N: LightNode<W>,
+{
     fn from(bvh: &'a Bvh<N, I, W, T>) -> Self {
         let (meshes, placed) = bvh.meshes_and_places();
         Self { meshes, placed }
@@ -43,7 +46,7 @@ impl<'a> From<&'a Lights> for SceneLights<'a> {
             mesh,
             transform: Transform::IDENTITY,
             radiance: 1.0,
-            instance: Transform::IDENTITY.instance(1.0),
+            instance: Transform::IDENTITY.instance_by(1.0, 2),
         });
         Self {
             meshes: meshes.collect(),

@@ -2,10 +2,10 @@
 
 use glam::Vec3;
 
-use super::{Lanes, SUMMARY_WORDS, Summary, Triangles};
+use super::{Lanes, SUMMARY_WORDS, Summary};
 use crate::bounds::LightBounds;
 use crate::instance::Instance;
-use crate::light::EmissiveTriangle;
+use crate::light::{Light, LightSlots};
 use crate::vector::length_squared;
 
 /// A constant of its own: rust-gpu does not fold an expression of literals.
@@ -29,15 +29,15 @@ impl Summary for LightBounds {
     ];
 
     #[inline(always)]
-    fn of_triangle(triangle: &EmissiveTriangle) -> Self {
-        Self::of_triangle(triangle)
+    fn of_light<L: Light>(light: &L) -> Self {
+        light.bounds()
     }
 
     #[inline(always)]
-    fn of_triangles<const W: usize>(triangles: &Triangles<W>, summaries: &mut Lanes<W>) {
+    fn of_lights<L: Light, const W: usize>(lights: &L::Slots<W>, summaries: &mut Lanes<W>) {
         for slot in 0..W {
-            if triangles.present(slot) != 0 {
-                summaries.set(slot, &Self::of_triangle(&triangles.get(slot)));
+            if lights.present(slot) != 0 {
+                summaries.set(slot, &lights.get(slot).bounds());
             } else {
                 summaries.set(slot, &Self::EMPTY);
             }
@@ -55,7 +55,7 @@ impl Summary for LightBounds {
     }
 
     #[inline(always)]
-    fn to_world(&self, instance: &Instance) -> Self {
+    fn to_world<L: Light>(&self, instance: &Instance) -> Self {
         instance.bounds_to_world(self)
     }
 

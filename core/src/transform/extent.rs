@@ -1,7 +1,7 @@
 //! The size of a mesh.
 
 use crate::exact;
-use crate::light::EmissiveTriangle;
+use crate::light::Light;
 
 /// Triangles of a mesh that one thread measures.
 #[cfg(feature = "rayon")]
@@ -10,7 +10,7 @@ const PIECE: usize = 4096;
 /// How large a mesh is: a transform must leave it within the domain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Extent {
-    /// Greatest magnitude of a vertex's coordinate, metres; not less than it where that is not known exactly.
+    /// Greatest magnitude of a coordinate that a light reaches, metres; not less than it where that is not known exactly.
     pub coordinate: f64,
     /// Whether it is known exactly: not where the triangle that reached farthest was replaced.
     pub is_exact: bool,
@@ -18,7 +18,7 @@ pub(crate) struct Extent {
 
 impl Extent {
     /// Of a mesh with these triangles.
-    pub fn of(triangles: &[EmissiveTriangle]) -> Self {
+    pub fn of<L: Light>(triangles: &[L]) -> Self {
         #[cfg(feature = "rayon")]
         let coordinate = {
             use rayon::prelude::*;
@@ -44,7 +44,7 @@ impl Extent {
     }
 }
 
-fn greatest_coordinate(triangles: &[EmissiveTriangle]) -> f32 {
-    let coordinates = triangles.iter().flat_map(|triangle| triangle.p).flatten();
-    coordinates.fold(0.0, |most, x| exact::max(most, exact::abs(x)))
+fn greatest_coordinate<L: Light>(triangles: &[L]) -> f32 {
+    let reaches = triangles.iter().map(Light::reach);
+    reaches.fold(0.0, exact::max)
 }

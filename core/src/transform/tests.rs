@@ -244,7 +244,7 @@ fn extents() {
             assert_eq!(extent.coordinate, 20.0);
         }
     }
-    assert_eq!(Extent::of(&[]).coordinate, 0.0);
+    assert_eq!(Extent::of::<crate::EmissiveTriangle>(&[]).coordinate, 0.0);
 }
 
 #[test]

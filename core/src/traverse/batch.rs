@@ -3,7 +3,7 @@
 use super::random::Random64;
 use super::sample::{SampledLight, Started, begin};
 use crate::importance::ImportanceModel;
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::point::Receiver;
 use crate::prefetch::fetch;
 use crate::tree::LightTree;
@@ -17,7 +17,7 @@ const TURNS: usize = 8;
 /// Walks take turns, a node each, so that one computes while the next node of the others is on its way from memory: in
 /// trees larger than the caches that is where the time goes.
 #[inline(always)]
-pub(super) fn sample_batch<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
+pub(super) fn sample_batch<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
     tree: &LightTree<'_, N, I, W>,
     points: &[P],
     randoms: &[Random64],
@@ -40,7 +40,7 @@ pub(super) fn sample_batch<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Rece
 
 /// Brings the first walks, one for each point, to their ends.
 #[inline(always)]
-fn turns<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
+fn turns<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
     tree: &LightTree<'_, N, I, W>,
     points: &[P],
     walks: &mut [Started<P>; TURNS],

@@ -5,7 +5,7 @@ use super::random::Random64;
 use super::sample::{SampledLight, Started, begin, sample};
 use super::walk::{leading, narrowed};
 use crate::importance::ImportanceModel;
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::point::Receiver;
 use crate::prefetch::fetch;
 use crate::tree::LightTree;
@@ -26,7 +26,7 @@ const TOGETHER: usize = 32;
 /// See [`LightTree::sample_many`].
 #[inline(always)]
 pub(super) fn sample_many<
-    N: LightNode<W>,
+    N: Node<W>,
     I: ImportanceModel<N, W, P>,
     P: Receiver,
     const W: usize,
@@ -43,7 +43,7 @@ pub(super) fn sample_many<
 
 /// See [`LightTree::sample_spaced`].
 #[inline(always)]
-pub(super) fn sample_spaced<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
+pub(super) fn sample_spaced<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
     tree: &LightTree<'_, N, I, W>,
     point: &P,
     random: Random64,
@@ -65,7 +65,7 @@ pub(super) fn sample_spaced<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Rec
 
 /// At most `MOST` of them, with as few rows of four as the children need.
 #[inline(always)]
-fn by_rows<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize, const MOST: usize>(
+fn by_rows<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize, const MOST: usize>(
     tree: &LightTree<'_, N, I, W>,
     point: &P,
     random: Random64,
@@ -89,7 +89,7 @@ fn by_rows<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: u
 /// A light for each of the first `numbers`, one for each place of `out`, with the children in `ROWS` rows of four.
 #[inline(always)]
 fn in_rows<
-    N: LightNode<W>,
+    N: Node<W>,
     I: ImportanceModel<N, W, P>,
     P: Receiver,
     const W: usize,

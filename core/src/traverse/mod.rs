@@ -24,11 +24,11 @@ pub use random::Random64;
 pub use sample::SampledLight;
 
 use crate::importance::ImportanceModel;
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::point::{Receiver, ShadingPoint};
 use crate::tree::LightTree;
 
-impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> LightTree<'_, N, I, W> {
+impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> LightTree<'_, N, I, W> {
     /// Chooses one light for `point` by `random` (paper section 3.6), after at most as many steps as the tree is deep.
     ///
     /// A light is returned whenever one has flux. The pmf is to the bit the one that [`pmf`](Self::pmf) gives for the light, and
@@ -107,7 +107,7 @@ impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> LightTree<'_, N,
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize> LightTree<'_, N, I, W> {
+impl<N: Node<W>, I, const W: usize> LightTree<'_, N, I, W> {
     /// [`sample`](Self::sample) for a receiver of which an importance may know more than a [`ShadingPoint`] says, as
     /// [`Glossy`](crate::importance::Glossy) does of a [`GlossyPoint`](crate::point::GlossyPoint). For a `ShadingPoint` to the same bits.
     #[inline]

@@ -7,7 +7,7 @@ use super::random::Random64;
 use super::walk::{Walk, uniform_numbers};
 use crate::exact;
 use crate::importance::ImportanceModel;
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::point::{Receiver, ShadingPoint};
 use crate::trail::Path;
 use crate::tree::{INVALID, LightTree};
@@ -46,7 +46,7 @@ impl Default for SampledLight {
 
 /// See [`LightTree::sample`].
 #[inline(always)]
-pub(super) fn sample<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
+pub(super) fn sample<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
     tree: &LightTree<'_, N, I, W>,
     point: &P,
     random: Random64,
@@ -73,7 +73,7 @@ pub(super) struct Started<P = ShadingPoint> {
 
 /// Starts a walk by a random number: down the tree, or for a share of the numbers along the path to a light out of all alike.
 #[inline(always)]
-pub(super) fn begin<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
+pub(super) fn begin<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
     tree: &LightTree<'_, N, I, W>,
     point: &P,
     random: Random64,
@@ -96,7 +96,7 @@ pub(super) fn begin<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, c
 impl<P: Receiver> Started<P> {
     /// The light at the end of the walk.
     #[inline(always)]
-    pub fn end<N: LightNode<W>, I: ImportanceModel<N, W, P>, const W: usize>(
+    pub fn end<N: Node<W>, I: ImportanceModel<N, W, P>, const W: usize>(
         &self,
         tree: &LightTree<'_, N, I, W>,
     ) -> SampledLight {
@@ -125,7 +125,7 @@ impl<P: Receiver> Started<P> {
 
 /// See [`LightTree::pmf`].
 #[inline(always)]
-pub(super) fn pmf<N: LightNode<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
+pub(super) fn pmf<N: Node<W>, I: ImportanceModel<N, W, P>, P: Receiver, const W: usize>(
     tree: &LightTree<'_, N, I, W>,
     point: &P,
     light: u32,
@@ -179,7 +179,7 @@ fn uniform<N, I, const W: usize>(tree: &LightTree<'_, N, I, W>, random: Random64
 
 /// The probability of a light of `instance` by a uniform choice, times the share of such choices.
 #[inline(always)]
-fn uniform_probability<N: LightNode<W>, I: ImportanceModel<N, W, P>, P, const W: usize>(
+fn uniform_probability<N: Node<W>, I: ImportanceModel<N, W, P>, P, const W: usize>(
     tree: &LightTree<'_, N, I, W>,
     instance: u32,
 ) -> f32 {

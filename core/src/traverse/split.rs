@@ -6,7 +6,7 @@ use super::sample::{SampledLight, light_of};
 use super::walk::Walk;
 use crate::exact;
 use crate::importance::ImportanceModel;
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::point::ShadingPoint;
 use crate::summary::Summary;
 use crate::trail::Path;
@@ -26,7 +26,7 @@ struct Subtree {
 
 /// See [`LightTree::sample_split`].
 #[inline(always)]
-pub(super) fn sample_split<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, const MOST: usize>(
+pub(super) fn sample_split<N: Node<W>, I: ImportanceModel<N, W>, const W: usize, const MOST: usize>(
     tree: &LightTree<'_, N, I, W>,
     point: &ShadingPoint,
     random: Random64,

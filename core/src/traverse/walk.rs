@@ -4,7 +4,7 @@ use super::choose::{FULL, FULL_BITS, Share, choose};
 use super::random::Random64;
 use crate::exact;
 use crate::importance::ImportanceModel;
-use crate::node::{LightNode, kind};
+use crate::node::{Node, kind};
 use crate::point::{Receiver, ShadingPoint};
 use crate::trail::{Path, max_levels};
 use crate::tree::{INVALID, LightTree};
@@ -72,7 +72,7 @@ impl<P: Receiver> Walk<P> {
 
     /// Goes one node down. `world` is the point in the world.
     #[inline(always)]
-    pub fn step<N: LightNode<W>, I: ImportanceModel<N, W, P>, const W: usize>(
+    pub fn step<N: Node<W>, I: ImportanceModel<N, W, P>, const W: usize>(
         &mut self,
         tree: &LightTree<'_, N, I, W>,
         world: &P,
@@ -104,7 +104,7 @@ impl<P: Receiver> Walk<P> {
 
     /// Goes to the child of `node` that has `share`. An index out of range ends the walk. Returns how often the range was doubled.
     #[inline(always)]
-    pub fn descend<N: LightNode<W>, I: ImportanceModel<N, W, P>, const W: usize>(
+    pub fn descend<N: Node<W>, I: ImportanceModel<N, W, P>, const W: usize>(
         &mut self,
         tree: &LightTree<'_, N, I, W>,
         world: &P,

@@ -3,13 +3,13 @@
 #[cfg(feature = "simd")]
 mod dispatched {
     use crate::importance::ImportanceModel;
-    use crate::node::LightNode;
+    use crate::node::Node;
     use crate::point::ShadingPoint;
     use crate::traverse::{Random64, SampledLight, batch, many, sample};
     use crate::tree::LightTree;
     use crate::widest::widest;
 
-    pub fn sample<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    pub fn sample<N: Node<W>, I: ImportanceModel<N, W>, const W: usize>(
         tree: &LightTree<'_, N, I, W>,
         point: &ShadingPoint,
         random: Random64,
@@ -20,7 +20,7 @@ mod dispatched {
         )
     }
 
-    pub fn pmf<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    pub fn pmf<N: Node<W>, I: ImportanceModel<N, W>, const W: usize>(
         tree: &LightTree<'_, N, I, W>,
         point: &ShadingPoint,
         light: u32,
@@ -32,7 +32,7 @@ mod dispatched {
         )
     }
 
-    pub fn sample_many<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, const COUNT: usize>(
+    pub fn sample_many<N: Node<W>, I: ImportanceModel<N, W>, const W: usize, const COUNT: usize>(
         tree: &LightTree<'_, N, I, W>,
         point: &ShadingPoint,
         random: Random64,
@@ -43,7 +43,7 @@ mod dispatched {
         )
     }
 
-    pub fn sample_spaced<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    pub fn sample_spaced<N: Node<W>, I: ImportanceModel<N, W>, const W: usize>(
         tree: &LightTree<'_, N, I, W>,
         point: &ShadingPoint,
         random: Random64,
@@ -57,7 +57,7 @@ mod dispatched {
         );
     }
 
-    pub fn sample_batch<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    pub fn sample_batch<N: Node<W>, I: ImportanceModel<N, W>, const W: usize>(
         tree: &LightTree<'_, N, I, W>,
         points: &[ShadingPoint],
         randoms: &[Random64],

@@ -3,16 +3,12 @@
 use bytemuck::Pod;
 
 use super::{Violation, What, equal};
-use crate::node::{LightNode, kind};
+use crate::node::{Node, kind};
 use crate::summary::Summary;
 use crate::tree::INVALID;
 
 /// Checks that two nodes have the same words; the first difference is named by what it means, where it shows.
-pub(crate) fn same<N: LightNode<W>, const W: usize>(
-    index: u32,
-    expected: &N,
-    found: &N,
-) -> Result<(), Violation> {
+pub(crate) fn same<N: Node<W>, const W: usize>(index: u32, expected: &N, found: &N) -> Result<(), Violation> {
     if bytemuck::bytes_of(expected) == bytemuck::bytes_of(found) {
         return Ok(());
     }
@@ -63,7 +59,7 @@ pub(crate) fn same_words<T: Pod>(node: u32, slot: u32, expected: &T, found: &T) 
 }
 
 /// Checks that the children of node `index` lie within `outer`, what its parent holds of it.
-pub(crate) fn within<N: LightNode<W>, const W: usize>(
+pub(crate) fn within<N: Node<W>, const W: usize>(
     outer: &N::Summary,
     index: u32,
     node: &N,

@@ -7,7 +7,7 @@ use bytemuck::cast_slice;
 use lightbvh::bvh::StaticBvh;
 use lightbvh::exact::hash;
 use lightbvh::{
-    BuildParams, Bvh, Defensive, Edit, EmissiveTriangle, LightNode, Lights, MomentNode, Moments,
+    BuildParams, Bvh, Defensive, Edit, EmissiveTriangle, Lights, MomentNode, Moments, Node,
     TwoSidedMomentNode,
 };
 

@@ -167,18 +167,15 @@ pub fn within(map: &Transform, triangles: &[EmissiveTriangle]) -> Option<bool> {
     if !entries.clone().all(|x| f64::from(x.abs()) <= MOST) {
         return Some(false);
     }
-    let radius = triangles.iter().flat_map(|triangle| triangle.p).map(|p| {
-        let [x, y, z] = p.map(f64::from);
-        (x * x + y * y + z * z).sqrt()
-    });
-    let radius = radius.fold(0.0, f64::max);
+    let coordinates = triangles.iter().flat_map(|triangle| triangle.p).flatten();
+    let greatest = coordinates.fold(0.0, |most: f64, x| most.max(f64::from(x.abs())));
     let farthest = (0..3).map(|row| {
         let across: f64 = map
             .columns
             .iter()
             .map(|column| f64::from(column[row].abs()))
             .sum();
-        across * radius + f64::from(map.translation[row].abs())
+        across * greatest + f64::from(map.translation[row].abs())
     });
     let farthest = farthest.fold(0.0, f64::max);
     let unclear = (farthest / MOST - 1.0).abs() < 1e-9;

@@ -150,7 +150,7 @@ fn world(
 
 /// Trees of two-wide nodes, the deepest there are, by the paper's importance: on the CPU alone, since no kernels are compiled
 /// for them.
-fn narrow<N: BoundsNode<2>>(case: &Case, lights: &Lights, samples: u32, found: &mut Found) {
+fn narrow<N: BoundsNode<2> + LightNode<2>>(case: &Case, lights: &Lights, samples: u32, found: &mut Found) {
     let bvh = Bvh::<N, Eq4, 2>::two_level(lights, &case.params);
     let structure = format!("two-level {} 2-wide", N::NAME);
     let tree = walked(&bvh, lights);

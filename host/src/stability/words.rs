@@ -116,7 +116,7 @@ fn rows(
 
 /// Nodes with links alone, so that a refit has everything to compute.
 fn without_summaries(nodes: &[Node]) -> Vec<Node> {
-    use lightbvh::LightNode;
+    use lightbvh::node::Node as _;
     let mut out = nodes.to_vec();
     for node in &mut out {
         for slot in 0..WIDTH {

@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use lightbvh::{BuildParams, LightBvh, LightNode, Lights};
+use lightbvh::{BuildParams, LightBvh, Lights, Node};
 use lightbvh_host::stability::cases::scattered;
 use lightbvh_host::stability::row::{Check, Row};
 use lightbvh_host::stability::{case, checks, walked};

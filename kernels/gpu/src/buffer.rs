@@ -1,16 +1,16 @@
 //! The arrays of a light BVH on a device.
 
 use bytemuck::cast_slice;
-use lightbvh::node::LightNode;
+use lightbvh::node::{Holds, Node};
 use lightbvh::refit::BlasRoot;
-use lightbvh::{Bvh, EmissiveTriangle, Instance};
+use lightbvh::{Bvh, Instance};
 
 /// An array of a light BVH that a device holds in a storage buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Buffer {
     /// The nodes of both levels. A refit writes them.
     Nodes,
-    /// The triangles of bottom levels, in the spaces of their meshes, for a refit.
+    /// The triangles of bottom levels, or their lights of another kind, in the spaces of their meshes, for a refit.
     Triangles,
     /// The instances.
     Instances,
@@ -50,10 +50,10 @@ impl Buffer {
 
     /// Bytes from one element to the next, in a tree with nodes of layout `N`.
     #[must_use]
-    pub fn stride<N>(self) -> u32 {
+    pub fn stride<N: Holds>(self) -> u32 {
         let bytes = match self {
             Self::Nodes => size_of::<N>(),
-            Self::Triangles => size_of::<EmissiveTriangle>(),
+            Self::Triangles => size_of::<N::Light>(),
             Self::Instances => size_of::<Instance>(),
             Self::Roots => size_of::<BlasRoot>(),
             Self::Trails => size_of::<u32>(),
@@ -64,7 +64,7 @@ impl Buffer {
     /// What the buffer holds for `bvh`, before a refit that is still to come. May be empty, which a buffer of Vulkan may not
     /// be: make it one element then.
     #[must_use]
-    pub fn bytes<N: LightNode<W>, I, const W: usize>(self, bvh: &Bvh<N, I, W>) -> &[u8] {
+    pub fn bytes<N: Node<W>, I, const W: usize>(self, bvh: &Bvh<N, I, W>) -> &[u8] {
         let tree = bvh.tree();
         match self {
             Self::Nodes => cast_slice(tree.nodes),

@@ -6,7 +6,7 @@ use core::ops::Range;
 
 use lightbvh::Bvh;
 use lightbvh::bvh::RefitPlan;
-use lightbvh::node::LightNode;
+use lightbvh::node::Node;
 
 use crate::buffer::Buffer;
 use crate::refit::Refit;
@@ -36,7 +36,7 @@ pub struct Copy {
 impl Copy {
     /// The bytes to be copied.
     #[must_use]
-    pub fn source<'a, N: LightNode<W>, I, const W: usize>(&self, bvh: &'a Bvh<N, I, W>) -> &'a [u8] {
+    pub fn source<'a, N: Node<W>, I, const W: usize>(&self, bvh: &'a Bvh<N, I, W>) -> &'a [u8] {
         &self.buffer.bytes(bvh)[self.bytes.start as usize..self.bytes.end as usize]
     }
 }
@@ -99,7 +99,7 @@ pub struct Mirror {
 impl Mirror {
     /// Plans and follows: what brings the device's buffers to what `bvh` is now, after all edits of a frame and what
     /// a `Rebuilder` has swapped in. The copies are to be done before `bvh` changes again.
-    pub fn frame<N: LightNode<W>, I, const W: usize>(&mut self, bvh: &mut Bvh<N, I, W>) -> Frame {
+    pub fn frame<N: Node<W>, I, const W: usize>(&mut self, bvh: &mut Bvh<N, I, W>) -> Frame {
         bvh.plan();
         self.follow(bvh)
     }
@@ -108,7 +108,7 @@ impl Mirror {
     ///
     /// Everything is copied and refitted where the plan does not say all that changed for this mirror: another light BVH than last
     /// time (a clone, or one that was read), a plan that was left out, a change since the plan.
-    pub fn follow<N: LightNode<W>, I, const W: usize>(&mut self, bvh: &Bvh<N, I, W>) -> Frame {
+    pub fn follow<N: Node<W>, I, const W: usize>(&mut self, bvh: &Bvh<N, I, W>) -> Frame {
         let (now, is_current) = bvh.last_plan();
         let is_followed = is_current && self.last == Some(now);
         let is_next = is_current && self.last.is_some_and(|(tree, plan)| (tree, plan + 1) == now);

@@ -153,13 +153,17 @@ mod tests {
     fn equal_names_are_arrays_of_equal_strides() {
         let mut seen: Vec<(&str, &str, u32)> = Vec::new();
         for kernel in KERNELS {
-            let suffix = ["_eq4", "_narrow", "_wide"]
+            let suffix = ["_eq4", "_narrow", "_wide", "_any"]
                 .into_iter()
                 .find(|suffix| kernel.name.ends_with(suffix));
             for binding in kernel.bindings {
-                // Each pass has results of its own; nodes have the layout of the choice.
+                // Each pass has results of its own; nodes and lights have the layout of the choice.
                 if binding.name != "results" {
-                    let layout = suffix.filter(|_| binding.name == "nodes").unwrap_or("");
+                    let is_own = match suffix {
+                        Some("_any") => binding.name == "triangles",
+                        _ => binding.name == "nodes",
+                    };
+                    let layout = suffix.filter(|_| is_own).unwrap_or("");
                     seen.push((binding.name, layout, binding.stride));
                 }
             }

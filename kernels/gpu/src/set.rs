@@ -22,6 +22,8 @@ pub struct KernelSet {
     pub sample: &'static Kernel,
     /// The probability of each query's light.
     pub pmf: &'static Kernel,
+    /// A point on each query's sampled light.
+    pub light_points: &'static Kernel,
 }
 
 /// The kernels of `LightBvh`: `Bvh<MomentNode<8>, Defensive<Moments, 6>, 8>`.
@@ -31,6 +33,7 @@ pub static MOMENTS: KernelSet = KernelSet {
     refit_top: &table::REFIT_TOP,
     sample: &table::SAMPLE,
     pmf: &table::PMF,
+    light_points: &table::LIGHT_POINTS,
 };
 
 /// The kernels of `Bvh<CompactNode<4>, Eq4, 4>`, the paper's.
@@ -40,7 +43,23 @@ pub static EQ4: KernelSet = KernelSet {
     refit_top: &table::REFIT_TOP_EQ4,
     sample: &table::SAMPLE_EQ4,
     pmf: &table::PMF_EQ4,
+    light_points: &table::LIGHT_POINTS,
 };
+
+impl KernelSet {
+    /// The kernels of `Bvh<Lit<MomentNode<8>, AnyLight>, Defensive<Moments, 6>, 8>`, over lights of any kind. A light is 68 bytes where a triangle is 56;
+    /// a scene of triangles alone takes [`MOMENTS`].
+    ///
+    /// Its [`light_points`](Self::light_points) reads `queries` besides, for a point on a light of some kinds depends on the receiver.
+    pub const ANY: Self = Self {
+        refit_bottom: &table::REFIT_BOTTOM_ANY,
+        refit_roots: &table::REFIT_ROOTS,
+        refit_top: &table::REFIT_TOP_ANY,
+        sample: &table::SAMPLE,
+        pmf: &table::PMF,
+        light_points: &table::LIGHT_POINTS_ANY,
+    };
+}
 
 /// No kernels of a choice are compiled. Its text is the command that compiles them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,15 +126,23 @@ impl KernelSet {
 
 #[cfg(test)]
 mod tests {
+    use lightbvh::light::AnyLight;
+    use lightbvh::node::{Holds, Lit};
     use lightbvh::requirements::Updates;
     use lightbvh::{CompactNode, MomentNode};
 
     use super::*;
     use crate::buffer::Buffer;
 
-    fn fits<N>(set: &KernelSet, suffix: &str) {
+    fn fits<N: Holds>(set: &KernelSet, suffix: &str) {
         for pass in [Pass::Bottom, Pass::Roots, Pass::Top] {
             let kernel = set.refit(pass);
+            // Roots are read from nodes alone, which have the same words over lights of any kind.
+            let suffix = if (pass, suffix) == (Pass::Roots, "_any") {
+                ""
+            } else {
+                suffix
+            };
             assert_eq!(kernel.name.strip_suffix(suffix), Some(pass.name()));
             assert_eq!(kernel.push_constants, 8);
         }
@@ -133,12 +160,13 @@ mod tests {
             set.refit_top,
             set.sample,
             set.pmf,
+            set.light_points,
         ] {
             for binding in kernel.bindings {
                 match Buffer::named(binding.name) {
                     Some(buffer) => assert_eq!(binding.stride, buffer.stride::<N>(), "{binding:?}"),
                     None => assert!(
-                        ["list", "queries", "results"].contains(&binding.name),
+                        ["list", "queries", "results", "samples", "numbers"].contains(&binding.name),
                         "{binding:?}"
                     ),
                 }
@@ -190,5 +218,6 @@ mod tests {
     fn the_buffers_of_core_fit_the_kernels() {
         fits::<MomentNode<8>>(&MOMENTS, "");
         fits::<CompactNode<4>>(&EQ4, "_eq4");
+        fits::<Lit<MomentNode<8>, AnyLight>>(&KernelSet::ANY, "_any");
     }
 }

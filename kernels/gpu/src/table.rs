@@ -18,6 +18,22 @@ pub static LIGHT_POINTS: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `light_points_any`.
+pub static LIGHT_POINTS_ANY: Kernel = Kernel {
+    name: "light_points_any",
+    bytes: include_bytes!("../spirv/light_points_any.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "triangles", access: Read, stride: 68 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 2, name: "queries", access: Read, stride: 32 },
+        Binding { binding: 3, name: "samples", access: Read, stride: 12 },
+        Binding { binding: 4, name: "numbers", access: Read, stride: 8 },
+        Binding { binding: 5, name: "results", access: Write, stride: 44 },
+    ],
+    push_constants: 4,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `path_bvh`.
 pub static PATH_BVH: Kernel = Kernel {
     name: "path_bvh",
@@ -179,6 +195,19 @@ pub static REFIT_BOTTOM: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `refit_bottom_any`.
+pub static REFIT_BOTTOM_ANY: Kernel = Kernel {
+    name: "refit_bottom_any",
+    bytes: include_bytes!("../spirv/refit_bottom_any.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "list", access: Read, stride: 4 },
+        Binding { binding: 1, name: "triangles", access: Read, stride: 68 },
+        Binding { binding: 2, name: "nodes", access: ReadWrite, stride: 192 },
+    ],
+    push_constants: 8,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `refit_bottom_eq4`.
 pub static REFIT_BOTTOM_EQ4: Kernel = Kernel {
     name: "refit_bottom_eq4",
@@ -222,6 +251,20 @@ pub static REFIT_ROOTS_EQ4: Kernel = Kernel {
 pub static REFIT_TOP: Kernel = Kernel {
     name: "refit_top",
     bytes: include_bytes!("../spirv/refit_top.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "list", access: Read, stride: 4 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 2, name: "roots", access: Read, stride: 52 },
+        Binding { binding: 3, name: "nodes", access: ReadWrite, stride: 192 },
+    ],
+    push_constants: 8,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `refit_top_any`.
+pub static REFIT_TOP_ANY: Kernel = Kernel {
+    name: "refit_top_any",
+    bytes: include_bytes!("../spirv/refit_top_any.spv"),
     bindings: &[
         Binding { binding: 0, name: "list", access: Read, stride: 4 },
         Binding { binding: 1, name: "instances", access: Read, stride: 136 },
@@ -563,6 +606,7 @@ pub static SELF_TEST: Kernel = Kernel {
 /// All kernels, sorted by name.
 pub static KERNELS: &[&Kernel] = &[
     &LIGHT_POINTS,
+    &LIGHT_POINTS_ANY,
     &PATH_BVH,
     &PATH_BVH_EQ4,
     &PATH_POWER,
@@ -573,10 +617,12 @@ pub static KERNELS: &[&Kernel] = &[
     &PMF_NATIVE,
     &PMF_WIDE,
     &REFIT_BOTTOM,
+    &REFIT_BOTTOM_ANY,
     &REFIT_BOTTOM_EQ4,
     &REFIT_ROOTS,
     &REFIT_ROOTS_EQ4,
     &REFIT_TOP,
+    &REFIT_TOP_ANY,
     &REFIT_TOP_EQ4,
     &RENDER_BVH,
     &RENDER_BVH_EQ4,

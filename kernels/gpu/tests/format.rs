@@ -5,6 +5,9 @@
 use std::mem::offset_of;
 use std::ops::Range;
 
+use lightbvh::light::{
+    AnyLight, BoxLight, DiscLight, Light, PointLight, RectangleLight, SphereLight, SpotLight,
+};
 use lightbvh::refit::BlasRoot;
 use lightbvh::{
     CompactNode, EmissiveTriangle, FullMomentNode, FullNode, Instance, LeanMomentNode, LightBvh, MomentNode,
@@ -131,6 +134,37 @@ fn records_have_their_fields() {
     record("Query", 32, &[("p", 0), ("n", 12)]);
 }
 
+/// Their fields in order, without a gap, `mesh` where files leave it out.
+#[test]
+fn lights_of_other_kinds_have_their_words() {
+    let rows = table("\n### Lights of other kinds\n");
+    let mut left = rows.iter();
+    macro_rules! light {
+        ($type:ident: $($field:ident),*) => {
+            let row = left.next().expect("a row");
+            assert_eq!(code(row[0]), stringify!($type));
+            assert_eq!(range(row[1]).start * 4, size_of::<$type>(), "{row:?}");
+            let fields = [$((stringify!($field), offset_of!($type, $field))),*];
+            let told = row[2].split(", ").map(|cell| code(cell.split(' ').next().unwrap_or(cell)));
+            assert!(told.eq(fields.map(|(name, _)| name)), "{row:?}");
+            assert!(fields.is_sorted_by_key(|&(_, offset)| offset), "{row:?}");
+            assert_eq!(offset_of!($type, mesh), <$type>::MESH_WORD * 4);
+        };
+    }
+    light!(PointLight: p, intensity, mesh);
+    light!(SpotLight: p, intensity, axis, cos_inner, cos_outer, mesh);
+    light!(SphereLight: p, radius, radiance, mesh);
+    light!(RectangleLight: p, half, radiance, mesh, flags);
+    light!(DiscLight: p, half, radiance, mesh, flags);
+    light!(BoxLight: p, half, radiance, mesh);
+    let row = left.next().expect("a row");
+    assert_eq!(
+        (code(row[0]), range(row[1]).start * 4),
+        ("AnyLight", size_of::<AnyLight>())
+    );
+    assert!(left.next().is_none());
+}
+
 /// Each binding of a kernel that the page names, of a buffer that it names.
 #[test]
 fn buffers_have_their_strides_readers_and_writers() {
@@ -140,7 +174,7 @@ fn buffers_have_their_strides_readers_and_writers() {
     }
     let own = ["refit_", "sample", "pmf", "render_", "path_", "restir_"];
     for kernel in KERNELS {
-        let (name, layout) = ["_eq4", "_narrow", "_wide"]
+        let (name, layout) = ["_eq4", "_narrow", "_wide", "_any"]
             .into_iter()
             .find_map(|suffix| Some((kernel.name.strip_suffix(suffix)?, suffix)))
             .unwrap_or((kernel.name, ""));
@@ -158,12 +192,13 @@ fn buffers_have_their_strides_readers_and_writers() {
                 continue;
             }
             let stride = match (binding.name, layout) {
-                ("nodes", "") => strides.split_once(',').expect("a first one").0,
-                ("nodes", layout) => {
+                ("nodes", "_eq4" | "_narrow" | "_wide") | ("triangles", "_any") => {
                     let own = format!("`{layout}` ");
                     let after = strides.split_once(&*own).expect("its own").1;
                     after.split(',').next().unwrap_or(after)
                 }
+                // Over lights of any kind nodes are the default's.
+                ("nodes" | "triangles", _) => strides.split_once(',').expect("a first one").0,
                 ("results", _) => {
                     let own = format!("`{name}` ");
                     let after = strides.split_once(&*own).expect("its results").1;
@@ -200,8 +235,8 @@ fn files_begin_with_their_header() {
     assert_eq!(at("`FORMAT`"), lightbvh::bvh::FORMAT);
     assert_eq!(at("number of all words"), words.len() as u32);
     assert_eq!((at("`W`"), at("length of the array of nodes")), (8, 1));
-    // Behind it the one node of the top level with its edits and quality, and its kinds.
-    assert_eq!(words.len(), header + 3 + 1);
+    // Behind it the one node of the top level with its edits, its quality and what is still to be tried, and its kinds.
+    assert_eq!(words.len(), header + 5 + 1);
     let versions = [
         "lightbvh::node::NODE_FORMAT`, now ",
         "lightbvh::bvh::FORMAT`, now ",

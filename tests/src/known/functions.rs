@@ -5,7 +5,7 @@ use lightbvh::node::kind;
 use lightbvh::summary::{Lanes, SUMMARY_WORDS};
 use lightbvh::{
     BoundsNode, CompactNode, EmissiveTriangle, Eq4, FluxOverDistance, ImportanceModel, Instance, LightBounds,
-    LightMoments, LightNode, MomentNode, Moments, ShadingPoint, Summary, exact,
+    LightMoments, MomentNode, Moments, Node, ShadingPoint, Summary, exact,
 };
 
 use super::file::{Answer, File};
@@ -91,8 +91,12 @@ fn of_lights(name: &str, input: &[u32]) -> Option<Vec<u32>> {
         "merge_moments" => words_of(&LightMoments::merged(&Lanes::of(&summaries::<LightMoments, 8>(
             input,
         )))),
-        "bounds_to_world" => words_of(&summary::<LightBounds>(&input[INSTANCE..]).to_world(&instance())),
-        "moments_to_world" => words_of(&summary::<LightMoments>(&input[INSTANCE..]).to_world(&instance())),
+        "bounds_to_world" => words_of(
+            &summary::<LightBounds>(&input[INSTANCE..]).to_world::<lightbvh::EmissiveTriangle>(&instance()),
+        ),
+        "moments_to_world" => words_of(
+            &summary::<LightMoments>(&input[INSTANCE..]).to_world::<lightbvh::EmissiveTriangle>(&instance()),
+        ),
         "encode_bounds" => encode_bounds(&summary(input)),
         "encode_moments" => {
             let node = node::<MomentNode<8>, 8>(input);
@@ -116,7 +120,7 @@ fn of_lights(name: &str, input: &[u32]) -> Option<Vec<u32>> {
 }
 
 /// Weights of the children of a node with the summaries that come first, at the point that comes after them.
-fn weights<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(input: &[u32]) -> Vec<u32> {
+fn weights<N: Node<W>, I: ImportanceModel<N, W>, const W: usize>(input: &[u32]) -> Vec<u32> {
     let point = record::<ShadingPoint>(&input[W * SUMMARY_WORDS..]);
     I::weights(&node::<N, W>(input), &point)
         .map(f32::to_bits)
@@ -124,7 +128,7 @@ fn weights<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(input: &[u
 }
 
 /// A node of lights with these summaries.
-fn node<N: LightNode<W>, const W: usize>(words: &[u32]) -> N {
+fn node<N: Node<W>, const W: usize>(words: &[u32]) -> N {
     let mut node = N::EMPTY;
     for slot in 0..W {
         node.set_child(slot, kind::LIGHT, slot as u32);
@@ -135,7 +139,7 @@ fn node<N: LightNode<W>, const W: usize>(words: &[u32]) -> N {
 
 /// The seven words of a slot, the bounds that they decode to, and the cluster that importance sees.
 fn encode_bounds(bounds: &LightBounds) -> Vec<u32> {
-    let mut node = <CompactNode<4> as LightNode<4>>::EMPTY;
+    let mut node = <CompactNode<4> as Node<4>>::EMPTY;
     node.set_child(SLOT, kind::LIGHT, 7);
     let mut children = [LightBounds::EMPTY; 4];
     children[SLOT] = *bounds;

@@ -43,8 +43,9 @@ fn instances_of_every_kind() {
         if i % 2 == 0 {
             local.phi = generate::log_uniform(&mut random, -100, 125);
         }
-        digest.summary(&local.to_world(&instance));
-        digest.summary(&LightMoments::of_triangle(&triangle).to_world(&instance));
+        digest.summary(&local.to_world::<lightbvh::EmissiveTriangle>(&instance));
+        digest
+            .summary(&LightMoments::of_triangle(&triangle).to_world::<lightbvh::EmissiveTriangle>(&instance));
         let small = generate::small_triangles(1, 1, 2.0, 0.4, false, i)[0];
         digest.words(&[instance.triangle(&small, i)]);
         digest.words(&instance.vertex(triangle.p[0]));

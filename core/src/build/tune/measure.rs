@@ -8,7 +8,7 @@ use crate::bvh::Bvh;
 use crate::exact::hash;
 use crate::importance::ImportanceModel;
 use crate::light::EmissiveTriangle;
-use crate::node::LightNode;
+use crate::node::{Holds, LightNode};
 use crate::point::ShadingPoint;
 use crate::traverse::{Random64, SampledLight};
 
@@ -36,7 +36,7 @@ pub(super) trait Configuration {
     fn count(&self) -> usize;
 }
 
-pub(super) struct Sampling<'a, N, I, const W: usize> {
+pub(super) struct Sampling<'a, N: Holds, I, const W: usize> {
     pub bvh: &'a Bvh<N, I, W>,
     pub candidates: u32,
 }

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::grow::{Children, Growth};
 use super::range::Range;
 use crate::build::topology::Topology;
-use crate::node::{LightNode, kind};
+use crate::node::{Node, kind};
 use crate::trail::{BitTrail, max_levels};
 
 /// What primitives stand for.
@@ -42,13 +42,7 @@ pub(super) struct Emitter<'a, L, const W: usize> {
 
 impl<L: Leaves, const W: usize> Emitter<'_, L, W> {
     /// Emits the node over `range` at `level`; recursion is as deep as the tree, at most 64.
-    pub fn node<N: LightNode<W>>(
-        &self,
-        range: Range<'_>,
-        level: u32,
-        trail: BitTrail,
-        out: &mut Topology<N>,
-    ) {
+    pub fn node<N: Node<W>>(&self, range: Range<'_>, level: u32, trail: BitTrail, out: &mut Topology<N>) {
         match &*range.here {
             [group] if L::LEVELS > 0 => {
                 let node = out.node(level);
@@ -81,7 +75,7 @@ impl<L: Leaves, const W: usize> Emitter<'_, L, W> {
     }
 
     /// No nodes yet, and room for the tree over `count` primitives: nodes are seldom filled by less than five eighths.
-    pub fn room_for<N: LightNode<W>>(&self, count: usize) -> Topology<N> {
+    pub fn room_for<N: Node<W>>(&self, count: usize) -> Topology<N> {
         let groups = L::LEVELS as usize * count;
         let lights = if groups > 0 { count * W } else { count };
         let nodes = groups + 2 * count / W + 1;
@@ -102,7 +96,7 @@ impl<L: Leaves, const W: usize> Emitter<'_, L, W> {
     }
 
     /// Puts the lights of primitive `index` into `node`, from `slot` on.
-    pub fn lights<N: LightNode<W>>(
+    pub fn lights<N: Node<W>>(
         &self,
         index: u32,
         node: usize,
@@ -124,7 +118,7 @@ impl<N> Topology<N> {
     /// A new node without children; returns its index.
     pub(super) fn node<const W: usize>(&mut self, level: u32) -> usize
     where
-        N: LightNode<W>,
+        N: Node<W>,
     {
         self.nodes.push(N::EMPTY);
         self.levels.push(level);
@@ -135,7 +129,7 @@ impl<N> Topology<N> {
     /// Links `slot` of `node` to the node that is emitted next.
     fn link<const W: usize>(&mut self, node: usize, slot: usize)
     where
-        N: LightNode<W>,
+        N: Node<W>,
     {
         let next = self.nodes.len() as u32;
         self.nodes[node].set_child(slot, kind::INNER, next);

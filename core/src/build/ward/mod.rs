@@ -28,7 +28,7 @@ pub use primitive::{WardPrimitive, ward_primitives};
 
 use super::topology::Topology;
 use super::{BuildParams, Heuristic, morton};
-use crate::node::LightNode;
+use crate::node::Node;
 use emit::{Emitter, Single};
 use grow::Growth;
 use range::Range;
@@ -56,7 +56,7 @@ pub(super) const NOTHING: WardPrimitive = WardPrimitive {
 
 /// Builds a tree over `primitives`, at least one, whose leaves are of `leaf_kind`, with [`Heuristic::Morton`] or, for any
 /// other, [`Heuristic::Ward`]. The primitives are left in another order.
-pub(crate) fn build_ward<N: LightNode<W>, const W: usize>(
+pub(crate) fn build_ward<N: Node<W>, const W: usize>(
     primitives: &mut [WardPrimitive],
     leaf_kind: u32,
     params: &BuildParams,
@@ -70,7 +70,7 @@ pub(crate) fn build_ward<N: LightNode<W>, const W: usize>(
 }
 
 /// Builds a tree over `primitives`, each of them a light or a group of up to `W` of them.
-fn over<N: LightNode<W>, L: Leaves, const W: usize>(
+fn over<N: Node<W>, L: Leaves, const W: usize>(
     primitives: &mut [WardPrimitive],
     leaves: &L,
     leaf_kind: u32,

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::emit::{Emitter, Leaves};
 use super::range::Range;
 use crate::build::topology::Topology;
-use crate::node::{LightNode, kind};
+use crate::node::{Node, kind};
 use crate::trail::BitTrail;
 
 /// Some nodes of a tree and the lights among them; the parts in order are the tree in depth-first order.
@@ -19,12 +19,12 @@ struct Part<N> {
 
 impl<L: Leaves, const W: usize> Emitter<'_, L, W> {
     /// The tree over `range`, of the same bits as [`node`](Self::node) emits.
-    pub fn in_parallel<N: LightNode<W>>(&self, range: Range<'_>) -> Topology<N> {
+    pub fn in_parallel<N: Node<W>>(&self, range: Range<'_>) -> Topology<N> {
         put_together::<N, W>(self.parts(range, 0, BitTrail::default()))
     }
 
     /// The parts of the subtree over `range`: a small one is one part, a large one its root and the parts of its children.
-    fn parts<N: LightNode<W>>(&self, range: Range<'_>, level: u32, trail: BitTrail) -> Vec<Part<N>> {
+    fn parts<N: Node<W>>(&self, range: Range<'_>, level: u32, trail: BitTrail) -> Vec<Part<N>> {
         if range.len() < super::SUBTREE {
             let mut tree = self.room_for(range.len());
             self.node(range, level, trail, &mut tree);
@@ -78,7 +78,7 @@ impl<L: Leaves, const W: usize> Emitter<'_, L, W> {
     }
 }
 
-fn put_together<N: LightNode<W>, const W: usize>(parts: Vec<Part<N>>) -> Topology<N> {
+fn put_together<N: Node<W>, const W: usize>(parts: Vec<Part<N>>) -> Topology<N> {
     let mut bases = Vec::with_capacity(parts.len());
     let (mut nodes, mut lights) = (0, 0);
     for part in &parts {

@@ -5,8 +5,7 @@ use alloc::vec::Vec;
 #[cfg(feature = "rayon")]
 use rayon::prelude::*;
 
-use crate::bounds::LightBounds;
-use crate::light::EmissiveTriangle;
+use crate::light::Light;
 
 /// A light, or a group of lights, as Ward's criterion sees it: 20 bytes.
 #[repr(C)]
@@ -24,12 +23,10 @@ impl WardPrimitive {
     /// A light of radiance that does not vary over it: its centre of flux is its centroid.
     #[inline]
     #[must_use]
-    pub fn of_triangle(index: u32, triangle: &EmissiveTriangle) -> Self {
-        let p = &triangle.p;
-        let third = |k: usize| ((p[0][k] + p[1][k]) + p[2][k]) * (1.0 / 3.0);
+    pub fn of_light<L: Light>(index: u32, light: &L) -> Self {
         Self {
-            c: [third(0), third(1), third(2)],
-            phi: LightBounds::of_triangle(triangle).phi,
+            c: light.centroid(),
+            phi: light.bounds().phi,
             index,
         }
     }
@@ -41,10 +38,10 @@ impl WardPrimitive {
     }
 }
 
-/// One primitive for each of `triangles`, by index.
+/// One primitive for each of the lights, by index.
 #[must_use]
-pub fn ward_primitives(triangles: &[EmissiveTriangle]) -> Vec<WardPrimitive> {
-    let of = |(i, triangle): (usize, &EmissiveTriangle)| WardPrimitive::of_triangle(i as u32, triangle);
+pub fn ward_primitives<L: Light>(triangles: &[L]) -> Vec<WardPrimitive> {
+    let of = |(i, light): (usize, &L)| WardPrimitive::of_light(i as u32, light);
     #[cfg(feature = "rayon")]
     if super::is_parallel(triangles.len()) {
         return triangles

@@ -1,5 +1,6 @@
 extern crate std;
 
+use crate::node::{LightNode, Node};
 use std::vec::Vec;
 
 use super::bins::{Measure, bins_for};

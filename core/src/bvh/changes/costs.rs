@@ -77,13 +77,16 @@ fn what_no_plan_asks_for_is_not_kept() {
 }
 
 #[test]
-fn installed_rebuilds_take_no_more_room_than_one() {
-    let (mut bvh, _) = lines(10);
+fn installed_rebuilds_take_bounded_room() {
+    let (mut bvh, _) = lines(1000);
+    let mut most = 0;
     for _ in 0..300 {
         let rebuild: Rebuild<_, 8> = bvh.rebuild(&TOP);
         bvh.install(rebuild.run()).expect("its own");
-        assert!(bvh.changes.new.written_nodes.len() < 100);
+        most = most.max(bvh.changes.new.len());
     }
+    // What one writes, and what is not worth sorting.
+    assert!((1000..8192 + 3000).contains(&most), "{most}");
 }
 
 /// The list of instances is in another order once one has gone.

@@ -7,6 +7,7 @@ use std::vec::Vec;
 use crate::bvh::stage::{Builder, MeshJob, MeshTree, StageId};
 use crate::bvh::{Rebuild, RebuildParams, RefitPlan};
 use crate::exact::{hash, pow2};
+use crate::node::Holds;
 use crate::refit::{self, BlasRoot, Instance};
 use crate::{Bvh, CompactNode, Edit, EmissiveTriangle, Eq4, LightNode, MomentNode, Moments, Transform};
 
@@ -173,7 +174,7 @@ fn edits<N: LightNode<W>, I, const W: usize>(bvh: &mut Bvh<N, I, W>, random: &mu
 }
 
 /// How far a tree that is put in place piece by piece is.
-enum Stage<N> {
+enum Stage<N: Holds> {
     Copied(StageId, MeshJob<N>),
     Placed(StageId, MeshTree<N>),
     Settled(StageId),

@@ -3,20 +3,19 @@
 use super::Batch;
 use crate::bvh::edit::{Edit, EditReason, InstanceId, MeshId};
 use crate::bvh::{Bvh, Trails};
-use crate::light::EmissiveTriangle;
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::transform::Extent;
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Whether an instance is refused for an extent that is perhaps not the least.
-    pub(super) fn may_be_nearer(&self, edits: &[Edit], reason: &EditReason) -> bool {
-        let in_part = |edit: &Edit| matches!(edit, Edit::SetTriangleRange { .. });
+    pub(super) fn may_be_nearer(&self, edits: &[Edit<N::Light>], reason: &EditReason) -> bool {
+        let in_part = |edit: &Edit<N::Light>| matches!(edit, Edit::SetTriangleRange { .. });
         matches!(reason, EditReason::Transform(_))
             && (edits.iter().any(in_part) || self.blases.iter().any(|blas| !blas.extent.is_exact))
     }
 
     /// What is known of a mesh's extent, or once for a batch all of it.
-    pub(super) fn extent(&self, batch: &mut Batch, id: MeshId) -> Extent {
+    pub(super) fn extent(&self, batch: &mut Batch<N::Light>, id: MeshId) -> Extent {
         if let Some(&extent) = batch.extents.get(&id) {
             return extent;
         }
@@ -32,10 +31,10 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// The extent of a mesh with some of its triangles changed.
     pub(super) fn extent_with(
         &self,
-        batch: &mut Batch,
+        batch: &mut Batch<N::Light>,
         id: MeshId,
         first: u32,
-        triangles: &[EmissiveTriangle],
+        triangles: &[N::Light],
     ) -> Extent {
         let own = self.mesh_triangles(id).unwrap_or_default();
         let range = first as usize..first as usize + triangles.len();
@@ -53,7 +52,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Whether all instances of a mesh, those of the batch included, may have that extent, which it gets.
     pub(super) fn check_users(
         &self,
-        batch: &mut Batch,
+        batch: &mut Batch<N::Light>,
         mesh: MeshId,
         extent: Extent,
     ) -> Result<(), EditReason> {

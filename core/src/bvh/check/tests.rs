@@ -1,5 +1,6 @@
 //! The limits of a batch, which no real scene comes near, and what edits of one batch know of each other.
 
+use crate::light::EmissiveTriangle;
 use alloc::vec;
 
 use super::*;

@@ -2,6 +2,7 @@
 
 extern crate std;
 
+use crate::node::{LightNode, Node};
 use std::vec::Vec;
 
 use super::*;
@@ -12,6 +13,8 @@ use crate::{
     BuildParams, CompactNode, Edit, EmissiveTriangle, Eq4, ImportanceModel, LightBvh, MomentNode, Moments,
     ShadingPoint, Transform,
 };
+
+mod decided;
 
 /// `count` small lamps on a circle.
 fn ring(count: u32, radius: f32, shift: f32) -> Vec<EmissiveTriangle> {
@@ -62,7 +65,7 @@ fn rides<N: LightNode<W>, I, const W: usize>(
     (bvh, meshes, ids)
 }
 
-fn opened<N, I, const W: usize>(bvh: &Bvh<N, I, W>) -> usize {
+fn opened<N: LightNode<W>, I, const W: usize>(bvh: &Bvh<N, I, W>) -> usize {
     bvh.placed
         .iter()
         .filter(|placed| placed.live && !placed.parts.is_empty())
@@ -279,4 +282,31 @@ fn what_grows_is_opened_and_not_closed_at_once() {
         (1.3..1.7).contains(&hysteresis),
         "{hysteresis}, about the fourth root of 4"
     );
+}
+
+/// A file tells where the parts of an opened instance were when they were hung: edits after it is read do what they would have done.
+#[test]
+fn opened_instances_that_moved_are_read_as_they_were() {
+    let random = &mut Random(11);
+    let (mut bvh, _, ids) = rides::<MomentNode<8>, Moments, 8>(random);
+    let opened: Vec<u32> = ids.iter().map(|id| id.index()).collect();
+    let opened: Vec<u32> = opened
+        .into_iter()
+        .filter(|&index| !bvh.placed[index as usize].parts.is_empty())
+        .collect();
+    assert!(!opened.is_empty());
+    for step in [0.5, 40.0, 3.0] {
+        let mut again = Bvh::<MomentNode<8>, Moments, 8>::from_words(&bvh.to_words()).expect("its own");
+        assert!(again.to_words() == bvh.to_words(), "{step}");
+        for bvh in [&mut bvh, &mut again] {
+            for &index in &opened {
+                let id = bvh.instance_id(index).expect("there");
+                let mut to = bvh.placed[index as usize].transform;
+                to.translation[0] += step;
+                bvh.set_transform(id, to).expect("moved");
+            }
+            bvh.refit();
+        }
+        assert!(again.to_words() == bvh.to_words(), "{step}");
+    }
 }

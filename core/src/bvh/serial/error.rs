@@ -22,10 +22,12 @@ pub enum ReadError {
         /// Theirs.
         found: u32,
     },
-    /// Their nodes have another layout.
+    /// Their nodes have another layout, or their lights are of another kind.
     Layout {
         /// The layout to be read.
         expected: &'static str,
+        /// The kind of lights to be read.
+        lights: &'static str,
     },
     /// Their nodes have another width.
     Width {
@@ -84,10 +86,10 @@ impl fmt::Display for ReadError {
                 f,
                 "format {found}, expected {expected}; build the light BVH anew from its triangles"
             ),
-            Self::Layout { expected } => {
+            Self::Layout { expected, lights } => {
                 write!(
                     f,
-                    "nodes of another layout than \"{expected}\"; read them as what was written"
+                    "nodes of another layout than \"{expected}\" over lights of kind \"{lights}\"; read them as what was written"
                 )
             }
             Self::Width { expected, found } => write!(

@@ -3,12 +3,13 @@
 use super::error::ReadError;
 use super::words::Words;
 use crate::build::{BuildParams, Effort, Heuristic};
+use crate::light::{EmissiveTriangle, Light};
 use crate::lights::MAX_LIGHTS;
-use crate::node::LightNode;
+use crate::node::Node;
 use crate::trail::max_levels;
 
 /// Version of the words of [`Bvh::to_words`](crate::Bvh::to_words).
-pub const FORMAT: u32 = 3;
+pub const FORMAT: u32 = 4;
 
 /// "LBVH" as bytes in little-endian order.
 const MAGIC: u32 = u32::from_le_bytes(*b"LBVH");
@@ -50,14 +51,14 @@ pub(super) struct Header {
 
 impl Header {
     /// The words; that of the length is still to be set, to [`LENGTH`].
-    pub fn words<N: LightNode<W>, const W: usize>(&self) -> [u32; HEADER_WORDS] {
+    pub fn words<N: Node<W>, const W: usize>(&self) -> [u32; HEADER_WORDS] {
         let heuristic = HEURISTICS.iter().position(|&own| own == self.params.heuristic);
         let effort = EFFORTS.iter().position(|&own| own == self.params.effort);
         [
             MAGIC,
             FORMAT,
             0,
-            layout(N::NAME),
+            layout_of::<N, W>(),
             W as u32,
             flag(self.single, SINGLE) | flag(self.forgotten, FORGOTTEN) | flag(self.params.opens, OPENS),
             heuristic.unwrap_or(0) as u32 | ((effort.unwrap_or(0) as u32) << 8),
@@ -76,7 +77,7 @@ impl Header {
         ]
     }
 
-    pub fn read<N: LightNode<W>, const W: usize>(words: &mut Words<'_>) -> Result<Self, ReadError> {
+    pub fn read<N: Node<W>, const W: usize>(words: &mut Words<'_>) -> Result<Self, ReadError> {
         let found = words.one()?;
         if found != MAGIC {
             return Err(ReadError::Magic { found });
@@ -95,8 +96,11 @@ impl Header {
                 found: words.len(),
             });
         }
-        if words.one()? != layout(N::NAME) {
-            return Err(ReadError::Layout { expected: N::NAME });
+        if words.one()? != layout_of::<N, W>() {
+            return Err(ReadError::Layout {
+                expected: N::NAME,
+                lights: N::Light::NAME,
+            });
         }
         let found = words.one()?;
         if found as usize != W {
@@ -162,7 +166,21 @@ const EFFORTS: [Effort; 2] = [Effort::Usual, Effort::Most];
 
 /// A layout's name as a word: FNV-1a of its bytes.
 pub(super) fn layout(name: &str) -> u32 {
-    name.bytes().fold(0x811c_9dc5, |hash, byte| {
+    hashed(0x811c_9dc5, name)
+}
+
+fn hashed(start: u32, text: &str) -> u32 {
+    text.bytes().fold(start, |hash, byte| {
         (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)
     })
+}
+
+/// The word of a layout, and of the lights of its trees where they are no emissive triangles.
+fn layout_of<N: Node<W>, const W: usize>() -> u32 {
+    let own = layout(N::NAME);
+    if N::Light::NAME == EmissiveTriangle::NAME {
+        own
+    } else {
+        hashed(own, N::Light::NAME)
+    }
 }

@@ -22,9 +22,9 @@ use alloc::vec::Vec;
 
 use self::words::Words;
 use super::Bvh;
-use crate::node::LightNode;
+use crate::node::Node;
 
-impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// The BVH as words, which [`from_words`](Self::from_words) reads; a file holds them in little-endian order. They name the layout
     /// `N` and the width `W`, not the importance `I`, of which no word depends. Takes time and memory in proportion to the arrays.
     ///

@@ -9,15 +9,16 @@ use super::places::{read_indices, read_range, read_ranges, taken};
 use super::words::Words;
 use crate::bvh::blas::Blas;
 use crate::bvh::check::factor;
+use crate::bvh::powers::Powers;
 use crate::bvh::top::{MOST_EDITS, Top};
 use crate::bvh::{Bvh, EditReason, InstanceState, Mesh};
 use crate::levels::Levels;
-use crate::light::EmissiveTriangle;
-use crate::node::{LightNode, kind};
+use crate::light::Light;
+use crate::node::{Node, kind};
 use crate::transform::{Extent, Transform};
 use crate::tree::INVALID;
 
-impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     pub(super) fn read(words: &mut Words<'_>) -> Result<Self, ReadError> {
         let header = Header::read::<N, W>(words)?;
         let mut bvh = Self::new(header.params);
@@ -38,14 +39,16 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
             let node = words.one()?;
             words.expect(node < header.nodes || node == INVALID, "node of the top level")?;
             bvh.top.nodes.push(node);
-            let [edits, built] = match node {
-                INVALID => [0, INVALID],
+            let [edits, built, stirred, changes] = match node {
+                INVALID => [0, INVALID, 0, 0],
                 _ => words.array()?,
             };
             words.expect(edits <= MOST_EDITS, "edits below a node of the top level")?;
             let is_share = built == INVALID || (0.0..=1.0).contains(&f32::from_bits(built));
             words.expect(is_share, "quality of a node")?;
             bvh.top.edits.push(edits);
+            bvh.top.stirred.push(stirred);
+            bvh.top.changes.push(changes);
             top_built.push(built);
         }
         let refitted = read_indices(words, header.refitted, header.blases, "refitted bottom level")?;
@@ -73,7 +76,8 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 is_unlisted: false,
                 misfits: Vec::new(),
                 depth: 0,
-                extent: Extent::of(&[]),
+                extent: Extent::of::<N::Light>(&[]),
+                powers: Powers::default(),
                 created: 0,
                 changed: 0,
                 staged: None,
@@ -166,8 +170,7 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 };
                 placed.lights = first..end;
                 placed.radiance = f32::from_bits(words.one()?);
-                placed.set_hung_word(words.one()?);
-                placed.hung_center = words.array::<3>()?.map(f32::from_bits);
+                placed.set_hung_words(words.array()?);
                 let entries = words.array::<12>()?.map(f32::from_bits);
                 let column = |k: usize| [entries[3 * k], entries[3 * k + 1], entries[3 * k + 2]];
                 placed.transform = Transform {
@@ -175,15 +178,15 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                     translation: column(3),
                 };
                 placed.parts = read_parts(words, header.instances)?;
-                words.need(placed.parts.len() as u32)?;
+                words.need((placed.parts.len() as u32).saturating_mul(4))?;
                 for part in placed.parts.clone() {
-                    hung.push((part, words.one()?));
+                    hung.push((part, words.array()?));
                 }
             }
             self.placed.push(placed);
         }
-        for (part, word) in hung {
-            self.placed[part as usize].set_hung_word(word);
+        for (part, own) in hung {
+            self.placed[part as usize].set_hung_words(own);
         }
         let used = (0..).zip(&self.placed).filter(|(_, placed)| placed.live);
         let used = used.flat_map(|(i, placed)| [i..i + 1, placed.parts.clone()]);
@@ -233,37 +236,36 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     fn read_triangles(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
-        let dark = EmissiveTriangle {
-            p: [[0.0; 3]; 3],
-            radiance: [0.0; 3],
-            mesh: INVALID,
-            flags: 0,
-        };
-        self.triangles = alloc::vec![dark; words.need(header.triangles)?];
+        self.triangles = alloc::vec![N::Light::DARK; words.need(header.triangles)?];
         for (blas, own) in (0..).zip(&self.blases) {
-            for triangle in &mut self.triangles[own.triangles.start as usize..own.triangles.end as usize] {
-                triangle.mesh = blas;
+            for light in &mut self.triangles[own.triangles.start as usize..own.triangles.end as usize] {
+                *light = light.of_mesh(blas);
             }
         }
-        for (index, triangle) in (0..).zip(&mut self.triangles) {
-            if triangle.mesh == INVALID {
+        for (index, light) in (0..).zip(&mut self.triangles) {
+            let mesh = light.mesh();
+            if mesh == INVALID {
                 let gap = words.one()?;
                 words.expect(gap == 0, "place of no triangle")?;
                 continue;
             }
-            let numbers = words.array::<12>()?.map(f32::from_bits);
-            let three = |k: usize| [numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]];
-            triangle.p = [three(0), three(1), three(2)];
-            triangle.radiance = three(3);
-            triangle.flags = words.one()?;
-            *triangle = triangle.checked().map_err(|error| ReadError::Light {
+            for (place, word) in bytemuck::cast_slice_mut::<_, u32>(core::slice::from_mut(light))
+                .iter_mut()
+                .enumerate()
+            {
+                if place != N::Light::MESH_WORD {
+                    *word = words.one()?;
+                }
+            }
+            *light = light.checked().map_err(|error| ReadError::Light {
                 triangle: index,
                 error,
             })?;
         }
         for blas in &mut self.blases {
             let range = blas.triangles.start as usize..blas.triangles.end as usize;
-            blas.extent = Extent::of(&self.triangles[range]);
+            blas.extent = Extent::of(&self.triangles[range.clone()]);
+            blas.powers = Powers::of(&self.triangles[range]);
         }
         for (instance, placed) in (0..).zip(&self.placed).filter(|(_, placed)| placed.live) {
             let wrong = |reason| ReadError::Instance { instance, reason };

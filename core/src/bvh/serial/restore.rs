@@ -13,7 +13,7 @@ use crate::bvh::opened::parts_below;
 use crate::bvh::quality::Quality;
 use crate::bvh::validate::Found;
 use crate::levels::Levels;
-use crate::node::{LightNode, kind};
+use crate::node::{Node, kind};
 use crate::refit::{self, BlasRoot};
 use crate::summary::Summary;
 use crate::sweep;
@@ -29,7 +29,7 @@ const LISTS: ReadError = ReadError::Places {
     what: "instances in lists",
 };
 
-impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     pub(super) fn restore(&mut self, header: &Header) -> Result<(), ReadError> {
         let bottoms = self.blases.iter().map(|blas| blas.nodes.clone());
         let tops = self.top.in_use().map(|node| node..node + 1);
@@ -53,6 +53,10 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     ) -> Result<(), ReadError> {
         self.changes = Changes::default();
         self.epoch = 1;
+        // Putting them in place counted as changes, later than all epochs to come.
+        for placed in &mut self.placed {
+            placed.changed = 0;
+        }
         for (blas, built) in refitted.into_iter().zip(built) {
             let own = &mut self.blases[blas as usize];
             if own.nodes.is_empty() {
@@ -74,9 +78,12 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
     /// What the nodes of the top level, by number, were as they were built; those of which nothing is known are so now.
     pub(super) fn restore_top_quality(&mut self, built: &[u32]) {
         self.quality.resize(self.nodes.len(), Quality::default());
-        for (&node, &built) in self.top.nodes.iter().zip(built) {
+        for (number, (&node, &built)) in self.top.nodes.iter().zip(built).enumerate() {
             if node != INVALID {
                 self.quality[node as usize].built = f32::from_bits(built);
+            }
+            if self.top.changes[number] > 0 {
+                self.top.moved[number] = self.epoch;
             }
         }
         for node in self.top.by_height().nodes {

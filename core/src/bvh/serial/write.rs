@@ -6,10 +6,11 @@ use core::ops::Range;
 
 use super::header::{Header, LENGTH};
 use crate::bvh::{Bvh, InstanceState};
-use crate::node::{LightNode, kind};
+use crate::light::Light;
+use crate::node::{Node, kind};
 use crate::tree::INVALID;
 
-impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     pub(super) fn written(&self) -> Vec<u32> {
         // Those that a refit has changed since they were built, or will.
         let mut refitted = BTreeSet::new();
@@ -40,11 +41,12 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         for range in &self.removed_lights {
             words.extend([range.start, range.end]);
         }
-        for (&node, &edits) in self.top.nodes.iter().zip(&self.top.edits) {
+        for (number, (&node, &edits)) in self.top.nodes.iter().zip(&self.top.edits).enumerate() {
             words.push(node);
             if node != INVALID {
                 let built = self.quality(node).built.to_bits();
                 words.extend([edits, built]);
+                words.extend([self.top.stirred[number], self.changes_since_tried(number)]);
             }
         }
         words.extend(&refitted);
@@ -90,14 +92,13 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
                 mesh, user, listed, ..
             } = *placed;
             words.extend([mesh, user, listed, placed.lights.start, placed.radiance.to_bits()]);
-            words.push(placed.hung_word());
-            words.extend(placed.hung_center.map(f32::to_bits));
+            words.extend(placed.hung_words());
             let transform = &placed.transform;
             let entries = transform.columns.iter().flatten().chain(&transform.translation);
             words.extend(entries.map(|x| x.to_bits()));
             write_parts(words, &placed.parts);
             let parts = &self.placed[placed.parts.start as usize..placed.parts.end as usize];
-            words.extend(parts.iter().map(InstanceState::hung_word));
+            words.extend(parts.iter().flat_map(InstanceState::hung_words));
         }
     }
 
@@ -124,9 +125,13 @@ impl<N: LightNode<W>, I, const W: usize> Bvh<N, I, W> {
         }
         for (triangle, &used) in self.triangles.iter().zip(&used) {
             if used {
-                words.extend(triangle.p.iter().flatten().map(|x| x.to_bits()));
-                words.extend(triangle.radiance.map(f32::to_bits));
-                words.push(triangle.flags);
+                let own: &[u32] = bytemuck::cast_slice(core::slice::from_ref(triangle));
+                let places = own.iter().enumerate();
+                words.extend(
+                    places
+                        .filter(|&(place, _)| place != N::Light::MESH_WORD)
+                        .map(|(_, word)| word),
+                );
             } else {
                 words.push(0);
             }

@@ -4,8 +4,8 @@ use alloc::vec::Vec;
 
 use crate::build::Topology;
 use crate::exact;
-use crate::light::EmissiveTriangle;
-use crate::node::{LightNode, kind};
+use crate::light::Light;
+use crate::node::{Node, kind};
 use crate::trail::BitTrail;
 
 /// A child of a node: another node, or a triangle.
@@ -16,26 +16,26 @@ enum Child {
 }
 
 /// A tree whose nodes come and go.
-struct Tree<'a, const W: usize> {
+struct Tree<'a, L, const W: usize> {
     /// By node, the root first; what has gone has none.
     children: Vec<Vec<Child>>,
     /// How many are left.
     count: usize,
-    triangles: &'a [EmissiveTriangle],
+    triangles: &'a [L],
 }
 
 /// The tree with `count` nodes and at most `levels` levels; `None` where that was not found. A leaf node of few triangles gives them to
 /// its parent and its nearest siblings; two triangles of a node get a node of their own.
-pub(super) fn fit<N: LightNode<W>, const W: usize>(
+pub(super) fn fit<N: Node<W>, const W: usize>(
     topology: Topology<N>,
-    triangles: &[EmissiveTriangle],
+    triangles: &[N::Light],
     count: usize,
     levels: u32,
 ) -> Option<Topology<N>> {
     if topology.nodes.len() == count {
         return Some(topology).filter(|topology| topology.depth <= levels);
     }
-    let mut tree = Tree::<W> {
+    let mut tree = Tree::<N::Light, W> {
         children: topology.nodes.iter().map(children).collect(),
         count: topology.nodes.len(),
         triangles,
@@ -52,7 +52,7 @@ pub(super) fn fit<N: LightNode<W>, const W: usize>(
     Some(out).filter(|out| out.nodes.len() == count)
 }
 
-fn children<N: LightNode<W>, const W: usize>(node: &N) -> Vec<Child> {
+fn children<N: Node<W>, const W: usize>(node: &N) -> Vec<Child> {
     let slots = (0..W).filter_map(|slot| match node.kind(slot) {
         kind::INNER => Some(Child::Node(node.link(slot) as usize)),
         kind::LIGHT => Some(Child::Light(node.link(slot))),
@@ -68,7 +68,7 @@ fn node_of(child: Child) -> Option<usize> {
     }
 }
 
-impl<const W: usize> Tree<'_, W> {
+impl<L: Light, const W: usize> Tree<'_, L, W> {
     fn is_leaf(&self, child: Child) -> Option<usize> {
         let node = node_of(child)?;
         let lights = |&child: &Child| node_of(child).is_none();
@@ -180,18 +180,15 @@ impl<const W: usize> Tree<'_, W> {
         }
     }
 
-    /// Square of the distance between two triangles.
+    /// Square of the distance between two lights.
     fn distance(&self, a: u32, b: u32) -> f32 {
-        let center = |light: u32| {
-            let p = &self.triangles[light as usize].p;
-            [0, 1, 2].map(|axis| p[0][axis] + p[1][axis] + p[2][axis])
-        };
+        let center = |light: u32| self.triangles[light as usize].centroid();
         let (a, b) = (center(a), center(b));
         (0..3).map(|axis| (a[axis] - b[axis]) * (a[axis] - b[axis])).sum()
     }
 
     /// Writes the nodes from `node` down in depth-first order; recursion is as deep as the tree.
-    fn emit<N: LightNode<W>>(
+    fn emit<N: Node<W>>(
         &self,
         node: usize,
         level: u32,
@@ -229,12 +226,12 @@ mod tests {
     use super::*;
     use crate::build::{BuildParams, build_over};
     use crate::kit::{Random, triangle};
-    use crate::{CompactNode, MomentNode};
+    use crate::{CompactNode, LightNode, MomentNode};
 
     fn check<N: LightNode<W>, const W: usize>(params: &BuildParams, count: usize) -> usize {
         let random = &mut Random(count as u32);
         let at = |random: &mut Random| [0; 3].map(|_| 10.0 * random.unit());
-        let lamps: Vec<EmissiveTriangle> = (0..count)
+        let lamps: Vec<crate::EmissiveTriangle> = (0..count)
             .map(|_| {
                 let [x, y, z] = at(random);
                 triangle([[x, y, z], [x + 0.1, y, z], [x, y + 0.1, z]])

@@ -8,25 +8,17 @@ use super::fit::fit;
 use crate::build::{BuildParams, build_over};
 use crate::bvh::quality::Quality;
 use crate::levels::Levels;
-use crate::light::EmissiveTriangle;
-use crate::node::{LightNode, kind};
+use crate::light::Light;
+use crate::node::{Holds, Node, kind};
 use crate::sweep;
 use crate::trail::BitTrail;
 use crate::tree::INVALID;
 
-/// What stands where no triangle has been copied to yet.
-const DARK: EmissiveTriangle = EmissiveTriangle {
-    p: [[0.0; 3]; 3],
-    radiance: [0.0; 3],
-    mesh: INVALID,
-    flags: 0,
-};
-
 /// A bottom level's triangles as they were when they were copied.
 #[derive(Clone, Debug)]
-pub(crate) struct MeshJob<N> {
+pub(crate) struct MeshJob<N: Holds> {
     params: BuildParams,
-    pub(super) triangles: Vec<EmissiveTriangle>,
+    pub(super) triangles: Vec<N::Light>,
     /// How many there will be, and how many are copied.
     count: usize,
     copied: usize,
@@ -50,7 +42,7 @@ pub(super) struct Place {
 
 /// A bottom level as it is built beside the frames; nodes and triangles count from 0.
 #[derive(Debug)]
-pub(crate) struct MeshTree<N> {
+pub(crate) struct MeshTree<N: Holds> {
     pub(super) nodes: Vec<N>,
     pub(super) parents: Vec<u32>,
     pub(super) quality: Vec<Quality>,
@@ -62,12 +54,12 @@ pub(crate) struct MeshTree<N> {
     pub(super) trails_placed: usize,
     /// Of a part: its triangles, where in the mesh they are, and nodes that are to be computed. Its trails begin at the mesh's root, and it
     /// has no nodes where no tree of as many was found.
-    pub(super) triangles: Vec<EmissiveTriangle>,
+    pub(super) triangles: Vec<N::Light>,
     pub(super) places: Vec<u32>,
     pub(super) dirty: Dirty,
 }
 
-impl<N> Default for MeshTree<N> {
+impl<N: Holds> Default for MeshTree<N> {
     fn default() -> Self {
         Self {
             nodes: Vec::new(),
@@ -85,7 +77,7 @@ impl<N> Default for MeshTree<N> {
     }
 }
 
-impl<N> MeshJob<N> {
+impl<N: Holds> MeshJob<N> {
     /// One of `count` triangles that are still to be copied.
     pub(super) fn new(params: &BuildParams, count: usize) -> Self {
         Self {
@@ -121,12 +113,12 @@ impl<N> MeshJob<N> {
     /// Has memory for all triangles that has been written before: where that is done on a thread, no frame pays for its pages.
     #[must_use]
     pub fn with_room(mut self) -> Self {
-        self.triangles.resize(self.count, DARK);
+        self.triangles.resize(self.count, N::Light::DARK);
         self
     }
 
     /// Copies more of them.
-    pub(super) fn copy(&mut self, some: &[EmissiveTriangle]) {
+    pub(super) fn copy(&mut self, some: &[N::Light]) {
         let from = self.copied;
         self.copied += some.len();
         match self.triangles.get_mut(from..self.copied) {
@@ -141,7 +133,7 @@ impl<N> MeshJob<N> {
     /// Builds and refits. The result depends on nothing but `self`.
     pub fn run<const W: usize>(self) -> MeshTree<N>
     where
-        N: LightNode<W>,
+        N: Node<W>,
     {
         let built = build_over::<N, W>(&self.triangles, &self.params);
         let topology = match &self.place {

@@ -13,7 +13,7 @@ use super::{Builder, Dirty, MeshJob, MeshTree, StageId, Staged};
 use crate::bvh::quality;
 use crate::bvh::{Bvh, RebuildParams, Trails};
 use crate::levels::Levels;
-use crate::node::{LightNode, kind};
+use crate::node::{Holds, Node, kind};
 use crate::summary::Summary;
 use crate::sweep;
 use crate::trail::{BitTrail, max_levels, word_levels};
@@ -69,7 +69,7 @@ impl PartialEq for Step {
 
 impl Eq for Step {}
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Begins a stage for a part of bottom level `blas` that `params` wants built anew, if there is one that a frame of `bytes` can put in
     /// place. `None` where there is none, where a stage is under way, and where there are no trails: without them nothing leads from
     /// a triangle to its node.
@@ -298,11 +298,11 @@ impl Part {
     }
 }
 
-impl<N> MeshTree<N> {
+impl<N: Holds> MeshTree<N> {
     /// Marks the nodes on the way to a triangle, whose trail begins so many levels above.
     fn mark_path<const W: usize>(&mut self, triangle: usize, above: u32)
     where
-        N: LightNode<W>,
+        N: Node<W>,
     {
         let trail = self.trails[triangle];
         let mut node = 0;
@@ -320,7 +320,7 @@ impl<N> MeshTree<N> {
     /// Computes nodes from the last on.
     fn compute<const W: usize>(&mut self, list: &[u32])
     where
-        N: LightNode<W>,
+        N: Node<W>,
     {
         for some in list.chunks(super::settle::IN_ORDER) {
             sweep::bottom(&mut self.nodes, &self.triangles, some);
@@ -328,3 +328,6 @@ impl<N> MeshTree<N> {
         quality::judge(&self.nodes, &mut self.quality, list);
     }
 }
+
+#[cfg(all(test, feature = "std"))]
+mod tests;

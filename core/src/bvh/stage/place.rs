@@ -5,11 +5,10 @@ use core::ops::Range;
 use super::{MeshJob, MeshTree, StageId};
 use crate::bvh::quality::Quality;
 use crate::bvh::{Bvh, Trails};
-use crate::light::EmissiveTriangle;
-use crate::node::{LightNode, kind};
+use crate::node::{Node, kind};
 use crate::tree::INVALID;
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Makes more room for the triangles, by at most `bytes`, of which what it takes is subtracted; whether there is enough. `None` where the
     /// stage is gone.
     pub(crate) fn find_room(&mut self, id: StageId, bytes: &mut usize) -> Option<bool> {
@@ -37,7 +36,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if self.staged(id)?.part.is_some() {
             return Some(self.copy_triangles_of_part(id, job, bytes));
         }
-        let size = 2 * size_of::<EmissiveTriangle>();
+        let size = 2 * size_of::<N::Light>();
         let staged = self.staged(id)?;
         let from = staged.copied;
         let count = (staged.triangles.len() as u32 - from).min((*bytes / size) as u32);
@@ -58,7 +57,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// The same for a part, whose triangles stay where they are.
     fn copy_triangles_of_part(&self, id: StageId, job: &mut MeshJob<N>, bytes: &mut usize) -> bool {
         // They lie anywhere in the mesh.
-        let size = 2 * size_of::<EmissiveTriangle>();
+        let size = 2 * size_of::<N::Light>();
         let (from, left) = job.copied();
         let count = left.min(*bytes / size);
         *bytes -= count * size;

@@ -3,7 +3,7 @@
 use super::{MOST, StageId};
 use crate::bvh::changes::merged;
 use crate::bvh::{Bvh, Trails};
-use crate::node::{LightNode, kind};
+use crate::node::{Node, kind};
 use crate::sweep;
 
 /// Bytes that take about the time of a node, and of a way down to a triangle.
@@ -12,7 +12,7 @@ const PATH: usize = 4096;
 /// Few enough nodes for one thread, which takes them in order.
 pub(super) const IN_ORDER: usize = 1024;
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Computes more of what changed since the triangles were copied, and lets the new tree take the place of the old where nothing is
     /// left; whether it has. `None` where the stage is gone.
     ///

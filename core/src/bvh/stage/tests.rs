@@ -345,6 +345,39 @@ fn clusters(shuffled: Option<u32>) -> Vec<EmissiveTriangle> {
     all
 }
 
+/// One mesh of which one cluster has lost its order, with nothing under way.
+pub(super) fn worn_clusters() -> LightBvh {
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(clusters(None)).expect("a mesh");
+    for x in [0.0, 2000.0] {
+        bvh.add_instance(mesh, Transform::at([x, 0.0, 0.0])).expect("one");
+    }
+    bvh.refit();
+    bvh.set_triangle_range(mesh, 1200, clusters(Some(12))[1200..1300].to_vec())
+        .expect("its own");
+    bvh.refit();
+    bvh
+}
+
+/// The levels of a part count where it is deeper than all that was before: files would be refused, and the depth told be too small.
+#[test]
+fn a_part_that_is_deeper_is_counted() {
+    let mut bvh = worn_clusters();
+    let (.., mut rebuilder) = scene();
+    // As if the old one had been flat.
+    bvh.bottom_depth = 0;
+    let mut parts = 0;
+    for _ in 0..100 {
+        rebuilder.end_frame(&bvh);
+        parts += rebuilder.begin_frame(&mut bvh).expect("no panic").parts;
+        bvh.refit();
+        if parts > 0 {
+            break;
+        }
+    }
+    assert!(parts > 0 && bvh.bottom_depth >= 3, "{}", bvh.bottom_depth);
+}
+
 /// The one mesh of a single level too.
 #[test]
 fn a_worn_part_of_a_single_level_is_built_anew() {
@@ -477,4 +510,38 @@ fn without_trails_it_comes_in_pieces() {
         rebuilder.end_frame(&bvh);
     }
     panic!("it does not end");
+}
+
+/// A mesh that goes on losing its order while its tree is built comes to rest once it rests: nothing stays due.
+#[test]
+fn what_changed_while_it_was_built_is_built_again() {
+    for (seed, moving) in [(3, 20), (80, 20), (157, 40), (234, 40)] {
+        let random = &mut Random(seed);
+        let mut bvh = LightBvh::default();
+        let mesh = bvh.add_mesh(lamps(seed)).expect("a mesh");
+        let small = bvh.add_mesh(lamps(5)[..1].to_vec()).expect("a mesh");
+        for (mesh, x) in [(mesh, 0.0), (small, 50.0)] {
+            bvh.add_instance(mesh, Transform::at([x; 3])).expect("one");
+        }
+        bvh.refit();
+        let mut rebuilder = Own::new(RebuilderParams {
+            swap: Swap::Deterministic,
+            ..RebuilderParams::default()
+        });
+        let mut came = 0;
+        for frame in 0..moving + 200 {
+            let start = rebuilder.begin_frame(&mut bvh).expect("no panic");
+            came += start.adopted + start.parts;
+            if frame < moving {
+                let first = (random.unit() * 2700.0) as u32;
+                let other = lamps(seed + 1000 + frame)[..300].to_vec();
+                bvh.set_triangle_range(mesh, first, other).expect("its own");
+            }
+            bvh.refit();
+            rebuilder.end_frame(&bvh);
+        }
+        assert!(came > 0);
+        assert_eq!(bvh.due(&RebuildParams::default()), []);
+        assert!(!rebuilder.is_busy());
+    }
 }

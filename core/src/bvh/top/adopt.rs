@@ -2,21 +2,13 @@
 
 use alloc::vec::Vec;
 
-use super::cost::Cluster;
-use super::cut::Part;
-use super::insert::Item;
+use super::come::{MOST, Quota};
 use super::rebuild::TopTree;
+use super::tried::bounded_sum;
 use crate::bvh::{Bvh, Trails};
-use crate::node::{LightNode, kind};
+use crate::node::{Node, kind};
 use crate::trail::max_levels;
 use crate::tree::INVALID;
-
-/// Most instances and subtrees that are put into a part anew since they came while it was built. Where there are more it is given up,
-/// and tried again: a frame would take longer than it may.
-const MOST: usize = 64;
-/// Most that are taken out of its tree since they went, or are in a subtree that was built anew: up to as many as a node has children go
-/// at a time.
-const MOST_GONE: usize = 4 * MOST;
 
 /// What is below the root of a part now, of what a tree was built over.
 #[derive(Debug, Default)]
@@ -30,11 +22,11 @@ struct Found {
     mark: u64,
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Puts a tree in place of the part of the top level that it was built from, of which it does not know what became of it since the
     /// epoch stood at `since`: what has gone or was put elsewhere is taken out of it, what has come is put in. Nothing is done where
     /// the part is no more.
-    pub(in crate::bvh) fn install_top(&mut self, tree: &TopTree<N>, since: u64) {
+    pub(in crate::bvh) fn install_top(&mut self, tree: &TopTree<N>, since: u64, room: &mut Quota) {
         let root = match tree.root {
             None => self.top.root,
             Some(part) => match self.node_of(part) {
@@ -46,11 +38,16 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             return;
         }
         if !tree.pays || self.level(root) + self.depth_with(tree) > max_levels(W) {
-            self.note_tried(root, &tree.inner);
+            self.note_tried(root, tree, since);
+            return;
+        }
+        let count = self.top.counts[self.top.number(root) as usize];
+        // All that is below is looked at where no subtree stays.
+        if tree.root.is_some() && tree.kept.is_empty() && count as usize > tree.names.len() + room.come {
             return;
         }
         let found = self.sort_out(root, tree, since);
-        if tree.root.is_some() && !self.is_like(tree, &found) {
+        if tree.root.is_some() && !self.is_like(tree, &found, room) {
             return;
         }
         let above = (root != self.top.root).then(|| (self.parents[root as usize], self.slot_above(root)));
@@ -66,9 +63,17 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         for &name in &found.instances {
             self.placed[name as usize].node = INVALID;
         }
-        let count = self.top.counts[self.top.number(root) as usize];
+        let new = &mut self.changes.new;
+        new.written_instances
+            .reserve(tree.names.len() + 2 * tree.nodes.len());
+        new.written_nodes.reserve(2 * tree.nodes.len());
         let nodes = self.renewed(found.nodes, tree.nodes.len());
         let lost = self.link_in(tree, &nodes, found.mark);
+        for &node in &nodes {
+            let number = self.top.number(node) as usize;
+            self.top.moved[number] = 0;
+            self.top.tried[number] = since;
+        }
         match above {
             None => self.set_root(nodes[0]),
             Some((node, slot)) => {
@@ -93,22 +98,20 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 self.changes.new.instances.push(name);
             }
         }
-        // From the lowest: what is above may go with them.
-        for node in lost.into_iter().rev() {
-            if self.top.number(node) != INVALID {
-                let changed = self.fill(node);
-                self.update_path(changed);
-            }
+        self.fill_all(lost);
+        if found.instances.len() <= MOST {
+            self.insert_come(&found.instances, found.subtrees);
+        } else {
+            // Whole top levels alone come in beside so many, and they leave no subtree.
+            debug_assert!(found.subtrees.is_empty());
+            self.insert_instances(&found.instances);
         }
-        self.insert_instances(&found.instances);
-        self.insert_subtrees(found.subtrees);
         self.reopen(&tree.open, &tree.close);
-        self.settle();
     }
 
     /// Whether a part is nearly what its tree was built over, and the tree's nodes, of which some are given back once they are found to miss
     /// children, have a number each: there are as many as records of instances.
-    fn is_like(&self, tree: &TopTree<N>, found: &Found) -> bool {
+    fn is_like(&self, tree: &TopTree<N>, found: &Found, room: &mut Quota) -> bool {
         let names = tree
             .names
             .iter()
@@ -118,7 +121,12 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let gone = tree.names.len() + tree.kept.len() - names.count() - kept.count();
         let come = found.instances.len() + found.subtrees.len();
         let used = self.top.used + tree.nodes.len() - found.nodes.len();
-        come <= MOST && gone <= MOST_GONE && used <= self.instances.len()
+        let fits = come <= room.come && gone <= room.gone && used <= self.instances.len();
+        if fits {
+            room.come -= come;
+            room.gone -= gone;
+        }
+        fits
     }
 
     /// Levels of a tree with the subtrees that it keeps.
@@ -176,7 +184,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                     let own = &mut self.top.marks[number];
                     if *own == listed {
                         *own = mark;
-                    } else if tree.root.is_none() || *own == inner {
+                    } else if tree.kept.is_empty() || *own == inner {
                         found.nodes.push(link);
                     } else {
                         found.subtrees.push(link);
@@ -259,10 +267,11 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 let own = &self.nodes[node as usize];
                 if own.kind(slot) == kind::INNER {
                     let child = self.top.number(own.link(slot)) as usize;
-                    stirred += match keeps & 1 << slot {
+                    let own = match keeps & 1 << slot {
                         0 => self.top.stirred[child],
                         _ => self.top.counts[child],
                     };
+                    stirred = bounded_sum(stirred, own);
                 }
             }
             let number = self.top.number(node) as usize;
@@ -272,58 +281,5 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let number = self.top.number(nodes[0]) as usize;
         self.top.stirred[number] = 0;
         lost
-    }
-
-    /// A part has nothing to gain: its nodes are as good as built.
-    fn note_tried(&mut self, root: u32, inner: &[Part]) {
-        let number = self.top.number(root) as usize;
-        self.top.stirred[number] = 0;
-        for &part in inner.iter().rev() {
-            if let Some(node) = self.node_of(part) {
-                self.judge_new(node);
-            }
-        }
-        let mut node = self.parents[root as usize];
-        while node != INVALID {
-            self.judge_list(&[node]);
-            node = self.parents[node as usize];
-        }
-    }
-
-    /// So many instances below `node` are in a subtree that was built anew.
-    fn stir(&mut self, node: u32, count: u32) {
-        let mut node = node;
-        while node != INVALID {
-            let number = self.top.number(node) as usize;
-            let stirred = u64::from(self.top.stirred[number]) + u64::from(count);
-            self.top.stirred[number] = stirred.min(u64::from(u32::MAX)) as u32;
-            node = self.parents[node as usize];
-        }
-    }
-
-    /// Puts subtrees that hang nowhere where they cost least; one that would get too deep gives way to its children.
-    fn insert_subtrees(&mut self, subtrees: Vec<u32>) {
-        let mut left = subtrees;
-        while let Some(node) = left.pop() {
-            let number = self.top.number(node) as usize;
-            let item = Item {
-                kind: kind::INNER,
-                link: node,
-                cluster: Cluster::new(&self.nodes[node as usize].merged(), self.top.counts[number]),
-                height: self.top.heights[number],
-            };
-            if self.insert(item) {
-                continue;
-            }
-            let own = self.nodes[node as usize];
-            self.free_top_node(node);
-            for slot in 0..W {
-                match own.kind(slot) {
-                    kind::INNER => left.push(own.link(slot)),
-                    kind::MESH => self.insert_instance_leaf(own.link(slot)),
-                    _ => {}
-                }
-            }
-        }
     }
 }

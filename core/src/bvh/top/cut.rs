@@ -5,12 +5,20 @@
 //! mixed over the whole scene are thus put in order as by a sort in passes: parts first, each of which is then spread over the
 //! scene but well ordered, then the levels above over what the parts were split into, then the parts that these make.
 
+#[cfg(feature = "std")]
 use alloc::collections::BinaryHeap;
 use alloc::vec::Vec;
+#[cfg(feature = "std")]
 use core::cmp::Ordering;
 
-use crate::bvh::{Bvh, Trails, opened};
-use crate::node::{LightNode, kind};
+#[cfg(feature = "std")]
+use crate::bvh::opened;
+use crate::bvh::{Bvh, Trails};
+use crate::node::Node;
+#[cfg(feature = "std")]
+use crate::node::kind;
+#[cfg(feature = "std")]
+use crate::summary::Summary;
 use crate::tree::INVALID;
 
 /// Which subtree: its root's number, and when that node came into the tree.
@@ -29,11 +37,12 @@ pub(super) struct Cut {
     pub names: Vec<u32>,
     /// Subtrees below them that stay, in order.
     pub kept: Vec<u32>,
-    /// What the nodes cost together, but for the root.
+    /// What the nodes cost together, but for the root: flux times variance of the centers of their lights.
     pub cost: f64,
 }
 
 /// A subtree that may be opened, the costliest first.
+#[cfg(feature = "std")]
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
     cost: f64,
@@ -41,6 +50,7 @@ struct Candidate {
     node: u32,
 }
 
+#[cfg(feature = "std")]
 impl Ord for Candidate {
     fn cmp(&self, other: &Self) -> Ordering {
         let by_cost = self.cost.total_cmp(&other.cost);
@@ -50,21 +60,24 @@ impl Ord for Candidate {
     }
 }
 
+#[cfg(feature = "std")]
 impl PartialOrd for Candidate {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
+#[cfg(feature = "std")]
 impl PartialEq for Candidate {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }
 }
 
+#[cfg(feature = "std")]
 impl Eq for Candidate {}
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// A node of the top level, as it is told from those that have its number later.
     pub(super) fn part(&self, node: u32) -> Part {
         let number = self.top.number(node);
@@ -106,8 +119,11 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             let costliest = open.peek();
             let fits = costliest.filter(|costliest| leaves - 1 + self.children_of(costliest.node) <= most);
             next = fits.map(|costliest| costliest.node);
-            if next.is_some() {
-                cut.cost += open.pop().map_or(0.0, |opened| opened.cost);
+            if let Some(node) = next {
+                open.pop();
+                // As the tree over the copy is measured: what the node above says of it is rounded up.
+                cut.cost += f64::from(self.quality(node).apart())
+                    * f64::from(self.nodes[node as usize].merged().phi());
             }
         }
         debug_assert!(leaves <= most.max(W));
@@ -117,3 +133,6 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         cut
     }
 }
+
+#[cfg(all(test, feature = "std"))]
+mod tests;

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::cost::{Cluster, floor};
 use crate::build::{Topology, build_top};
 use crate::bvh::{Bvh, Trails};
-use crate::node::{LightNode, kind};
+use crate::node::{Node, kind};
 use crate::trail::max_levels;
 
 /// What is put into the top level: an instance, or a node with its children.
@@ -27,7 +27,7 @@ struct Child {
 
 /// Where an item goes.
 #[derive(Clone, Copy, Debug)]
-enum Step {
+pub(super) enum Step {
     /// Into an empty slot.
     Place(usize),
     /// To the node in this slot.
@@ -38,7 +38,7 @@ enum Step {
     Merge(usize, usize),
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Puts `added` instances into the top level, which has none of them. A few go in one by one, each in time in proportion to the
     /// depth. Many are built into a tree of their own first, whose lowest nodes go in; as many as there are already, and everything is
     /// built anew. So time is in proportion to what is added, times the depth.
@@ -100,27 +100,38 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Puts one instance into the top level, in time in proportion to the depth.
     pub(in crate::bvh) fn insert_instance_leaf(&mut self, index: u32) {
-        let item = Item {
+        let placed = self.insert(self.item_of(index));
+        debug_assert!(placed, "an instance fits into any tree");
+        self.changes.new.mark_instance(index);
+    }
+
+    /// An instance, as it is put in.
+    pub(super) fn item_of(&self, index: u32) -> Item {
+        Item {
             kind: kind::MESH,
             link: index,
             cluster: Cluster::new(&self.in_world(index), 1),
             height: 0,
-        };
-        let placed = self.insert(item);
-        debug_assert!(placed, "an instance fits into any tree");
-        self.changes.new.mark_instance(index);
+        }
     }
 
     /// Puts an item where it costs least, as far as a walk from the root tells that looks at one node of each level. False where the
     /// tree would get deeper than places may be; an instance always fits.
     pub(super) fn insert(&mut self, item: Item) -> bool {
+        let Some(node) = self.put(item) else {
+            return false;
+        };
+        self.update_path(node);
+        self.top.touched.push(node);
+        true
+    }
+
+    /// The same, but that nothing is computed of the node whose children change, which is returned, and those above it.
+    pub(super) fn put(&mut self, item: Item) -> Option<u32> {
         let mut node = self.top.root;
         let mut level = 0;
         loop {
-            let Some(step) = self.step(node, level, &item) else {
-                return false;
-            };
-            match step {
+            match self.step(node, level, &item)? {
                 Step::Place(slot) => self.hang(node, slot, item.kind, item.link),
                 Step::Enter(slot) => {
                     node = self.nodes[node as usize].link(slot);
@@ -139,9 +150,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                     self.hang(node, b, item.kind, item.link);
                 }
             }
-            self.update_path(node);
-            self.top.touched.push(node);
-            return true;
+            return Some(node);
         }
     }
 
@@ -179,7 +188,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Where an item goes from `node` at `level`: what costs least of all that keeps the tree within its levels. `None` where nothing
     /// does, never for an instance: a node with less than its levels hold has a child of which that is true, too.
-    fn step(&self, node: u32, level: u32, item: &Item) -> Option<Step> {
+    pub(super) fn step(&self, node: u32, level: u32, item: &Item) -> Option<Step> {
         let levels = max_levels(W);
         let own = &self.nodes[node as usize];
         if let Some(slot) = (0..W).find(|&slot| own.kind(slot) == kind::EMPTY) {

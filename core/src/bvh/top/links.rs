@@ -1,12 +1,14 @@
 //! Links of the top level, down and up, and what is counted along them.
 
+use alloc::vec::Vec;
+
 use crate::bvh::blas::put;
 use crate::bvh::{Bvh, Trails};
-use crate::node::{LightNode, kind};
+use crate::node::{Node, kind};
 use crate::trail::place;
 use crate::tree::INVALID;
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// A node of the top level without children, which hangs nowhere yet.
     pub(in crate::bvh) fn new_top_node(&mut self) -> u32 {
         let node = self.node_ranges.take(1).start;
@@ -22,6 +24,10 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.reserve_numbers();
         self.top.edits[number as usize] = 0;
         self.top.stirred[number as usize] = 0;
+        self.top.moved[number as usize] = 0;
+        self.top.tried[number as usize] = 0;
+        self.top.changes[number as usize] = 0;
+        self.top.counted[number as usize] = 0;
         self.top.number_of[node as usize] = number;
         self.note_birth(node);
         node
@@ -54,6 +60,10 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.top.edits.resize(numbers, 0);
         self.top.born.resize(numbers, 0);
         self.top.stirred.resize(numbers, 0);
+        self.top.moved.resize(numbers, 0);
+        self.top.tried.resize(numbers, 0);
+        self.top.changes.resize(numbers, 0);
+        self.top.counted.resize(numbers, 0);
         self.top.marks.resize(numbers, 0);
         self.top.number_of.resize(self.nodes.len(), INVALID);
     }
@@ -154,14 +164,54 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// After children of `node` changed: it and all nodes above are measured and computed, and marked for the next refit.
     pub(in crate::bvh) fn update_path(&mut self, node: u32) {
         self.changes.new.top_nodes.push(node);
+        let number = self.top.number(node) as usize;
+        self.top.counted[number] += 1;
         let mut node = node;
         while node != INVALID {
-            self.measure(node);
-            self.refit_node(node);
-            self.judge_list(&[node]);
-            let number = self.top.number(node) as usize;
-            self.top.edits[number] = (self.top.edits[number] + 1).min(super::settle::MOST);
+            self.update(node);
+            self.count_edit(node);
             node = self.parents[node as usize];
         }
+    }
+
+    /// The same after children of several nodes changed, of which some may be gone since: each node above is computed once.
+    pub(super) fn update_paths(&mut self, nodes: &[u32]) {
+        self.top.mark += 1;
+        let mark = self.top.mark;
+        let mut above = Vec::new();
+        for &start in nodes {
+            if self.top.number(start) == INVALID {
+                continue;
+            }
+            self.changes.new.top_nodes.push(start);
+            let number = self.top.number(start) as usize;
+            self.top.counted[number] += 1;
+            let mut node = start;
+            while node != INVALID {
+                let number = self.top.number(node) as usize;
+                if core::mem::replace(&mut self.top.marks[number], mark) != mark {
+                    above.push((self.level(node), node));
+                }
+                self.count_edit(node);
+                node = self.parents[node as usize];
+            }
+        }
+        above.sort_unstable_by_key(|&(level, node)| (core::cmp::Reverse(level), node));
+        for (_, node) in above {
+            self.update(node);
+        }
+    }
+
+    /// One more edit below a node since it was built.
+    fn count_edit(&mut self, node: u32) {
+        let number = self.top.number(node) as usize;
+        self.top.edits[number] = (self.top.edits[number] + 1).min(super::settle::MOST);
+    }
+
+    /// A node is measured and computed after its children.
+    fn update(&mut self, node: u32) {
+        self.measure(node);
+        self.refit_node(node);
+        self.judge_list(&[node]);
     }
 }

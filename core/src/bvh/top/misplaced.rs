@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::cost::Cluster;
 use crate::bvh::{Bvh, Trails};
 use crate::exact::hash;
-use crate::node::{LightNode, kind};
+use crate::node::{Node, kind};
 use crate::summary::Summary;
 use crate::tree::INVALID;
 
@@ -18,6 +18,9 @@ const FACTOR: f32 = 2.0;
 /// Most instances that one call puts in elsewhere, and one more for so many instances. Where more are misplaced the rest waits for a
 /// rebuild: an animation of all instances costs what it always did.
 const MOST: usize = 64;
+/// Each of the rest counts as so many that are in subtrees built anew: where one in 32 of a part is misplaced there may be something to gain,
+/// even where no node has lost any of its order, as where lamps come on that were off when it was built.
+const STIRS: u32 = 4;
 
 /// Of so many instances that are moved one is compared with what lies beside its nodes at all levels.
 const FAR_IN: u32 = 4;
@@ -29,7 +32,7 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum()
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Takes those of `moved` instances, which may repeat, out of the top level that make their nodes wide, and adds them to `out`.
     pub(in crate::bvh) fn take_misplaced(&mut self, mut moved: Vec<u32>, out: &mut Vec<u32>) {
         moved.sort_unstable();
@@ -53,15 +56,23 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let most = MOST + self.live.len() / MOST;
         if misplaced.len() > most {
             misplaced.select_nth_unstable_by(most, |a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-            misplaced.truncate(most);
+            for (_, index) in misplaced.split_off(most) {
+                self.note_flicker(index);
+                self.stir(self.placed[index as usize].node, STIRS);
+            }
             misplaced.sort_unstable_by_key(|&(_, index)| index);
         }
         for (_, index) in misplaced {
-            let placed = &mut self.placed[index as usize];
-            placed.flickers |= placed.hung_radiance > FACTOR * placed.radiance;
+            self.note_flicker(index);
             self.remove_leaf(index);
             out.push(index);
         }
+    }
+
+    /// For being dimmer an instance is misplaced once.
+    fn note_flicker(&mut self, index: u32) {
+        let placed = &mut self.placed[index as usize];
+        placed.flickers |= placed.hung_radiance > FACTOR * placed.radiance;
     }
 
     /// What an instance that is misplaced costs more where it is; 0 of one that is not. Looks at a slot of each of the two nodes above,

@@ -7,19 +7,19 @@ use alloc::vec::Vec;
 
 use super::cut::{Cut, Part};
 use crate::build::{BuildParams, Topology, build_top};
+use crate::bvh::quality::Spread;
 use crate::bvh::{Bvh, Trails, opened};
 use crate::instance::Instance;
 use crate::levels::Levels;
-use crate::node::{LightNode, kind};
+use crate::node::{Node, kind};
 use crate::refit::BlasRoot;
 use crate::summary::{Lanes, Summary};
 
 /// Most leaves of a part: copied in 0.1 ms, put in place in 0.2 ms (measured: `docs/dynamics.md`).
-#[cfg(feature = "std")]
-pub(in crate::bvh) const PART: u32 = 1536;
+pub(in crate::bvh) const PART: u32 = 1024;
 /// Most leaves of one that keeps subtrees, each of which is looked at, and its number told where it hangs.
 #[cfg(feature = "std")]
-const ABOVE: u32 = 1024;
+const ABOVE: u32 = 768;
 /// A tree that nothing else asks for comes in where its nodes cost at most so much of what those cost that it replaces.
 #[cfg(feature = "std")]
 pub(super) const PAYS: f64 = 0.985;
@@ -36,10 +36,11 @@ pub(crate) struct TopCopy<N> {
     /// The same, and the roots of their bottom levels.
     instances: Vec<Instance>,
     roots: Vec<BlasRoot>,
-    /// The subtrees that stay, and the nodes that are to be replaced, from the root down.
-    kept: Vec<(Part, N)>,
+    /// The subtrees that stay, with the variance of their lights' centers, and the nodes that are to be replaced, from the root down.
+    kept: Vec<(Part, N, f32)>,
     inner: Vec<Part>,
-    /// What those cost.
+    /// What those cost but for the root: flux times the variance of the centers of their lights, W m². Lights' own extents are in it on
+    /// neither side: large lamps would hide what small ones gain.
     cost: f64,
     /// The instances that are opened or could be.
     openable: Vec<(u32, Instance, BlasRoot)>,
@@ -83,7 +84,7 @@ impl<N> TopCopy<N> {
     /// A tree over the copy, refitted.
     pub(in crate::bvh) fn build<const W: usize>(self, params: &BuildParams) -> TopTree<N>
     where
-        N: LightNode<W>,
+        N: Node<W>,
     {
         let mut tree = TopTree {
             root: self.root,
@@ -94,46 +95,54 @@ impl<N> TopCopy<N> {
             depth: 0,
             keeps: Vec::new(),
             names: self.names,
-            kept: self.kept.iter().map(|(part, _)| *part).collect(),
+            kept: self.kept.iter().map(|&(part, ..)| part).collect(),
             inner: self.inner,
             open: Vec::new(),
             close: Vec::new(),
         };
         let leaves = self.instances.iter().zip(&self.roots);
-        let leaves = leaves.map(|(instance, root)| root.summary::<N::Summary>().to_world(instance));
+        let leaves =
+            leaves.map(|(instance, root)| root.summary::<N::Summary>().to_world::<N::Light>(instance));
         let leaves: Vec<N::Summary> = leaves
-            .chain(self.kept.iter().map(|(_, node)| node.merged()))
+            .chain(self.kept.iter().map(|(_, node, _)| node.merged()))
             .collect();
         if leaves.is_empty() {
             return tree;
         }
         let whole = self.whole.unwrap_or_else(|| opened::cost_of(&leaves));
-        [tree.open, tree.close] = opened::wanted::<N::Summary>(whole, &self.openable);
+        [tree.open, tree.close] = opened::wanted::<N, W>(whole, &self.openable);
         let mut topology: Topology<N> =
             build_top::<N, W>((0..).zip(leaves.iter().copied()), &super::in_full(params));
         tree.keeps = alloc::vec![0; topology.nodes.len()];
         let mut cost = 0.0;
+        let mut apart = alloc::vec![0.0; topology.nodes.len()];
         for &index in Levels::gather(topology.leveled(0)).nodes() {
             let mut node = topology.nodes[index as usize];
             let mut lanes = Lanes::<W>::all(&N::Summary::EMPTY);
+            let mut below = [0.0; W];
             for slot in 0..W {
                 let (to, link) = (node.kind(slot), node.link(slot));
                 if to == kind::INNER {
                     let child = topology.nodes[link as usize].merged();
-                    cost += opened::cost(&child);
+                    below[slot] = apart[link as usize];
                     lanes.set(slot, &child);
                 } else if to == kind::MESH {
                     lanes.set(slot, &leaves[link as usize]);
                     if let Some(&name) = tree.names.get(link as usize) {
                         node.relink(slot, name);
                     } else {
-                        node.set_child(slot, kind::INNER, link - tree.names.len() as u32);
+                        let stays = link - tree.names.len() as u32;
+                        node.set_child(slot, kind::INNER, stays);
+                        below[slot] = self.kept[stays as usize].2;
                         tree.keeps[index as usize] |= 1 << slot;
                     }
                 }
             }
             node.set_lanes(&lanes);
             topology.nodes[index as usize] = node;
+            let spread = Spread::of(&node, |slot| below[slot]);
+            apart[index as usize] = (spread.apart() / spread.phi.max(f64::MIN_POSITIVE)) as f32;
+            cost += if index > 0 { spread.apart() } else { 0.0 };
         }
         tree.cost = if self.cost > 0.0 { cost / self.cost } else { 1.0 };
         tree.pays = tree.cost <= self.pays;
@@ -144,7 +153,7 @@ impl<N> TopCopy<N> {
     }
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// What the top level is built from as a whole.
     pub(in crate::bvh) fn copy_top(&self) -> TopCopy<N> {
         let mut cut = Cut {
@@ -158,6 +167,15 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             openable: self.openable(self.live.iter().copied()),
             whole: None,
             ..self.copy_of(cut)
+        }
+    }
+
+    /// What the top level is built from as a whole where it is no larger than a part: as a part it comes in within the time that a frame has.
+    #[cfg(feature = "std")]
+    pub(super) fn copy_whole_part(&self) -> TopCopy<N> {
+        TopCopy {
+            root: Some(self.part(self.top.root)),
+            ..self.copy_top()
         }
     }
 
@@ -212,7 +230,11 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             copy.instances.push(own);
         }
         for &node in &cut.kept {
-            copy.kept.push((self.part(node), self.nodes[node as usize]));
+            copy.kept.push((
+                self.part(node),
+                self.nodes[node as usize],
+                self.quality(node).apart(),
+            ));
         }
         for &node in &cut.inner {
             copy.inner.push(self.part(node));

@@ -2,10 +2,10 @@
 
 use super::cost::Cluster;
 use crate::bvh::{Bvh, Trails};
-use crate::node::{LightNode, kind};
+use crate::node::{Node, kind};
 use crate::tree::INVALID;
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Takes the leaf of an instance out, in time in proportion to the depth.
     pub(in crate::bvh) fn remove_leaf(&mut self, index: u32) {
         let (node, slot) = {

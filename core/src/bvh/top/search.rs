@@ -3,13 +3,14 @@
 //! A node is looked at by two measures, each in no time. What it lost against itself when it was built: for more than [`PART`]
 //! instances its own loss, that of how well it tells its children apart; for fewer, that of all nodes below. And how many of the
 //! instances below it are in subtrees that were built since it was tried last: then there may be something to gain though nothing moved.
+//! And each is tried once when what is below it has come to rest.
 //! What is tried and gains nothing is as good as built, so the search ends where nothing moves.
 
 use alloc::vec::Vec;
 
 use super::rebuild::{PART, PAYS, TopCopy};
-use crate::bvh::{Bvh, Trails};
-use crate::node::{LightNode, kind};
+use crate::bvh::{Bvh, Taken, Trails};
+use crate::node::{Node, kind};
 use crate::tree::INVALID;
 
 /// Nodes that one search looks at.
@@ -27,6 +28,10 @@ const LEAST: f64 = 0.05;
 const HASTE: f64 = 0.12;
 /// It comes in then where it costs so much of what it replaces.
 const PAYS_AT_ONCE: f64 = 0.8;
+/// One in so many instances must have changed below a node that is tried at rest, each time counting. Of fewer, edits take care.
+const SHARE: u64 = 8;
+/// Frames after which what has not changed is at rest.
+const REST: usize = 16;
 
 /// How far the top level's nodes have been looked at.
 #[derive(Clone, Copy, Debug, Default)]
@@ -37,12 +42,30 @@ pub(crate) struct Search {
     left: u32,
     /// Searches before a node above parts has its turn, while parts are worn.
     waits: u32,
+    /// The epochs at which the last frames ended, the oldest at `oldest`.
+    ended: [u64; REST],
+    oldest: usize,
+    /// Whether more is at rest than when the last search began.
+    rests: bool,
 }
 
 impl Search {
+    /// Notes the end of a frame.
+    pub fn note_frame(&mut self, now: Taken) {
+        let before = self.rests_since();
+        self.ended[self.oldest] = now.epoch;
+        self.oldest = (self.oldest + 1) % REST;
+        self.rests |= self.rests_since() != before;
+    }
+
+    /// What has not changed since this epoch is at rest.
+    fn rests_since(&self) -> u64 {
+        self.ended[self.oldest]
+    }
+
     /// Whether all have been.
     pub fn is_done(&self) -> bool {
-        self.left == 0
+        self.left == 0 && !self.rests
     }
 
     /// Notes what nodes cost that were built above parts, over what those cost that they replaced. Where the lights mix faster than they
@@ -50,6 +73,15 @@ impl Search {
     pub fn note_gain(&mut self, cost: f64) {
         self.waits = (cost / (1.0 - cost).max(1e-3)).clamp(1.0, f64::from(LONGEST)) as u32;
     }
+}
+
+/// What a search asks for.
+#[derive(Clone, Copy, Debug)]
+struct Asked {
+    /// Nodes worse than when they were built by this factor.
+    worse: f64,
+    /// And those at rest since this epoch, once.
+    rests_since: u64,
 }
 
 /// What there is to build anew.
@@ -61,19 +93,35 @@ enum Worn {
     Above(u32),
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// What the next parts are built from that are worse than when they were built by the factor `worse` or more, `most` instances in
     /// all, or [`PART`] where that is more; time in proportion to them.
     pub(crate) fn copy_worn_parts(&self, worse: f64, most: u32, search: &mut Search) -> Vec<TopCopy<N>> {
+        let asked = Asked {
+            worse,
+            rests_since: search.rests_since(),
+        };
+        let has_changed = search.left > 0;
+        if core::mem::take(&mut search.rests) {
+            self.search_again(search);
+        }
         let root = self.top.number(self.top.root) as usize;
         if self.top.counts[root] <= PART {
             search.left = 0;
-            let is_worn = self.quality(self.top.root).drift() >= worse;
-            return Vec::from_iter(is_worn.then(|| self.copy_top()));
+            let is_worn = has_changed && self.quality(self.top.root).drift() >= worse;
+            if is_worn {
+                return alloc::vec![self.copy_whole_part()];
+            }
+            let pays = match () {
+                () if !self.is_untried(self.top.root, asked) => None,
+                () if self.is_rested(self.top.root, asked) => Some(1.0),
+                () => Some(PAYS),
+            };
+            return Vec::from_iter(pays.map(|pays| self.copy_part(self.top.root, pays)));
         }
         search.waits -= u32::from(search.waits > 0);
         if search.waits == 0 {
-            if let Some(node) = self.worn_above(worse, HASTE) {
+            if let Some(node) = self.worn_above(asked, HASTE) {
                 self.search_again(search);
                 return alloc::vec![self.copy_part(node, PAYS_AT_ONCE)];
             }
@@ -86,7 +134,7 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             search.left -= 1;
             search.next = number as u32 + 1;
             let count = self.top.counts[number];
-            match self.worn_at(number as u32, worse) {
+            match self.worn_at(number as u32, asked) {
                 Some(Worn::Part(found, true)) if count <= room => {
                     room -= count;
                     parts.push((found, f64::INFINITY));
@@ -102,17 +150,21 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         // What is only stirred has time: there are as many such as there are parts after each build above them.
         let is_idle = parts.is_empty() && stirred.is_empty();
         let above = match most - room <= PART / 4 && (search.waits == 0 || is_idle) {
-            true => self.worn_above(worse, LEAST).or(above),
+            true => self.worn_above(asked, LEAST).or(above),
             false => None,
         };
         if let Some(node) = above {
-            parts = alloc::vec![(node, PAYS)];
-            stirred.clear();
+            self.search_again(search);
+            // What is built over subtrees shows what it gains once those have been split.
+            let is_once = self.is_rested(node, asked);
+            let copy = self.copy_part(node, if is_once { f64::INFINITY } else { PAYS });
+            return alloc::vec![copy];
         }
         for (found, count) in stirred {
             if count <= room {
                 room -= count;
-                parts.push((found, PAYS));
+                let is_once = self.is_rested(found, asked);
+                parts.push((found, if is_once { 1.0 } else { PAYS }));
             }
         }
         // What is worn and did not fit is still to be found.
@@ -129,13 +181,13 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// What there is to build anew at a node. Of nodes that could be parts the largest stands for all below it.
-    fn worn_at(&self, number: u32, worse: f64) -> Option<Worn> {
+    fn worn_at(&self, number: u32, asked: Asked) -> Option<Worn> {
         let node = self.top.nodes[number as usize];
         if node == INVALID || self.top.heights[number as usize] < 2 {
             return None;
         }
         if self.top.counts[number as usize] > PART {
-            return (self.urgency(node, worse, LEAST) > 0.0).then_some(Worn::Above(node));
+            return (self.urgency(node, asked, LEAST) > 0.0).then_some(Worn::Above(node));
         }
         let above = self.top.number(self.parents[node as usize]);
         if self.top.counts[above as usize] <= PART {
@@ -143,19 +195,19 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         let drift = self.quality(node).drift();
         // As built, there is nothing to gain.
-        let is_worn = drift > 1.0 && drift >= worse;
-        (is_worn || self.is_stirred(node, worse)).then_some(Worn::Part(node, is_worn))
+        let is_worn = drift > 1.0 && drift >= asked.worse;
+        (is_worn || self.is_untried(node, asked)).then_some(Worn::Part(node, is_worn))
     }
 
     /// Of the highest nodes that have more than [`PART`] instances below, the one that has most to gain: of which most instances are
     /// told apart least well. What lost less than `least` is not worn.
-    fn worn_above(&self, worse: f64, least: f64) -> Option<u32> {
+    fn worn_above(&self, asked: Asked, least: f64) -> Option<u32> {
         let mut nodes = alloc::vec![self.top.root];
         let mut best = (0.0, None);
         let mut next = 0;
         while let Some(&node) = nodes.get(next) {
             next += 1;
-            let urgency = self.urgency(node, worse, least);
+            let urgency = self.urgency(node, asked, least);
             if urgency > best.0 {
                 best = (urgency, Some(node));
             }
@@ -172,23 +224,44 @@ impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// What there may be to gain at a node above parts: its own loss, times the instances that it is about; 0 where it is not worn.
-    fn urgency(&self, node: u32, worse: f64, least: f64) -> f64 {
+    fn urgency(&self, node: u32, asked: Asked, least: f64) -> f64 {
         let number = self.top.number(node) as usize;
         let own = f64::from(self.quality(node).own());
-        let is_worn = own >= least.max(1.0 - 1.0 / worse.max(1.0));
-        let stirred = if least <= LEAST && self.is_stirred(node, worse) {
+        let is_worn = own >= least.max(1.0 - 1.0 / asked.worse.max(1.0));
+        let untried = if least <= LEAST && self.is_untried(node, asked) {
             LEAST
         } else {
             0.0
         };
         let own = if is_worn { own } else { 0.0 };
-        own.max(stirred) * f64::from(self.top.counts[number])
+        own.max(untried) * f64::from(self.top.counts[number])
     }
 
-    /// Whether half of the instances below a node are in subtrees that were built since it was tried.
-    fn is_stirred(&self, node: u32, worse: f64) -> bool {
+    /// Whether there may be something to gain that no node has lost.
+    fn is_untried(&self, node: u32, asked: Asked) -> bool {
+        let has_nodes = self.top.heights[self.top.number(node) as usize] > 1;
+        has_nodes && asked.worse.is_finite() && (self.is_stirred(node) || self.is_rested(node, asked))
+    }
+
+    /// Whether much below a node changed since it was tried, and nothing has for [`REST`] frames. What a tree lost is measured by flux and node
+    /// by node, and light reaches a point from dim lamps too: so each node is tried once when its lights have come to rest.
+    fn is_rested(&self, node: u32, asked: Asked) -> bool {
+        let number = self.top.number(node) as usize;
+        let changes = self.changes_since_tried(number);
+        changes > 0
+            && self.top.moved[number] <= asked.rests_since
+            && u64::from(changes) * SHARE >= u64::from(self.top.counts[number])
+    }
+
+    /// Whether enough of the instances below a node are in subtrees that were built since it was tried: half of them above parts. Of a part an
+    /// eighth, for those are the subtrees that were kept when the nodes above were built, in which all that was lost may lie.
+    fn is_stirred(&self, node: u32) -> bool {
         let number = self.top.number(node) as usize;
         let (stirred, count) = (self.top.stirred[number], self.top.counts[number]);
-        worse.is_finite() && stirred > 0 && u64::from(stirred) * 2 >= u64::from(count)
+        let share = if count <= PART { 8 } else { 2 };
+        stirred > 0 && u64::from(stirred) * share >= u64::from(count)
     }
 }
+
+#[cfg(test)]
+pub(super) mod tests;

@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 
 use crate::build::{BuildParams, Heuristic, Topology, build_top};
 use crate::bvh::{Bvh, Trails};
-use crate::node::{LightNode, kind};
+use crate::node::{Node, kind};
 use crate::trail::max_levels;
 use crate::tree::INVALID;
 
@@ -19,19 +19,26 @@ pub(in crate::bvh) const MOST: u32 = 512;
 /// A subtree of so many instances is built anew at each edit below it, a larger one after as many times more.
 const OFTEN: u32 = 16;
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Builds anew what edits have touched, as often as they were made.
     pub(in crate::bvh) fn settle(&mut self) {
+        self.settle_some(u64::MAX);
+    }
+
+    /// The same for subtrees of at most `most` instances in all. What is left is built anew by the edits that come next below it.
+    pub(in crate::bvh) fn settle_some(&mut self, most: u64) {
+        let mut left = most;
         for start in core::mem::take(&mut self.top.touched) {
             let mut node = start;
             // It may have gone since: then what took its place was built with it.
             while self.top.number(node) != INVALID {
                 let number = self.top.number(node) as usize;
                 let count = self.top.counts[number];
-                if count > MOST {
+                if count > MOST || u64::from(count) > left {
                     break;
                 }
                 if self.top.heights[number] > 1 && self.top.edits[number] >= count.div_ceil(OFTEN) {
+                    left -= u64::from(count);
                     self.build_anew(node);
                 }
                 node = self.parents[node as usize];

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use crate::bvh::{Bvh, Trails};
 use crate::levels::Levels;
-use crate::node::{LightNode, kind};
+use crate::node::{Node, kind};
 use crate::trail::{BitTrail, max_levels};
 use crate::tree::INVALID;
 use crate::validate::{Violation, What, equal};
@@ -18,7 +18,7 @@ pub(in crate::bvh) struct Found {
     pub depth: u32,
 }
 
-impl<N: LightNode<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Walks the tree below `root`, whose leaves are to be of `leaf` kind.
     pub(in crate::bvh) fn walk(&self, root: u32, leaf: u32, seen: &mut [bool]) -> Result<Found, Violation> {
         let mut found = Found {

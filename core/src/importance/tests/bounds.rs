@@ -11,7 +11,7 @@ use super::eq4::{known, sight};
 use super::{Random, dot, minus, wide};
 use crate::importance::sight::Sight;
 use crate::importance::{Cycles, Falcor, ImportanceModel, Pbrt};
-use crate::node::{BoundsNode, CompactNode, FullNode, LightNode};
+use crate::node::{BoundsNode, CompactNode, FullNode, Node};
 use crate::point::ShadingPoint;
 use crate::{LightBounds, exact};
 

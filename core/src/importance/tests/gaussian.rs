@@ -7,7 +7,7 @@ use glam::Vec3;
 use super::{Random, Wide, dot, minus, times, wide};
 use crate::importance::gaussian::{clamped_cosine, exp_minus, less_exp_over};
 use crate::importance::{ImportanceModel, SphericalGaussian};
-use crate::node::{FullMomentNode, LeanMomentNode, LightNode, MomentLayout, MomentNode, kind};
+use crate::node::{FullMomentNode, LeanMomentNode, MomentLayout, MomentNode, Node, kind};
 use crate::point::ShadingPoint;
 use crate::{LightMoments, exact};
 

@@ -6,7 +6,7 @@ use std::vec::Vec;
 
 use super::{Random, cross, dot, minus, narrow, normalize, times, wide};
 use crate::importance::{Defensive, Eq4, Flux, Glossy, ImportanceModel, Moments};
-use crate::node::{CompactNode, FullMomentNode, LightNode, MomentNode, kind};
+use crate::node::{CompactNode, FullMomentNode, LightNode, MomentNode, Node, kind};
 use crate::point::{GlossyPoint, PointError, Receiver};
 use crate::summary::Summary;
 use crate::{

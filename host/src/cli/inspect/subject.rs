@@ -92,11 +92,11 @@ subject!([N: LightNode<W>, I: ImportanceModel<N, W> + Sync, const W: usize]
     StaticBvh<N, I, W>, bytes, |bvh: &Self, p, l, i| Some(bvh.pmf(p, l, i)));
 subject!([N: LightNode<W>, I: ImportanceModel<N, W> + Sync, const W: usize]
     StaticMeshBvh<N, I, W>, memory, |bvh: &Self, p, l, i| Some(bvh.pmf(p, l, i)));
-subject!([N: MomentLayout<W>, const W: usize]
+subject!([N: MomentLayout<W> + LightNode<W>, const W: usize]
     StaticMeshBvh<N, Moments, W, NoTrails>, memory, |_, _, _, _| None);
-subject!([N: MomentLayout<W>, const W: usize]
+subject!([N: MomentLayout<W> + LightNode<W>, const W: usize]
     Bvh<N, Moments, W, NoTrails>, memory, |_, _, _, _| None);
-subject!([N: MomentLayout<W>, const W: usize]
+subject!([N: MomentLayout<W> + LightNode<W>, const W: usize]
     StaticBvh<N, Moments, W, NoTrails>, bytes, |_, _, _, _| None);
 
 /// The light BVH of `model`, whose width and layout [`is_known`] knows.
@@ -121,7 +121,7 @@ pub(super) fn is_known(model: &Model) -> bool {
 
 fn chosen<N, const W: usize>(model: &Model, source: &Source<'_>) -> Result<Box<dyn Subject>, HostError>
 where
-    N: MomentLayout<W> + 'static,
+    N: MomentLayout<W> + LightNode<W> + 'static,
 {
     match (model.uniform_halvings, model.trails) {
         (0, false) => {

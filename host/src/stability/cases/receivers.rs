@@ -1,6 +1,6 @@
 //! What is lit: points on lights, in boxes and at their centres, far away, grazing and behind.
 
-use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, LightNode, Lights, ShadingPoint, Summary, exact};
+use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, Node, ShadingPoint, Summary, exact};
 
 use super::super::case::Case;
 use super::super::random::Random;

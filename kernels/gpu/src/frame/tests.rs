@@ -5,8 +5,10 @@ use alloc::vec::Vec;
 
 use bytemuck::{cast_slice, cast_slice_mut};
 use lightbvh::bvh::RebuildParams;
+use lightbvh::light::{AnyLight, BoxLight, PointLight, SphereLight};
+use lightbvh::node::{Lit, Node};
 use lightbvh::refit::{self, BlasRoot};
-use lightbvh::{Bvh, CompactNode, Edit, EmissiveTriangle, Instance, LightNode, MomentNode, Transform};
+use lightbvh::{Bvh, CompactNode, Edit, EmissiveTriangle, Instance, MomentNode, Transform};
 
 use super::*;
 use crate::refit::Pass;
@@ -28,7 +30,7 @@ impl Device {
         &self.buffers[buffer as usize]
     }
 
-    fn follow<N: LightNode<W>, const W: usize>(&mut self, scene: &Bvh<N, (), W>) -> Frame {
+    fn follow<N: Node<W>, const W: usize>(&mut self, scene: &Bvh<N, (), W>) -> Frame {
         let frame = self.mirror.follow(scene);
         for &(buffer, bytes) in &frame.resizes {
             // New memory holds anything.
@@ -60,10 +62,10 @@ impl Device {
         frame
     }
 
-    fn compute<N: LightNode<W>, const W: usize>(&mut self, pass: Pass, entry: u32) {
+    fn compute<N: Node<W>, const W: usize>(&mut self, pass: Pass, entry: u32) {
         let nodes: &[N] = cast_slice(self.buffer(Buffer::Nodes));
         let roots: &[BlasRoot] = cast_slice(self.buffer(Buffer::Roots));
-        let triangles: &[EmissiveTriangle] = cast_slice(self.buffer(Buffer::Triangles));
+        let triangles: &[N::Light] = cast_slice(self.buffer(Buffer::Triangles));
         let instances: &[Instance] = cast_slice(self.buffer(Buffer::Instances));
         let at = entry as usize;
         match pass {
@@ -82,11 +84,7 @@ impl Device {
         }
     }
 
-    fn assert_is<N: LightNode<W>, const W: usize>(
-        &self,
-        scene: &Bvh<N, (), W>,
-        frame: impl core::fmt::Display,
-    ) {
+    fn assert_is<N: Node<W>, const W: usize>(&self, scene: &Bvh<N, (), W>, frame: impl core::fmt::Display) {
         // Nodes and roots out of use hold what they held last, here and there.
         let used = scene.plan_of_everything();
         let nodes = [used.bottom.nodes(), used.top.nodes()].concat();
@@ -113,26 +111,67 @@ impl Device {
     }
 }
 
-fn mesh(count: u32, seed: u32) -> Vec<EmissiveTriangle> {
-    let lamp = |i: u32| {
-        let number = (i * 7 + seed) as f32;
+/// A light for the meshes here.
+trait Lamp: Sized {
+    fn numbered(number: u32) -> Self;
+}
+
+impl Lamp for EmissiveTriangle {
+    fn numbered(number: u32) -> Self {
+        let number = number as f32;
         let p = [number % 13.0, number % 5.0, number % 7.0];
-        EmissiveTriangle {
+        Self {
             p: [p, [p[0] + 0.5, p[1], p[2]], [p[0], p[1] + 0.5, p[2] + 0.1]],
             radiance: [1.0 + number % 3.0, 1.0, 1.0],
             mesh: 0,
             flags: 0,
         }
-    };
-    (0..count).map(lamp).collect()
+    }
+}
+
+impl Lamp for AnyLight {
+    fn numbered(number: u32) -> Self {
+        let triangle = EmissiveTriangle::numbered(number);
+        let (p, shine, mesh) = (triangle.p[0], triangle.radiance, 0);
+        let size = 0.1 + 0.01 * p[0];
+        match number % 4 {
+            0 => triangle.into(),
+            1 => PointLight {
+                p,
+                intensity: shine,
+                mesh,
+            }
+            .into(),
+            2 => SphereLight {
+                p,
+                radius: size,
+                radiance: shine,
+                mesh,
+            }
+            .into(),
+            _ => BoxLight {
+                p,
+                half: [[size, 0.0, 0.0], [0.0, 0.2, 0.0], [0.0, 0.1, size]],
+                radiance: shine,
+                mesh,
+            }
+            .into(),
+        }
+    }
+}
+
+fn mesh<L: Lamp>(count: u32, seed: u32) -> Vec<L> {
+    (0..count).map(|i| L::numbered(i * 7 + seed)).collect()
 }
 
 /// A frame of edits of each kind; meshes and instances come and go, so that every buffer grows.
-fn edit<N: LightNode<W>, const W: usize>(
+fn edit<N: Node<W>, const W: usize>(
     scene: &mut Bvh<N, (), W>,
     ids: &mut (Vec<lightbvh::MeshId>, Vec<lightbvh::InstanceId>),
     frame: u32,
-) {
+) where
+    N::Light: Lamp,
+{
     let transform = Transform::at([frame as f32, 1.0, 0.5 * frame as f32]);
     let (meshes, instances) = ids;
     if frame.is_multiple_of(3) {
@@ -168,7 +207,10 @@ fn edit<N: LightNode<W>, const W: usize>(
     scene.apply(edits).unwrap();
 }
 
-fn follows<N: LightNode<W>, const W: usize>(rebuilds: bool) {
+fn follows<N: Node<W>, const W: usize>(rebuilds: bool)
+where
+    N::Light: Lamp,
+{
     let mut scene = Bvh::<N, (), W>::default();
     let (mut device, mut ids) = (Device::default(), Default::default());
     for frame in 0..40 {
@@ -188,12 +230,14 @@ fn follows<N: LightNode<W>, const W: usize>(rebuilds: bool) {
 fn a_device_follows_edits() {
     follows::<MomentNode<8>, 8>(false);
     follows::<CompactNode<4>, 4>(false);
+    follows::<Lit<MomentNode<8>, AnyLight>, 8>(false);
 }
 
 #[test]
 fn a_device_follows_rebuilds() {
     follows::<MomentNode<8>, 8>(true);
     follows::<CompactNode<4>, 4>(true);
+    follows::<Lit<MomentNode<8>, AnyLight>, 8>(true);
 }
 
 #[test]

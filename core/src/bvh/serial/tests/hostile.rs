@@ -6,7 +6,7 @@ use super::edits::{Random, batch};
 use super::{ReadError, alike, read};
 use crate::bvh::Bvh;
 use crate::importance::{Eq4, ImportanceModel, Moments};
-use crate::node::{CompactNode, LightNode, MomentNode};
+use crate::node::{CompactNode, LightNode, MomentNode, Node};
 
 /// A small BVH with places not in use.
 fn small<N: LightNode<W>, I, const W: usize>() -> Bvh<N, I, W> {

@@ -1,6 +1,6 @@
 //! What is asked of a tree: points, random numbers, lights.
 
-use lightbvh::{INVALID, LightNode, Random64, ShadingPoint, Summary, exact};
+use lightbvh::{INVALID, Node, Random64, ShadingPoint, Summary, exact};
 use lightbvh_kernels::bvh::Choice;
 use lightbvh_kernels::query::Query;
 

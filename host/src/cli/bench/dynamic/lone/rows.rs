@@ -29,6 +29,34 @@ pub(in crate::cli::bench) struct Row {
     pub frames: usize,
 }
 
+impl Row {
+    /// What grows from row to row.
+    fn size(&self) -> f64 {
+        match self.over {
+            "triangles" => self.triangles as f64,
+            _ => f64::from(self.instances),
+        }
+    }
+
+    /// Whether there were frames enough for one of a hundred.
+    fn tells_99(&self) -> bool {
+        self.frames >= 100
+    }
+}
+
+/// Bound of the start and the end of a frame, ns.
+const BOUND: f64 = 300_000.0;
+
+/// How many rows of starts and ends of frames and of adoptions are within their bound, 99 frames of 100 (all, where there were fewer), and
+/// those that are not.
+fn bounded(rows: &[Row]) -> (usize, Vec<&Row>) {
+    let of_frames = rows
+        .iter()
+        .filter(|row| row.unit == "ns" && matches!(row.what, "begin-frame" | "end-frame" | "adopt"));
+    let (within, beyond): (Vec<_>, Vec<_>) = of_frames.partition(|row| row.p99 <= BOUND);
+    (within.len(), beyond)
+}
+
 /// How the medians of rows grow: `size` to the power of `exponent`.
 #[derive(Clone, Debug, Serialize)]
 pub(in crate::cli::bench) struct Growth {
@@ -113,12 +141,8 @@ impl Kind {
 pub(super) fn growth(rows: &[Row]) -> Vec<Growth> {
     let mut kinds: BTreeMap<_, Vec<(f64, f64)>> = BTreeMap::new();
     for row in rows {
-        let size = match row.over {
-            "triangles" => row.triangles as f64,
-            _ => f64::from(row.instances),
-        };
         // What is nothing at all does not grow.
-        let point = (size.ln(), row.median.max(1.0).ln());
+        let point = (row.size().ln(), row.median.max(1.0).ln());
         let kind = (row.over, row.what, row.case, row.unit);
         kinds.entry(kind).or_default().push(point);
     }
@@ -156,11 +180,27 @@ pub(in crate::cli::bench) fn print(report: &super::Report) -> io::Result<()> {
             ("triangles", |r| r.triangles.to_string()),
             ("unit", |r| r.unit.to_owned()),
             ("median", |r| format!("{:.0}", r.median)),
-            ("99 %", |r| format!("{:.0}", r.p99)),
+            ("99 %", |r| match r.tells_99() {
+                true => format!("{:.0}", r.p99),
+                false => "–".to_owned(),
+            }),
             ("most", |r| format!("{:.0}", r.most)),
             ("frames", |r| r.frames.to_string()),
         ],
     )?;
+    let (within, beyond) = bounded(&report.rows);
+    say!(
+        "\nstarts and ends of frames, and adoptions, of which 99 % take 0.3 ms at most on the wall: {within} rows"
+    )?;
+    for row in beyond {
+        let (size, over) = (row.size(), row.over);
+        say!(
+            "beyond: {}, {}, {size:.0} {over}: 99 % within {:.0} µs",
+            row.what,
+            row.case,
+            row.p99 * 1e-3
+        )?;
+    }
     say!("")?;
     table::print(
         &report.growth,
@@ -213,6 +253,33 @@ mod tests {
         let growth = growth(&rows);
         assert!((growth[0].exponent - 1.0).abs() < 1e-9, "{growth:?}");
         assert!((slope(&[(0.0, 5.0), (1.0, 5.0), (2.0, 5.0)])).abs() < 1e-9);
+    }
+
+    #[test]
+    fn rows_beyond_the_bound_are_named() {
+        let row = |what, unit, p99, frames| Row {
+            what,
+            case: "",
+            over: "triangles",
+            instances: 1,
+            triangles: 5,
+            unit,
+            median: 0.0,
+            p99,
+            most: p99,
+            frames,
+        };
+        let rows = [
+            row("adopt", "ns", 3e5, 100),
+            row("end-frame", "ns", 3.1e5, 99),
+            row("begin-frame", "ns", 1.0, 100),
+            row("adopt", "bytes", 1e9, 100),
+            row("deform", "ns", 1e9, 100),
+        ];
+        let (within, beyond) = bounded(&rows);
+        assert_eq!((within, beyond.len()), (2, 1));
+        assert_eq!((beyond[0].what, beyond[0].size()), ("end-frame", 5.0));
+        assert!(rows[0].tells_99() && !rows[1].tells_99());
     }
 
     #[test]

@@ -1,0 +1,143 @@
+//! What moves, comes on or goes dim is put in elsewhere.
+
+use alloc::vec;
+
+use super::*;
+
+/// Whether an instance is put in elsewhere by what `edit` does: links of nodes are written then.
+fn is_put_elsewhere(scene: &LightBvh, edit: impl FnOnce(&mut LightBvh)) -> bool {
+    let mut scene = scene.clone();
+    scene.plan();
+    edit(&mut scene);
+    !scene.plan().written_nodes.is_empty()
+}
+
+/// On each side of what decides it.
+#[test]
+fn what_is_misplaced_is_put_in_elsewhere() {
+    let (scene, ids) = grid(10);
+    let id = |scene: &LightBvh, k: usize| scene.instance_id(ids[k].index()).expect("there");
+    for k in [0, 99, 500, 555, 999] {
+        let from = scene.placed[ids[k].index() as usize].transform;
+        let moved = |by: f32| {
+            is_put_elsewhere(&scene, |scene| {
+                let mut to = from;
+                to.translation[0] += by;
+                scene.set_transform(id(scene, k), to).expect("there");
+            })
+        };
+        assert!(!moved(0.5) && !moved(-0.5), "{k}: nearby");
+        assert!(moved(200.0) && moved(-200.0), "{k}: far off");
+        let dimmed = |to: f32| {
+            is_put_elsewhere(&scene, |scene| {
+                scene.set_radiance(id(scene, k), to).expect("there")
+            })
+        };
+        assert!(!dimmed(1.9) && !dimmed(0.6), "{k}: about as bright");
+        assert!(dimmed(2.5) && dimmed(0.3), "{k}: another brightness");
+    }
+}
+
+/// As many as one call may put in elsewhere, and no more, however many are misplaced.
+#[test]
+fn no_call_puts_all_in_elsewhere() {
+    let (mut scene, ids) = grid(20);
+    let stamp = scene.epoch;
+    let brighter = ids.iter().map(|&instance| Edit::SetRadiance {
+        instance,
+        radiance: 8.0,
+    });
+    scene.apply(brighter.collect()).expect("there");
+    let put = scene.placed.iter().filter(|placed| placed.hung > stamp).count();
+    assert_eq!(put, 64 + ids.len() / 64);
+    scene.refit();
+    scene.validate().expect("valid");
+}
+
+/// A lamp that goes dim and bright again is put in elsewhere twice, and then no more.
+#[test]
+fn a_lamp_that_flickers_stays_where_its_light_belongs() {
+    let (mut scene, ids) = grid(10);
+    for k in [0, 555] {
+        let mut put = 0;
+        for frame in 0..20 {
+            scene.plan();
+            let radiance = if frame % 2 == 0 { 0.01 } else { 1.0 };
+            scene.set_radiance(ids[k], radiance).expect("there");
+            put += u32::from(!scene.plan().written_nodes.is_empty());
+            scene.refit();
+        }
+        assert_eq!(put, 2, "{k}");
+        // Brighter than it ever was is another matter.
+        scene.plan();
+        scene.set_radiance(ids[k], 3.0).expect("there");
+        assert!(!scene.plan().written_nodes.is_empty(), "{k}");
+        // What is read again flickers on.
+        let mut again = LightBvh::from_words(&scene.to_words()).expect("its own");
+        let id = again.instance_id(ids[k].index()).expect("there");
+        again.refit();
+        again.plan();
+        again.set_radiance(id, 0.01).expect("there");
+        assert!(again.plan().written_nodes.is_empty(), "{k}");
+    }
+    scene.refit();
+    scene.validate().expect("valid");
+}
+
+/// Edits between a batch that builds the top level and the first refit find nodes that know what is below them, and count as edits of a
+/// built tree.
+#[test]
+fn edits_before_the_first_refit_are_put_where_they_belong() {
+    let random = &mut Random(21);
+    let mut trees = vec![];
+    for refits in [true, false] {
+        let mut scene = LightBvh::default();
+        let mesh = lamp(&mut scene);
+        random.0 = 21;
+        let place = |random: &mut Random| Transform::at((random.vector() * 50.0).to_array());
+        let add = (0..2000).map(|_| Edit::AddInstance {
+            mesh,
+            transform: place(random),
+            radiance: 1.0,
+        });
+        let add: vec::Vec<_> = add.collect();
+        let ids = scene.apply(add).expect("instances").instances;
+        if refits {
+            scene.refit();
+        }
+        for _ in 0..200 {
+            scene.add_instance(mesh, place(random)).expect("one more");
+        }
+        scene.refit();
+        trees.push(scene.depth());
+        // All moved in the frame that added them: the tree is worse than as built, and due.
+        if !refits {
+            let moves = ids.iter().map(|&instance| Edit::SetTransform {
+                instance,
+                transform: place(random),
+            });
+            let moves: vec::Vec<_> = moves.collect();
+            let mut scene = LightBvh::default();
+            let mesh = lamp(&mut scene);
+            let add = (0..2000).map(|k| Edit::AddInstance {
+                mesh,
+                transform: Transform::at([k as f32, 0.0, 0.0]),
+                radiance: 1.0,
+            });
+            let ids = scene.apply(add.collect()).expect("instances").instances;
+            let there = ids.iter().zip(moves).map(|(&instance, edit)| match edit {
+                Edit::SetTransform { transform, .. } => Edit::SetTransform { instance, transform },
+                other => other,
+            });
+            scene.apply(there.collect()).expect("moves");
+            scene.refit();
+            let root = scene.top.root;
+            assert!(
+                scene.quality(root).drift() > 1.1,
+                "{}",
+                scene.quality(root).drift()
+            );
+        }
+    }
+    assert_eq!(trees[0], trees[1]);
+}

@@ -1,0 +1,346 @@
+//! A light of any kind, for trees over several of them.
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+
+use super::record::{Each, Light};
+use super::{
+    BoxLight, DiscLight, EmissiveTriangle, INVALID, LightError, LightPoint, PointLight, RectangleLight,
+    SphereLight, SpotLight, TWO_SIDED,
+};
+use crate::bounds::LightBounds;
+use crate::instance::Instance;
+use crate::moments::LightMoments;
+
+/// A light of any kind: 68 bytes, of which the kind says what they mean. Made of one of the others by `From`, and one of them again by
+/// [`kind`](Self::kind) and, where that is its kind, `TryFrom`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct AnyLight {
+    /// A place, then axes, edges, radius and cosines as the kind has them, in the order of its fields; zero where it has fewer.
+    words: [f32; 12],
+    /// Radiance or intensity, linear RGB.
+    emission: [f32; 3],
+    /// Index of the mesh light that owns it.
+    mesh: u32,
+    /// The kind, and above it [`TWO_SIDED`](EmissiveTriangle::TWO_SIDED) where it has sides.
+    kind: u32,
+}
+
+/// Bits of the kind; the flags stand above them.
+const KIND_BITS: u32 = 8;
+
+impl AnyLight {
+    /// An [`EmissiveTriangle`].
+    pub const TRIANGLE: u32 = 0;
+    /// A [`PointLight`].
+    pub const POINT: u32 = 1;
+    /// A [`SpotLight`].
+    pub const SPOT: u32 = 2;
+    /// A [`SphereLight`].
+    pub const SPHERE: u32 = 3;
+    /// A [`RectangleLight`].
+    pub const RECTANGLE: u32 = 4;
+    /// A [`DiscLight`].
+    pub const DISC: u32 = 5;
+    /// A [`BoxLight`].
+    pub const BOX: u32 = 6;
+
+    /// Which kind it is: one of the constants.
+    #[inline(always)]
+    #[must_use]
+    pub fn kind(&self) -> u32 {
+        self.kind & ((1 << KIND_BITS) - 1)
+    }
+
+    #[inline(always)]
+    fn flags(&self) -> u32 {
+        self.kind >> KIND_BITS
+    }
+
+    #[inline(always)]
+    fn three(&self, at: usize) -> [f32; 3] {
+        [self.words[at], self.words[at + 1], self.words[at + 2]]
+    }
+
+    #[inline(always)]
+    fn new(kind: u32, flags: u32, mesh: u32, emission: [f32; 3]) -> Self {
+        Self {
+            words: [0.0; 12],
+            emission,
+            mesh,
+            kind: kind | (flags << KIND_BITS),
+        }
+    }
+
+    #[inline(always)]
+    fn with(mut self, at: usize, three: &[f32; 3]) -> Self {
+        self.words[at] = three[0];
+        self.words[at + 1] = three[1];
+        self.words[at + 2] = three[2];
+        self
+    }
+
+    #[inline(always)]
+    fn triangle(&self) -> EmissiveTriangle {
+        EmissiveTriangle {
+            p: [self.three(0), self.three(3), self.three(6)],
+            radiance: self.emission,
+            mesh: self.mesh,
+            flags: self.flags(),
+        }
+    }
+
+    #[inline(always)]
+    fn point(&self) -> PointLight {
+        PointLight {
+            p: self.three(0),
+            intensity: self.emission,
+            mesh: self.mesh,
+        }
+    }
+
+    #[inline(always)]
+    fn spot(&self) -> SpotLight {
+        SpotLight {
+            p: self.three(0),
+            intensity: self.emission,
+            axis: self.three(3),
+            cos_inner: self.words[6],
+            cos_outer: self.words[7],
+            mesh: self.mesh,
+        }
+    }
+
+    #[inline(always)]
+    fn sphere(&self) -> SphereLight {
+        SphereLight {
+            p: self.three(0),
+            radius: self.words[3],
+            radiance: self.emission,
+            mesh: self.mesh,
+        }
+    }
+
+    #[inline(always)]
+    fn rectangle(&self) -> RectangleLight {
+        RectangleLight {
+            p: self.three(0),
+            half: [self.three(3), self.three(6)],
+            radiance: self.emission,
+            mesh: self.mesh,
+            flags: self.flags(),
+        }
+    }
+
+    #[inline(always)]
+    fn disc(&self) -> DiscLight {
+        DiscLight {
+            p: self.three(0),
+            half: [self.three(3), self.three(6)],
+            radiance: self.emission,
+            mesh: self.mesh,
+            flags: self.flags(),
+        }
+    }
+
+    #[inline(always)]
+    fn volume(&self) -> BoxLight {
+        BoxLight {
+            p: self.three(0),
+            half: [self.three(3), self.three(6), self.three(9)],
+            radiance: self.emission,
+            mesh: self.mesh,
+        }
+    }
+}
+
+impl From<EmissiveTriangle> for AnyLight {
+    #[inline(always)]
+    fn from(own: EmissiveTriangle) -> Self {
+        let any = Self::new(Self::TRIANGLE, own.flags, own.mesh, own.radiance);
+        any.with(0, &own.p[0]).with(3, &own.p[1]).with(6, &own.p[2])
+    }
+}
+
+impl From<PointLight> for AnyLight {
+    #[inline(always)]
+    fn from(own: PointLight) -> Self {
+        Self::new(Self::POINT, 0, own.mesh, own.intensity).with(0, &own.p)
+    }
+}
+
+impl From<SpotLight> for AnyLight {
+    #[inline(always)]
+    fn from(own: SpotLight) -> Self {
+        let any = Self::new(Self::SPOT, 0, own.mesh, own.intensity);
+        any.with(0, &own.p)
+            .with(3, &own.axis)
+            .with(6, &[own.cos_inner, own.cos_outer, 0.0])
+    }
+}
+
+impl From<SphereLight> for AnyLight {
+    #[inline(always)]
+    fn from(own: SphereLight) -> Self {
+        let any = Self::new(Self::SPHERE, 0, own.mesh, own.radiance);
+        any.with(0, &own.p).with(3, &[own.radius, 0.0, 0.0])
+    }
+}
+
+impl From<RectangleLight> for AnyLight {
+    #[inline(always)]
+    fn from(own: RectangleLight) -> Self {
+        let any = Self::new(Self::RECTANGLE, own.flags, own.mesh, own.radiance);
+        any.with(0, &own.p).with(3, &own.half[0]).with(6, &own.half[1])
+    }
+}
+
+impl From<DiscLight> for AnyLight {
+    #[inline(always)]
+    fn from(own: DiscLight) -> Self {
+        let any = Self::new(Self::DISC, own.flags, own.mesh, own.radiance);
+        any.with(0, &own.p).with(3, &own.half[0]).with(6, &own.half[1])
+    }
+}
+
+impl From<BoxLight> for AnyLight {
+    #[inline(always)]
+    fn from(own: BoxLight) -> Self {
+        let any = Self::new(Self::BOX, 0, own.mesh, own.radiance);
+        any.with(0, &own.p)
+            .with(3, &own.half[0])
+            .with(6, &own.half[1])
+            .with(9, &own.half[2])
+    }
+}
+
+macro_rules! back {
+    ($($own:ident $kind:ident $as:ident),*) => {
+        $(impl TryFrom<AnyLight> for $own {
+            type Error = AnyLight;
+
+            /// The light itself where it is of another kind.
+            fn try_from(any: AnyLight) -> Result<Self, AnyLight> {
+                if any.kind() == AnyLight::$kind { Ok(any.$as()) } else { Err(any) }
+            }
+        })*
+    };
+}
+
+back!(
+    EmissiveTriangle TRIANGLE triangle,
+    PointLight POINT point,
+    SpotLight SPOT spot,
+    SphereLight SPHERE sphere,
+    RectangleLight RECTANGLE rectangle,
+    DiscLight DISC disc,
+    BoxLight BOX volume
+);
+
+/// What `$of` says of the light as what its kind makes it; any kind that is none counts as a point without intensity.
+macro_rules! by_kind {
+    ($self:ident, $own:ident => $of:expr, $none:expr) => {
+        match $self.kind() {
+            AnyLight::TRIANGLE => {
+                let $own = $self.triangle();
+                $of
+            }
+            AnyLight::POINT => {
+                let $own = $self.point();
+                $of
+            }
+            AnyLight::SPOT => {
+                let $own = $self.spot();
+                $of
+            }
+            AnyLight::SPHERE => {
+                let $own = $self.sphere();
+                $of
+            }
+            AnyLight::RECTANGLE => {
+                let $own = $self.rectangle();
+                $of
+            }
+            AnyLight::DISC => {
+                let $own = $self.disc();
+                $of
+            }
+            AnyLight::BOX => {
+                let $own = $self.volume();
+                $of
+            }
+            _ => $none,
+        }
+    };
+}
+
+impl Light for AnyLight {
+    const NAME: &'static str = "light of any kind";
+    const DARK: Self = Self {
+        words: [0.0; 12],
+        emission: [0.0; 3],
+        mesh: INVALID,
+        kind: Self::POINT,
+    };
+    const MESH_WORD: usize = core::mem::offset_of!(Self, mesh) / 4;
+    const HAS_FLUX_POWERS: bool = true;
+    type Slots<const W: usize> = Each<Self, W>;
+
+    fn checked(self) -> Result<Self, LightError> {
+        let has_sides = matches!(self.kind(), Self::TRIANGLE | Self::RECTANGLE | Self::DISC);
+        if self.flags() & !(if has_sides { TWO_SIDED } else { 0 }) != 0 {
+            return Err(LightError::Flags { flags: self.flags() });
+        }
+        by_kind!(self, own => Ok(own.checked()?.into()), Err(LightError::Kind { kind: self.kind() }))
+    }
+
+    #[inline(always)]
+    fn mesh(&self) -> u32 {
+        self.mesh
+    }
+
+    #[inline(always)]
+    fn of_mesh(self, mesh: u32) -> Self {
+        Self { mesh, ..self }
+    }
+
+    #[inline(always)]
+    fn centroid(&self) -> [f32; 3] {
+        by_kind!(self, own => own.centroid(), self.three(0))
+    }
+
+    fn reach(&self) -> f32 {
+        by_kind!(self, own => own.reach(), 0.0)
+    }
+
+    #[inline(always)]
+    fn has_flux(&self) -> bool {
+        by_kind!(self, own => own.has_flux(), false)
+    }
+
+    #[inline(always)]
+    fn flux_power(&self) -> u32 {
+        by_kind!(self, own => own.flux_power(), PointLight::FLUX_POWER)
+    }
+
+    #[inline(always)]
+    fn bounds(&self) -> LightBounds {
+        by_kind!(self, own => own.bounds(), LightBounds::EMPTY)
+    }
+
+    #[inline(always)]
+    fn moments(&self) -> LightMoments {
+        by_kind!(self, own => own.moments(), LightMoments::EMPTY)
+    }
+
+    #[inline(always)]
+    fn in_world(&self, instance: &Instance, index: u32) -> Self {
+        by_kind!(self, own => own.in_world(instance, index).into(), Self { mesh: index, ..Self::DARK })
+    }
+
+    #[inline(always)]
+    fn point_for(&self, from: Vec3, uv: [f32; 2]) -> LightPoint {
+        by_kind!(self, own => own.point_for(from, uv), PointLight::DARK.point_for(from, uv))
+    }
+}

@@ -1,0 +1,370 @@
+//! Rectangles and discs that shine from one side or from both.
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+
+use super::record::{Each, Light, checked_emission, checked_place, greatest, shining};
+use super::round::disc;
+use super::{INVALID, LightError, LightPoint, TWO_SIDED};
+use crate::bounds::LightBounds;
+use crate::cone::{Cone, normalized};
+use crate::emission::{Emission, flux_of, luminance_of};
+use crate::exact::{self, pow2};
+use crate::instance::Instance;
+use crate::light::point::MAX_DENSITY;
+use crate::moments::LightMoments;
+use crate::vector::{abs3, dot, flush3, greatest_exponent, max3};
+
+/// What a rectangle and a disc share: a centre and two half axes. Area 0 has no flux.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+struct Flat {
+    p: [f32; 3],
+    half: [[f32; 3]; 2],
+    radiance: [f32; 3],
+    mesh: u32,
+    flags: u32,
+}
+
+/// What messages call a shape's parts.
+struct Names {
+    place: &'static str,
+    edge: &'static str,
+    radiance: &'static str,
+}
+
+/// What tells the two shapes apart. By value and without texts: rust-gpu has no constants that hold pointers.
+#[derive(Clone, Copy)]
+struct Shape {
+    /// The inverse of area over the length of the half axes' product.
+    per_area: f32,
+    /// Flux over luminance and that length: π times the area, of one side.
+    flux: f32,
+    /// Variance over the squares of the half axes, halved: a flat light has two axes of it.
+    half_variance: f32,
+}
+
+const PI: f32 = core::f32::consts::PI;
+
+const RECTANGLE_NAMES: Names = Names {
+    place: "centre of a rectangle",
+    edge: "half axis of a rectangle",
+    radiance: "radiance of a rectangle",
+};
+
+const RECTANGLE: Shape = Shape {
+    per_area: 0.25,
+    flux: 4.0 * PI,
+    half_variance: 1.0 / 6.0,
+};
+
+const DISC_NAMES: Names = Names {
+    place: "centre of a disc",
+    edge: "half axis of a disc",
+    radiance: "radiance of a disc",
+};
+
+const DISC: Shape = Shape {
+    per_area: core::f32::consts::FRAC_1_PI,
+    flux: PI * PI,
+    half_variance: 1.0 / 8.0,
+};
+
+/// Least exponent of a set's size, as of triangles.
+const LEAST_EXPONENT: i32 = -100;
+/// Exponent of the least cross product, in units of the longest axis squared, that has a direction.
+const LEAST_CROSS: i32 = -60;
+
+/// The axes by a power of two, so that no product of theirs leaves the range; and the light's emission.
+struct Scaled {
+    a: Vec3,
+    b: Vec3,
+    e: i32,
+    emission: Emission,
+}
+
+impl Flat {
+    #[inline(always)]
+    fn center(&self) -> Vec3 {
+        Vec3::new(self.p[0], self.p[1], self.p[2])
+    }
+
+    #[inline(always)]
+    fn axis(&self, k: usize) -> Vec3 {
+        Vec3::new(self.half[k][0], self.half[k][1], self.half[k][2])
+    }
+
+    #[inline(always)]
+    fn is_two_sided(&self) -> bool {
+        self.flags & TWO_SIDED != 0
+    }
+
+    #[inline(always)]
+    fn scaled(&self, shape: Shape) -> Scaled {
+        let (a, b) = (self.axis(0), self.axis(1));
+        let e = greatest_exponent(max3(abs3(a), abs3(b)), LEAST_EXPONENT);
+        let to_one = exact::power(-e);
+        let (a, b) = (a * to_one, b * to_one);
+        let sides = if self.is_two_sided() { 2.0 } else { 1.0 };
+        let emission = flux_of(a, b, e, luminance_of(&self.radiance), shape.flux * sides);
+        Scaled { a, b, e, emission }
+    }
+
+    fn checked(mut self, names: &Names) -> Result<Self, LightError> {
+        self.p = checked_place(names.place, self.p)?;
+        for k in 0..2 {
+            self.half[k] = checked_place(names.edge, self.half[k])?;
+        }
+        self.radiance = checked_emission(names.radiance, self.radiance)?;
+        if self.flags & !TWO_SIDED != 0 {
+            return Err(LightError::Flags { flags: self.flags });
+        }
+        Ok(self)
+    }
+
+    fn reach(&self) -> f32 {
+        let edges = greatest(&self.half[0]) + greatest(&self.half[1]);
+        exact::min(greatest(&self.p) + edges, super::MAX_COORDINATE)
+    }
+
+    #[inline(always)]
+    fn bounds(&self, shape: Shape, half: Vec3) -> LightBounds {
+        let own = self.scaled(shape);
+        let directed = !self.is_two_sided() & (own.emission.exponent >= LEAST_NORMAL);
+        LightBounds {
+            min: self.center() - half,
+            max: self.center() + half,
+            axis: if directed {
+                normalized(own.emission.normal)
+            } else {
+                Cone::SPHERE.axis
+            },
+            cos_theta_o: if directed { 1.0 - TURN } else { -1.0 },
+            cos_theta_e: 0.0,
+            phi: own.emission.phi,
+        }
+    }
+
+    #[inline(always)]
+    fn moments(&self, shape: Shape, half: Vec3) -> LightMoments {
+        let own = self.scaled(shape);
+        let sum = dot(own.a, own.a) + dot(own.b, own.b);
+        let across = exact::sqrt(sum * shape.half_variance) * exact::power(own.e);
+        let directed = !self.is_two_sided() & (own.emission.exponent >= LEAST_CROSS);
+        let directed = exact::mask_of(directed);
+        LightMoments {
+            phi: own.emission.phi,
+            c: self.center(),
+            across,
+            along: exact::masked(!directed, across),
+            m: own.emission.normal * exact::masked(directed, exact::rsqrt(own.emission.squared)),
+            h: half,
+        }
+    }
+
+    #[inline(always)]
+    fn has_flux(&self, shape: Shape) -> bool {
+        self.scaled(shape).emission.phi > 0.0
+    }
+
+    #[inline(always)]
+    fn in_world(&self, shape: Shape, instance: &Instance, index: u32) -> Self {
+        let a = instance.edge_to_world(self.axis(0));
+        let b = instance.edge_to_world(self.axis(1));
+        // Where the map mirrors, the axes change places, so that the front stays in front.
+        let mirrored = instance.mirrors();
+        let (first, second) = if mirrored { (b, a) } else { (a, b) };
+        Self {
+            p: instance.vertex(self.p),
+            half: [[first.x, first.y, first.z], [second.x, second.y, second.z]],
+            radiance: shining(&self.radiance, instance.radiance, self.has_flux(shape)),
+            mesh: index,
+            flags: self.flags,
+        }
+    }
+
+    /// The point at `x` and `y` half axes from the centre.
+    #[inline(always)]
+    fn point(&self, shape: Shape, [x, y]: [f32; 2]) -> LightPoint {
+        let own = self.scaled(shape);
+        let has_area = own.emission.exponent >= -100;
+        let per_length = exact::div(1.0, exact::sqrt(own.emission.squared));
+        let exponent = own.emission.exponent + own.e + own.e;
+        let density = (per_length * shape.per_area) * pow2(-exponent);
+        let offset = flush3(self.axis(0) * x, pow2(-120)) + flush3(self.axis(1) * y, pow2(-120));
+        let p = self.center() + offset;
+        let n = own.emission.normal * per_length;
+        LightPoint {
+            p: [p.x, p.y, p.z],
+            density: if has_area {
+                exact::min(density, MAX_DENSITY)
+            } else {
+                0.0
+            },
+            normal: if has_area { [n.x, n.y, n.z] } else { [0.0; 3] },
+            flags: self.flags,
+            radiance: self.radiance,
+        }
+    }
+}
+
+/// The normal of axes whose product is less than this part of the longer one squared may be turned by rounding: its cone is all directions.
+const LEAST_NORMAL: i32 = -16;
+/// What rounding turns the normal of others by at most, 2^-5 rad: half its square.
+const TURN: f32 = pow2(-11);
+
+/// Half extents of a rectangle: the sums of its axes' magnitudes.
+#[inline(always)]
+fn box_of(flat: &Flat) -> Vec3 {
+    abs3(flat.axis(0)) + abs3(flat.axis(1))
+}
+
+/// Half extents of an ellipse with these half axes.
+#[inline(always)]
+fn ellipse_of(flat: &Flat) -> Vec3 {
+    let (a, b) = (abs3(flat.axis(0)), abs3(flat.axis(1)));
+    let e = greatest_exponent(max3(a, b), LEAST_EXPONENT);
+    let (to_one, unit) = (exact::power(-e), exact::power(e));
+    let half = |a: f32, b: f32| {
+        let (a, b) = (
+            exact::flush(a * to_one, pow2(-60)),
+            exact::flush(b * to_one, pow2(-60)),
+        );
+        exact::sqrt(a * a + b * b) * unit
+    };
+    Vec3::new(half(a.x, b.x), half(a.y, b.y), half(a.z, b.z))
+}
+
+macro_rules! flat_light {
+    ($(#[$doc:meta])* $name:ident, $text:expr, $names:expr, $shape:expr, $half:expr, $place:expr) => {
+        $(#[$doc])*
+        #[repr(C)]
+        #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+        pub struct $name {
+            /// Its centre, metres, in the space of its mesh.
+            pub p: [f32; 3],
+            /// From the centre to the middles of two neighbouring sides, metres; their cross product points to the front.
+            pub half: [[f32; 3]; 2],
+            /// Radiance, W/(m² sr), linear RGB; zero or from 2^-100 to 2^100.
+            pub radiance: [f32; 3],
+            /// Index of the mesh light that owns it.
+            pub mesh: u32,
+            /// [`TWO_SIDED`](super::EmissiveTriangle::TWO_SIDED) or 0.
+            pub flags: u32,
+        }
+
+        impl $name {
+            #[inline(always)]
+            fn flat(&self) -> Flat {
+                Flat {
+                    p: self.p,
+                    half: self.half,
+                    radiance: self.radiance,
+                    mesh: self.mesh,
+                    flags: self.flags,
+                }
+            }
+
+            #[inline(always)]
+            fn of(flat: &Flat) -> Self {
+                Self {
+                    p: flat.p,
+                    half: flat.half,
+                    radiance: flat.radiance,
+                    mesh: flat.mesh,
+                    flags: flat.flags,
+                }
+            }
+        }
+
+        impl Light for $name {
+            const NAME: &'static str = $text;
+            const DARK: Self = Self {
+                p: [0.0; 3],
+                half: [[0.0; 3]; 2],
+                radiance: [0.0; 3],
+                mesh: INVALID,
+                flags: 0,
+            };
+            const MESH_WORD: usize = core::mem::offset_of!(Self, mesh) / 4;
+            type Slots<const W: usize> = Each<Self, W>;
+
+            fn checked(self) -> Result<Self, LightError> {
+                Ok(Self::of(&self.flat().checked(&$names)?))
+            }
+
+            #[inline(always)]
+            fn mesh(&self) -> u32 {
+                self.mesh
+            }
+
+            #[inline(always)]
+            fn of_mesh(self, mesh: u32) -> Self {
+                Self { mesh, ..self }
+            }
+
+            #[inline(always)]
+            fn centroid(&self) -> [f32; 3] {
+                self.p
+            }
+
+            fn reach(&self) -> f32 {
+                self.flat().reach()
+            }
+
+            #[inline(always)]
+            fn has_flux(&self) -> bool {
+                self.flat().has_flux($shape)
+            }
+
+            #[inline(always)]
+            fn bounds(&self) -> LightBounds {
+                let flat = self.flat();
+                flat.bounds($shape, $half(&flat))
+            }
+
+            #[inline(always)]
+            fn moments(&self) -> LightMoments {
+                let flat = self.flat();
+                flat.moments($shape, $half(&flat))
+            }
+
+            #[inline(always)]
+            fn in_world(&self, instance: &Instance, index: u32) -> Self {
+                Self::of(&self.flat().in_world($shape, instance, index))
+            }
+
+            #[inline(always)]
+            fn point_for(&self, _from: Vec3, uv: [f32; 2]) -> LightPoint {
+                self.flat().point($shape, $place(uv))
+            }
+        }
+    };
+}
+
+#[inline(always)]
+fn square(uv: [f32; 2]) -> [f32; 2] {
+    [2.0 * uv[0] - 1.0, 2.0 * uv[1] - 1.0]
+}
+
+flat_light!(
+    /// A parallelogram, a rectangle where its axes are square to each other, that emits the same radiance in every direction of its
+    /// front side (or of both sides).
+    RectangleLight,
+    "rectangle",
+    RECTANGLE_NAMES,
+    RECTANGLE,
+    box_of,
+    square
+);
+
+flat_light!(
+    /// An ellipse, a disc where its half axes are of one length and square to each other, that emits the same radiance in every direction
+    /// of its front side (or of both sides).
+    DiscLight,
+    "disc",
+    DISC_NAMES,
+    DISC,
+    ellipse_of,
+    disc
+);

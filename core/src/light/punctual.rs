@@ -1,0 +1,302 @@
+//! Lights without size: points, and spots with a cone.
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+
+use super::record::{Each, Light, checked_emission, checked_place, shining, towards};
+use super::{INVALID, LightError, LightPoint};
+use crate::bounds::LightBounds;
+use crate::cone::Cone;
+use crate::emission::{bounded_phi, luminance_of};
+use crate::exact::{self, exponent, pow2, significand};
+use crate::instance::Instance;
+use crate::moments::LightMoments;
+use crate::point::NORMAL_TOLERANCE;
+use crate::vector::{dot, length_squared};
+
+/// A point that sends the same intensity in every direction. An instance that scales leaves it as it is.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct PointLight {
+    /// Where it is, metres, in the space of its mesh; as a vertex of an [`EmissiveTriangle`](super::EmissiveTriangle).
+    pub p: [f32; 3],
+    /// Radiant intensity, W/sr, linear RGB; zero or from 2^-100 to 2^100.
+    pub intensity: [f32; 3],
+    /// Index of the mesh light that owns it.
+    pub mesh: u32,
+}
+
+/// A point that sends light into a cone: all its intensity up to an inner angle, none from an outer one on, between them the square of
+/// what is linear in the cosine (glTF 2.0, `KHR_lights_punctual`, "Inner and Outer Cone Angles"). An instance turns its axis, and leaves its cone as it is.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct SpotLight {
+    /// Where it is, metres.
+    pub p: [f32; 3],
+    /// Radiant intensity along the axis, W/sr, linear RGB; zero or from 2^-100 to 2^100.
+    pub intensity: [f32; 3],
+    /// Unit direction in which it shines.
+    pub axis: [f32; 3],
+    /// Cosine of the angle up to which it has its intensity; −1 to 1, not below `cos_outer`.
+    pub cos_inner: f32,
+    /// Cosine of the angle from which on it has none; −1 up to 1 − 2^-20.
+    pub cos_outer: f32,
+    /// Index of the mesh light that owns it.
+    pub mesh: u32,
+}
+
+/// Least difference of the two cosines that the intensity falls over: a sharp edge is one as wide.
+const LEAST_FALL: f32 = pow2(-20);
+/// Full solid angle over the greatest power of two in it, and its exponent.
+const FOUR_PI: f32 = 4.0 * core::f32::consts::PI;
+const TWO_PI: f32 = 2.0 * core::f32::consts::PI;
+/// Constants of their own: rust-gpu does not fold an expression of literals.
+const THIRD: f32 = 1.0 / 3.0;
+/// The length of the mean direction of a diffuse emitter is 2/3; a mean normal is that over it.
+const PER_MEAN_DIRECTION: f32 = 1.5;
+
+/// What is known of a light without size.
+#[inline(always)]
+fn moments(p: &[f32; 3], phi: f32, m: Vec3) -> LightMoments {
+    LightMoments {
+        phi,
+        c: Vec3::new(p[0], p[1], p[2]),
+        across: 0.0,
+        along: 0.0,
+        m,
+        h: Vec3::new(0.0, 0.0, 0.0),
+    }
+}
+
+#[inline(always)]
+fn bounds(p: &[f32; 3], phi: f32, cone: Cone) -> LightBounds {
+    let p = Vec3::new(p[0], p[1], p[2]);
+    LightBounds {
+        min: p,
+        max: p,
+        axis: cone.axis,
+        cos_theta_o: cone.cos_theta_o,
+        cos_theta_e: 0.0,
+        phi,
+    }
+}
+
+/// `per_intensity` times the luminance of an intensity, W.
+#[inline(always)]
+fn phi(intensity: &[f32; 3], per_intensity: f32) -> f32 {
+    let luminance = luminance_of(intensity);
+    let phi = bounded_phi(significand(luminance) * per_intensity, exponent(luminance));
+    if luminance > 0.0 { phi } else { 0.0 }
+}
+
+#[inline(always)]
+fn at(p: &[f32; 3], intensity: [f32; 3]) -> LightPoint {
+    LightPoint {
+        p: *p,
+        density: 1.0,
+        normal: [0.0; 3],
+        flags: LightPoint::IS_POINT,
+        radiance: intensity,
+    }
+}
+
+impl Light for PointLight {
+    const NAME: &'static str = "point light";
+    const DARK: Self = Self {
+        p: [0.0; 3],
+        intensity: [0.0; 3],
+        mesh: INVALID,
+    };
+
+    const MESH_WORD: usize = core::mem::offset_of!(Self, mesh) / 4;
+    const FLUX_POWER: u32 = 0;
+    type Slots<const W: usize> = Each<Self, W>;
+
+    fn checked(mut self) -> Result<Self, LightError> {
+        self.p = checked_place("point light", self.p)?;
+        self.intensity = checked_emission("intensity of a point light", self.intensity)?;
+        Ok(self)
+    }
+
+    #[inline(always)]
+    fn mesh(&self) -> u32 {
+        self.mesh
+    }
+
+    #[inline(always)]
+    fn of_mesh(self, mesh: u32) -> Self {
+        Self { mesh, ..self }
+    }
+
+    #[inline(always)]
+    fn centroid(&self) -> [f32; 3] {
+        self.p
+    }
+
+    fn reach(&self) -> f32 {
+        super::record::greatest(&self.p)
+    }
+
+    #[inline(always)]
+    fn has_flux(&self) -> bool {
+        luminance_of(&self.intensity) > 0.0
+    }
+
+    #[inline(always)]
+    fn bounds(&self) -> LightBounds {
+        bounds(&self.p, phi(&self.intensity, FOUR_PI), Cone::SPHERE)
+    }
+
+    #[inline(always)]
+    fn moments(&self) -> LightMoments {
+        moments(&self.p, phi(&self.intensity, FOUR_PI), Vec3::new(0.0, 0.0, 0.0))
+    }
+
+    #[inline(always)]
+    fn in_world(&self, instance: &Instance, index: u32) -> Self {
+        Self {
+            p: instance.vertex(self.p),
+            intensity: shining(&self.intensity, instance.radiance, self.has_flux()),
+            mesh: index,
+        }
+    }
+
+    #[inline(always)]
+    fn point_for(&self, _from: Vec3, _uv: [f32; 2]) -> LightPoint {
+        at(&self.p, self.intensity)
+    }
+}
+
+impl SpotLight {
+    #[inline(always)]
+    fn axis(&self) -> Vec3 {
+        Vec3::new(self.axis[0], self.axis[1], self.axis[2])
+    }
+
+    /// Intensity in a direction, whose cosine to the axis is given, over that along the axis.
+    #[inline(always)]
+    #[must_use]
+    pub fn falloff(&self, cosine: f32) -> f32 {
+        let fall = exact::max(self.cos_inner - self.cos_outer, LEAST_FALL);
+        let linear = exact::clamp(exact::div(cosine - self.cos_outer, fall), 0.0, 1.0);
+        // What a device flushes is cut here.
+        exact::flush(linear * linear, pow2(-60))
+    }
+
+    /// Integrals of the falloff over all directions, and of the falloff times the cosine, both over 2π.
+    #[inline(always)]
+    fn integrals(&self) -> [f32; 2] {
+        let (inner, outer) = (self.cos_inner, self.cos_outer);
+        let fall = inner - outer;
+        let whole = (1.0 - inner) + fall * THIRD;
+        let first = 0.5 * ((1.0 - inner) * (1.0 + inner)) + fall * (outer * THIRD + 0.25 * fall);
+        [whole, first]
+    }
+
+    #[inline(always)]
+    fn phi(&self) -> f32 {
+        phi(&self.intensity, TWO_PI * self.integrals()[0])
+    }
+}
+
+impl Light for SpotLight {
+    const NAME: &'static str = "spot";
+    const DARK: Self = Self {
+        p: [0.0; 3],
+        intensity: [0.0; 3],
+        axis: [0.0, 0.0, 1.0],
+        cos_inner: 1.0,
+        cos_outer: -1.0,
+        mesh: INVALID,
+    };
+
+    const MESH_WORD: usize = core::mem::offset_of!(Self, mesh) / 4;
+    const FLUX_POWER: u32 = 0;
+    type Slots<const W: usize> = Each<Self, W>;
+
+    fn checked(mut self) -> Result<Self, LightError> {
+        self.p = checked_place("spot", self.p)?;
+        self.intensity = checked_emission("intensity of a spot", self.intensity)?;
+        let squared = length_squared(self.axis());
+        // NaN is in no range.
+        if !(1.0 - NORMAL_TOLERANCE..=1.0 + NORMAL_TOLERANCE).contains(&squared) {
+            return Err(LightError::Axis { axis: self.axis });
+        }
+        let (inner, outer) = (self.cos_inner, self.cos_outer);
+        // NaN is in no range.
+        if !(-1.0..=1.0).contains(&inner) || !(-1.0..=1.0 - pow2(-20)).contains(&outer) || inner < outer {
+            return Err(LightError::Cone {
+                cos_inner: inner,
+                cos_outer: outer,
+            });
+        }
+        for axis in 0..3 {
+            self.axis[axis] = exact::flush(self.axis[axis], pow2(-60));
+        }
+        Ok(self)
+    }
+
+    #[inline(always)]
+    fn mesh(&self) -> u32 {
+        self.mesh
+    }
+
+    #[inline(always)]
+    fn of_mesh(self, mesh: u32) -> Self {
+        Self { mesh, ..self }
+    }
+
+    #[inline(always)]
+    fn centroid(&self) -> [f32; 3] {
+        self.p
+    }
+
+    fn reach(&self) -> f32 {
+        super::record::greatest(&self.p)
+    }
+
+    #[inline(always)]
+    fn has_flux(&self) -> bool {
+        luminance_of(&self.intensity) > 0.0
+    }
+
+    /// A cone of normals that is one direction, where half the sphere about it holds all that the spot sends.
+    #[inline(always)]
+    fn bounds(&self) -> LightBounds {
+        let cone = Cone {
+            axis: self.axis(),
+            cos_theta_o: 1.0,
+        };
+        let within = self.cos_outer >= 0.0;
+        bounds(&self.p, self.phi(), if within { cone } else { Cone::SPHERE })
+    }
+
+    /// A diffuse emitter's mean direction is 2/3 of its normal: the mean normal is 3/2 of the spot's mean direction, at most of length 1.
+    #[inline(always)]
+    fn moments(&self) -> LightMoments {
+        let [whole, first] = self.integrals();
+        let length = exact::min(PER_MEAN_DIRECTION * exact::div(first, whole), 1.0);
+        let length = exact::flush(exact::max(length, 0.0), pow2(-30));
+        moments(&self.p, self.phi(), self.axis() * length)
+    }
+
+    #[inline(always)]
+    fn in_world(&self, instance: &Instance, index: u32) -> Self {
+        let axis = instance.direction_to_world(self.axis());
+        Self {
+            p: instance.vertex(self.p),
+            intensity: shining(&self.intensity, instance.radiance, self.has_flux()),
+            axis: [axis.x, axis.y, axis.z],
+            mesh: index,
+            ..*self
+        }
+    }
+
+    #[inline(always)]
+    fn point_for(&self, from: Vec3, _uv: [f32; 2]) -> LightPoint {
+        let direction = towards(Vec3::new(self.p[0], self.p[1], self.p[2]), from);
+        let falloff = self.falloff(dot(self.axis(), direction));
+        let sent = |k: usize| self.intensity[k] * falloff;
+        at(&self.p, [sent(0), sent(1), sent(2)])
+    }
+}

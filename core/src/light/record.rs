@@ -1,0 +1,239 @@
+//! What every kind of light is to a tree: words in an array, of which flux, place and direction can be known.
+
+use core::fmt::Debug;
+
+use bytemuck::Pod;
+use glam::Vec3;
+
+use super::{
+    EmissiveTriangle, LightError, LightPoint, MAX_COORDINATE, MAX_RADIANCE, MIN_COORDINATE, MIN_RADIANCE,
+};
+use crate::bounds::LightBounds;
+use crate::emission::has_flux;
+use crate::exact::{self, pow2};
+use crate::instance::Instance;
+use crate::moments::LightMoments;
+use crate::summary::Triangles;
+use crate::vector::{flush3, greatest_exponent, length_squared};
+
+/// A light as the arrays of a light BVH hold it: plain words, the same on devices.
+///
+/// A tree is over lights of one such type, so what a scene lacks costs neither bytes nor instructions.
+pub trait Light: Pod + PartialEq + Debug + Send + Sync {
+    /// Name for messages and files.
+    const NAME: &'static str;
+    /// A light without flux, of no mesh.
+    const DARK: Self;
+    /// Which of its words is the [`mesh`](Self::mesh); all others are its own.
+    const MESH_WORD: usize;
+    /// How its flux grows where an instance makes lengths s times as great: as s to this power. 2 of surfaces, whose area grows; 0 of
+    /// lights without size; 3 of volumes.
+    const FLUX_POWER: u32 = 2;
+    /// Whether one of its lights may have another [`flux_power`](Self::flux_power) than [`FLUX_POWER`](Self::FLUX_POWER).
+    const HAS_FLUX_POWERS: bool = false;
+    /// Whether the flux of all goes with area.
+    #[doc(hidden)]
+    const IS_BY_AREA: bool = Self::FLUX_POWER == 2 && !Self::HAS_FLUX_POWERS;
+    /// The lights of a node's slots, as processors compute several of them at a time.
+    #[doc(hidden)]
+    type Slots<const W: usize>: LightSlots<Self, W>;
+
+    /// Brings the light into the domain of this crate, or says why it cannot be. Coordinates smaller than
+    /// [`MIN_COORDINATE`](super::MIN_COORDINATE) become zero; nothing else changes.
+    ///
+    /// # Errors
+    /// [`LightError`], naming the number.
+    fn checked(self) -> Result<Self, LightError>;
+    /// Index of the mesh light that owns it.
+    fn mesh(&self) -> u32;
+    /// The same light of another mesh.
+    #[must_use]
+    fn of_mesh(self, mesh: u32) -> Self;
+    /// What a builder takes for its centre of flux, metres.
+    fn centroid(&self) -> [f32; 3];
+    /// Greatest magnitude of a coordinate that it reaches, metres.
+    fn reach(&self) -> f32;
+    /// Whether it has flux.
+    fn has_flux(&self) -> bool;
+    /// The [`FLUX_POWER`](Self::FLUX_POWER) of this one: 0, 2 or 3.
+    #[inline(always)]
+    fn flux_power(&self) -> u32 {
+        Self::FLUX_POWER
+    }
+    /// Bounds of its emission.
+    fn bounds(&self) -> LightBounds;
+    /// Moments of its emission; its flux is that of [`bounds`](Self::bounds).
+    fn moments(&self) -> LightMoments;
+    /// The light of a mesh as it stands in the world, where `instance` puts it, as part of mesh light `index`.
+    #[must_use]
+    fn in_world(&self, instance: &Instance, index: u32) -> Self;
+    /// A point on the light, from two numbers in [0, 1), for a receiver at `from`: none that cannot send light there, as far as the
+    /// kind knows.
+    fn point_for(&self, from: Vec3, uv: [f32; 2]) -> LightPoint;
+}
+
+/// The lights of up to `W` slots.
+#[doc(hidden)]
+pub trait LightSlots<L, const W: usize>: Copy + Debug {
+    /// No light.
+    const NONE: Self;
+    /// Puts `light` into `slot`.
+    fn set(&mut self, slot: usize, light: &L);
+    /// Leaves no light in `slot`: its words stay, and mean nothing.
+    fn remove(&mut self, slot: usize);
+    /// All ones where there is a light in `slot`, else zero.
+    fn present(&self, slot: usize) -> u32;
+    /// The light in `slot`, of mesh 0; any other where there is none.
+    fn get(&self, slot: usize) -> L;
+}
+
+/// Lights one after another.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub struct Each<L, const W: usize> {
+    lights: [L; W],
+    present: [u32; W],
+}
+
+impl<L: Light, const W: usize> LightSlots<L, W> for Each<L, W> {
+    const NONE: Self = Self {
+        lights: [L::DARK; W],
+        present: [0; W],
+    };
+
+    #[inline(always)]
+    fn set(&mut self, slot: usize, light: &L) {
+        self.lights[slot] = *light;
+        self.present[slot] = u32::MAX;
+    }
+
+    #[inline(always)]
+    fn remove(&mut self, slot: usize) {
+        self.present[slot] = 0;
+    }
+
+    #[inline(always)]
+    fn present(&self, slot: usize) -> u32 {
+        self.present[slot]
+    }
+
+    #[inline(always)]
+    fn get(&self, slot: usize) -> L {
+        self.lights[slot]
+    }
+}
+
+impl Light for EmissiveTriangle {
+    const NAME: &'static str = "emissive triangle";
+    const DARK: Self = Self {
+        p: [[0.0; 3]; 3],
+        radiance: [0.0; 3],
+        mesh: super::INVALID,
+        flags: 0,
+    };
+    const MESH_WORD: usize = core::mem::offset_of!(Self, mesh) / 4;
+    type Slots<const W: usize> = Triangles<W>;
+
+    fn checked(self) -> Result<Self, LightError> {
+        Self::checked(self)
+    }
+
+    #[inline(always)]
+    fn mesh(&self) -> u32 {
+        self.mesh
+    }
+
+    #[inline(always)]
+    fn of_mesh(self, mesh: u32) -> Self {
+        Self { mesh, ..self }
+    }
+
+    #[inline(always)]
+    fn centroid(&self) -> [f32; 3] {
+        let p = &self.p;
+        let third = |k: usize| ((p[0][k] + p[1][k]) + p[2][k]) * (1.0 / 3.0);
+        [third(0), third(1), third(2)]
+    }
+
+    fn reach(&self) -> f32 {
+        let coordinates = self.p.iter().flatten();
+        coordinates.fold(0.0, |most, &x| exact::max(most, exact::abs(x)))
+    }
+
+    #[inline(always)]
+    fn has_flux(&self) -> bool {
+        has_flux(self)
+    }
+
+    #[inline(always)]
+    fn bounds(&self) -> LightBounds {
+        LightBounds::of_triangle(self)
+    }
+
+    #[inline(always)]
+    fn moments(&self) -> LightMoments {
+        LightMoments::of_triangle(self)
+    }
+
+    #[inline(always)]
+    fn in_world(&self, instance: &Instance, index: u32) -> Self {
+        instance.triangle(self, index)
+    }
+
+    #[inline(always)]
+    fn point_for(&self, _from: Vec3, uv: [f32; 2]) -> LightPoint {
+        self.point(uv)
+    }
+}
+
+/// Greatest magnitude among coordinates.
+pub(super) fn greatest(coordinates: &[f32]) -> f32 {
+    coordinates
+        .iter()
+        .fold(0.0, |most, &x| exact::max(most, exact::abs(x)))
+}
+
+/// Coordinates in the domain, of what is named.
+pub(super) fn checked_place(what: &'static str, mut place: [f32; 3]) -> Result<[f32; 3], LightError> {
+    for axis in 0..3 {
+        let value = place[axis];
+        // NaN is in no range.
+        if !(-MAX_COORDINATE..=MAX_COORDINATE).contains(&value) {
+            return Err(LightError::Place { what, axis, value });
+        }
+        place[axis] = exact::flush(value, MIN_COORDINATE);
+    }
+    Ok(place)
+}
+
+/// Linear R, G, B in the domain, of what is named.
+pub(super) fn checked_emission(what: &'static str, mut emission: [f32; 3]) -> Result<[f32; 3], LightError> {
+    for channel in 0..3 {
+        let value = emission[channel];
+        if value != 0.0 && !(MIN_RADIANCE..=MAX_RADIANCE).contains(&value) {
+            return Err(LightError::Emission { what, channel, value });
+        }
+        emission[channel] = exact::flush(value, MIN_RADIANCE);
+    }
+    Ok(emission)
+}
+
+/// What a light of a mesh sends in the world: `factor` times as much, within the range; nothing where it has no flux in the mesh.
+#[inline(always)]
+pub(crate) fn shining(emission: &[f32; 3], factor: f32, has_flux: bool) -> [f32; 3] {
+    let shines = (factor > 0.0) & has_flux;
+    let shine = |channel: usize| {
+        let l = emission[channel];
+        let scaled = exact::clamp(l * factor, MIN_RADIANCE, MAX_RADIANCE);
+        if (l > 0.0) & shines { scaled } else { 0.0 }
+    };
+    [shine(0), shine(1), shine(2)]
+}
+
+/// The direction from `p` to `q`, of length 1 within 1e-5; zero where they are one point.
+#[inline(always)]
+pub(super) fn towards(p: Vec3, q: Vec3) -> Vec3 {
+    let away = q - p;
+    let scaled = flush3(away * pow2(-greatest_exponent(away, -100)), pow2(-60));
+    scaled * exact::rsqrt(exact::max(length_squared(scaled), pow2(-60)))
+}

@@ -1,0 +1,91 @@
+//! Passes over lights of any kind, [`AnyLight`]: `refit_bottom_any`, `refit_top_any` and `light_points_any`. Nodes are the default's, so
+//! `refit_roots`, `sample` and `pmf` are those of triangles.
+
+use glam::UVec3;
+use lightbvh::instance::world_light;
+use lightbvh::light::{AnyLight, Light};
+use lightbvh::node::Lit;
+use lightbvh::refit::{self, BlasRoot};
+use lightbvh::{Instance, LightPoint, SampledLight};
+use spirv_std::spirv;
+
+use crate::bvh::Node;
+use crate::invocation;
+use crate::query::{PointsPush, Query};
+use crate::refit::RefitPush;
+
+/// Node over lights of any kind: the words of [`Node`].
+pub type AnyNode = Lit<Node, AnyLight>;
+
+/// As `refit_bottom`, over lights of any kind.
+#[spirv(compute(threads(64), entry_point_name = "refit_bottom_any"))]
+pub fn refit_bottom_any(
+    #[spirv(global_invocation_id)] id: UVec3,
+    #[spirv(push_constant)] push: &RefitPush,
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] triangles: &[AnyLight],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] nodes: &mut [AnyNode],
+) {
+    let i = invocation(id);
+    let entry = push.first.wrapping_add(i);
+    if i < push.count && entry < list.len() as u32 {
+        let node = list[entry as usize];
+        if node < nodes.len() as u32 {
+            nodes[node as usize] = refit::bottom(nodes, triangles, node);
+        }
+    }
+}
+
+/// As `refit_top`, over lights of any kind.
+#[spirv(compute(threads(64), entry_point_name = "refit_top_any"))]
+pub fn refit_top_any(
+    #[spirv(global_invocation_id)] id: UVec3,
+    #[spirv(push_constant)] push: &RefitPush,
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] roots: &[BlasRoot],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] nodes: &mut [AnyNode],
+) {
+    let i = invocation(id);
+    let entry = push.first.wrapping_add(i);
+    if i < push.count && entry < list.len() as u32 {
+        let node = list[entry as usize];
+        if node < nodes.len() as u32 {
+            nodes[node as usize] = refit::top(nodes, instances, roots, node);
+        }
+    }
+}
+
+/// The point on a sampled light that the two numbers of `uv` choose for the receiver of `query`.
+#[inline]
+#[must_use]
+pub fn light_point_for<L: Light>(
+    lights: &[L],
+    instances: &[Instance],
+    query: &Query,
+    sample: &SampledLight,
+    uv: [f32; 2],
+) -> LightPoint {
+    world_light(lights, instances, sample.light, sample.instance).point_for(query.point.position(), uv)
+}
+
+/// Turns each of `samples`, as pass `sample` writes them for `queries`, into a point on its light in the world, by the two numbers of `numbers` in
+/// [0, 1): none that cannot send light to the query's point, as far as the kind knows.
+#[spirv(compute(threads(64), entry_point_name = "light_points_any"))]
+pub fn light_points_any(
+    #[spirv(global_invocation_id)] id: UVec3,
+    #[spirv(push_constant)] push: &PointsPush,
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] triangles: &[AnyLight],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] queries: &[Query],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] samples: &[SampledLight],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] numbers: &[[f32; 2]],
+    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] results: &mut [LightPoint],
+) {
+    let i = invocation(id);
+    let known = i < samples.len() as u32 && i < queries.len() as u32 && i < numbers.len() as u32;
+    if i < push.count && known {
+        let (query, sample) = (queries[i as usize], samples[i as usize]);
+        results[i as usize] = light_point_for(triangles, instances, &query, &sample, numbers[i as usize]);
+    }
+}

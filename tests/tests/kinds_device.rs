@@ -1,0 +1,385 @@
+//! Lights of every kind in one tree, on every device: refits, samples, pmfs and points on lights.
+
+use bytemuck::{Pod, Zeroable, bytes_of, cast_slice, cast_slice_mut};
+use lightbvh::importance::DefaultImportance;
+use lightbvh::light::{AnyLight, BoxLight, DiscLight, PointLight, RectangleLight, SphereLight, SpotLight};
+use lightbvh::refit::BlasRoot;
+use lightbvh::{Bvh, Edit, EmissiveTriangle, Instance, LightPoint, Random64, SampledLight, ShadingPoint};
+use lightbvh_gpu::{Buffer, Frame, KernelSet, Mirror, Pass as Refits, query_push};
+use lightbvh_host::vulkan::{self, Device, Options, Pass};
+use lightbvh_kernels::kinds::{AnyNode, light_point_for};
+use lightbvh_kernels::query::{PointsPush, Query};
+use lightbvh_tests::devices::on_each_device;
+use lightbvh_tests::generate::Random;
+use lightbvh_tests::placing::{self, Kind};
+
+type Scene = Bvh<AnyNode, DefaultImportance, 8>;
+
+const QUERIES: usize = 2000;
+
+/// A light of kind `number % 7`, somewhere within `reach` of its mesh's origin.
+fn light(random: &mut Random, number: usize, reach: f32) -> AnyLight {
+    let mut vector = |reach: f32| [0; 3].map(|_| random.between(-reach, reach));
+    let (p, shine, mesh) = (vector(reach), vector(2.0).map(|x| x.abs() + 0.1), 0);
+    let (a, b, c) = (vector(0.5), vector(0.5), vector(0.5));
+    let axis = random.direction();
+    let flags = random.below(2) * EmissiveTriangle::TWO_SIDED;
+    match number % 7 {
+        0 => EmissiveTriangle {
+            p: [
+                p,
+                [p[0] + a[0], p[1] + a[1], p[2] + a[2]],
+                [p[0] + b[0], p[1] + b[1], p[2] + b[2]],
+            ],
+            radiance: shine,
+            mesh,
+            flags,
+        }
+        .into(),
+        1 => PointLight {
+            p,
+            intensity: shine,
+            mesh,
+        }
+        .into(),
+        2 => SpotLight {
+            p,
+            intensity: shine,
+            axis,
+            cos_inner: 0.9,
+            cos_outer: 0.5,
+            mesh,
+        }
+        .into(),
+        3 => SphereLight {
+            p,
+            radius: 0.05 + a[0].abs(),
+            radiance: shine,
+            mesh,
+        }
+        .into(),
+        4 => RectangleLight {
+            p,
+            half: [a, b],
+            radiance: shine,
+            mesh,
+            flags,
+        }
+        .into(),
+        5 => DiscLight {
+            p,
+            half: [a, b],
+            radiance: shine,
+            mesh,
+            flags,
+        }
+        .into(),
+        _ => BoxLight {
+            p,
+            half: [a, b, c],
+            radiance: shine,
+            mesh,
+        }
+        .into(),
+    }
+}
+
+fn mesh(random: &mut Random, lights: usize) -> Vec<AnyLight> {
+    (0..lights).map(|number| light(random, number, 4.0)).collect()
+}
+
+const KINDS: [Kind; 5] = [
+    Kind::Rigid,
+    Kind::Similar,
+    Kind::Affine,
+    Kind::Flat,
+    Kind::Extreme,
+];
+
+/// The arrays of a light BVH on a device, which follows it by frames.
+struct Held<'a> {
+    device: &'a Device,
+    mirror: Mirror,
+    nodes: vulkan::Buffer<AnyNode>,
+    lights: vulkan::Buffer<AnyLight>,
+    instances: vulkan::Buffer<Instance>,
+    roots: vulkan::Buffer<BlasRoot>,
+    trails: vulkan::Buffer<u32>,
+}
+
+/// An array on a device again, of so many bytes and with what a frame copies into it.
+fn update<T: Pod>(
+    device: &Device,
+    array: &mut vulkan::Buffer<T>,
+    which: Buffer,
+    frame: &Frame,
+    scene: &Scene,
+) {
+    let mut held = array.read().expect("a read");
+    if let Some((_, bytes)) = frame.resizes.iter().find(|(buffer, _)| *buffer == which) {
+        // New memory holds anything.
+        let anything = bytemuck::pod_read_unaligned(&vec![0xcd; size_of::<T>()]);
+        held.resize((*bytes as usize / size_of::<T>()).max(1), anything);
+    }
+    for copy in frame.copies.iter().filter(|copy| copy.buffer == which) {
+        let bytes: &mut [u8] = cast_slice_mut(&mut held);
+        bytes[copy.bytes.start as usize..copy.bytes.end as usize].copy_from_slice(copy.source(scene));
+    }
+    *array = device.upload(&held).expect("an upload");
+}
+
+impl<'a> Held<'a> {
+    fn new(device: &'a Device) -> Self {
+        Self {
+            device,
+            mirror: Mirror::default(),
+            nodes: device.upload(&[AnyNode::zeroed()]).expect("an upload"),
+            lights: device.upload(&[AnyLight::zeroed()]).expect("an upload"),
+            instances: device.upload(&[Instance::zeroed()]).expect("an upload"),
+            roots: device.upload(&[BlasRoot::zeroed()]).expect("an upload"),
+            trails: device.upload(&[0]).expect("an upload"),
+        }
+    }
+
+    fn bind(&self, name: &str) -> Option<vulkan::Binding> {
+        Buffer::named(name).map(|buffer| match buffer {
+            Buffer::Nodes => self.nodes.bind(),
+            Buffer::Triangles => self.lights.bind(),
+            Buffer::Instances => self.instances.bind(),
+            Buffer::Roots => self.roots.bind(),
+            Buffer::Trails => self.trails.bind(),
+        })
+    }
+
+    /// Brings the arrays to what `scene` is, by its plan: copies and the passes over any kind of light.
+    fn follow(&mut self, scene: &mut Scene) {
+        let frame = self.mirror.frame(scene);
+        update(self.device, &mut self.nodes, Buffer::Nodes, &frame, scene);
+        update(self.device, &mut self.lights, Buffer::Triangles, &frame, scene);
+        update(self.device, &mut self.instances, Buffer::Instances, &frame, scene);
+        update(self.device, &mut self.roots, Buffer::Roots, &frame, scene);
+        update(self.device, &mut self.trails, Buffer::Trails, &frame, scene);
+        let refit = frame.refit;
+        if refit.dispatches.is_empty() {
+            return;
+        }
+        let list = self.device.upload(&refit.list).expect("an upload");
+        let mut pass = Pass::new();
+        for dispatch in &refit.dispatches {
+            let kernel = match dispatch.pass {
+                Refits::Bottom => KernelSet::ANY.refit_bottom,
+                Refits::Roots => KernelSet::ANY.refit_roots,
+                Refits::Top => KernelSet::ANY.refit_top,
+            };
+            let bindings: Vec<_> = kernel
+                .bindings
+                .iter()
+                .map(|binding| self.bind(binding.name).unwrap_or_else(|| list.bind()))
+                .collect();
+            let compiled = self.device.kernel(kernel.name).expect("a kernel");
+            pass.dispatch(
+                &compiled,
+                &bindings,
+                cast_slice(&dispatch.push()),
+                dispatch.push()[1],
+            );
+        }
+        self.device.run(&pass).expect("a run");
+    }
+
+    /// All words in use are the scene's.
+    fn assert_is(&self, scene: &Scene, what: &str) {
+        let used = scene.plan_of_everything();
+        let nodes = [used.bottom.nodes(), used.top.nodes()].concat();
+        let held = self.nodes.read().expect("a read");
+        for &node in &nodes {
+            let (found, expected) = (held[node as usize], scene.tree().nodes[node as usize]);
+            assert_eq!(
+                bytes_of(&found),
+                bytes_of(&expected),
+                "{} {what}: node {node}",
+                self.device.name()
+            );
+        }
+        let held = self.roots.read().expect("a read");
+        for &root in &used.roots {
+            let (found, expected) = (held[root as usize], scene.roots()[root as usize]);
+            assert_eq!(
+                bytes_of(&found),
+                bytes_of(&expected),
+                "{} {what}: root {root}",
+                self.device.name()
+            );
+        }
+    }
+
+    /// The results of `kernel` over so many queries.
+    fn ask<T: Pod>(
+        &self,
+        kernel: &lightbvh_gpu::kernel::Kernel,
+        count: usize,
+        push: &[u8],
+        extra: &[(&str, vulkan::Binding)],
+    ) -> Vec<T> {
+        let output = self.device.output::<T>(count).expect("an output");
+        let bindings: Vec<_> = kernel
+            .bindings
+            .iter()
+            .map(|binding| {
+                let own = extra
+                    .iter()
+                    .find(|(name, _)| *name == binding.name)
+                    .map(|(_, own)| own.clone());
+                own.or_else(|| self.bind(binding.name))
+                    .unwrap_or_else(|| output.bind())
+            })
+            .collect();
+        let compiled = self.device.kernel(kernel.name).expect("a kernel");
+        let mut pass = Pass::new();
+        pass.dispatch(&compiled, &bindings, push, count as u32);
+        self.device.run(&pass).expect("a run");
+        output.read().expect("the results")
+    }
+}
+
+/// Samples, their pmfs and points on their lights have the CPU's words.
+fn samples_agree(held: &Held<'_>, scene: &Scene, random: &mut Random) -> [usize; 7] {
+    let device = held.device;
+    let points: Vec<ShadingPoint> = (0..QUERIES)
+        .map(|k| ShadingPoint {
+            p: [0; 3].map(|_| random.between(-30.0, 30.0)),
+            n: if k % 3 == 0 { [0.0; 3] } else { random.direction() },
+        })
+        .collect();
+    let queries: Vec<Query> = points
+        .iter()
+        .map(|&point| {
+            let number = Random64::from(random.bits());
+            Query {
+                point,
+                words: [number.high, number.low],
+            }
+        })
+        .collect();
+    let tree = scene.tree();
+    let asked = device.upload(&queries).expect("an upload");
+    let push = query_push(QUERIES as u32, &tree);
+    let sampled: Vec<SampledLight> = held.ask(
+        KernelSet::ANY.sample,
+        QUERIES,
+        bytes_of(&push),
+        &[("queries", asked.bind())],
+    );
+    let mut kinds = [0; 7];
+    for (query, found) in queries.iter().zip(&sampled) {
+        let [high, low] = query.words;
+        let expected = scene.sample(&query.point, Random64 { high, low });
+        assert_eq!(
+            bytes_of(found),
+            bytes_of(&expected),
+            "{}: {query:?}",
+            device.name()
+        );
+        if let Some(light) = scene.triangle(found.light, found.instance) {
+            kinds[light.kind() as usize] += 1;
+        }
+    }
+    let which: Vec<Query> = points
+        .iter()
+        .zip(&sampled)
+        .map(|(&point, sample)| Query {
+            point,
+            words: [sample.light, sample.instance],
+        })
+        .collect();
+    let which = device.upload(&which).expect("an upload");
+    let pmfs: Vec<f32> = held.ask(
+        KernelSet::ANY.pmf,
+        QUERIES,
+        bytes_of(&push),
+        &[("queries", which.bind())],
+    );
+    for (pmf, sample) in pmfs.iter().zip(&sampled) {
+        assert_eq!(
+            pmf.to_bits(),
+            sample.pmf.to_bits(),
+            "{}: {sample:?}",
+            device.name()
+        );
+    }
+    let numbers: Vec<[f32; 2]> = points.iter().map(|_| [random.unit(), random.unit()]).collect();
+    let picked = device.upload(&sampled).expect("an upload");
+    let uv = device.upload(&numbers).expect("an upload");
+    let found: Vec<LightPoint> = held.ask(
+        KernelSet::ANY.light_points,
+        QUERIES,
+        bytes_of(&PointsPush {
+            count: QUERIES as u32,
+        }),
+        &[
+            ("queries", asked.bind()),
+            ("samples", picked.bind()),
+            ("numbers", uv.bind()),
+        ],
+    );
+    for (k, at) in found.iter().enumerate() {
+        let expected = light_point_for(
+            scene.triangles(),
+            tree.instances,
+            &queries[k],
+            &sampled[k],
+            numbers[k],
+        );
+        assert_eq!(
+            bytes_of(at),
+            bytes_of(&expected),
+            "{}: {:?}",
+            device.name(),
+            sampled[k]
+        );
+    }
+    kinds
+}
+
+#[test]
+fn lights_of_every_kind_agree_with_every_device() {
+    on_each_device(Options::default(), |device| {
+        let random = &mut Random::new(77);
+        let mut scene = Scene::default();
+        let meshes: Vec<_> = [3, 40, 300]
+            .map(|lights| scene.add_mesh(mesh(random, lights)).expect("a mesh"))
+            .into();
+        let place = |random: &mut Random, k: usize| placing::transform(random, KINDS[k % 5], 30.0);
+        let add: Vec<_> = (0..60)
+            .map(|k| Edit::AddInstance {
+                mesh: meshes[k % 3],
+                transform: place(random, k),
+                radiance: 1.0,
+            })
+            .collect();
+        let ids = scene.apply(add).expect("instances").instances;
+        let mut held = Held::new(device);
+        let mut kinds = [0; 7];
+        for frame in 0..6 {
+            if frame > 0 {
+                let mut edits: Vec<_> = (0..10)
+                    .map(|k| Edit::SetTransform {
+                        instance: ids[(7 * frame + k) % 60],
+                        transform: place(random, k),
+                    })
+                    .collect();
+                edits.push(Edit::SetTriangles {
+                    mesh: meshes[frame % 3],
+                    triangles: mesh(random, [3, 40, 300][frame % 3]),
+                });
+                scene.apply(edits).expect("edits");
+            }
+            held.follow(&mut scene);
+            scene.refit();
+            held.assert_is(&scene, &format!("frame {frame}"));
+            let sampled = samples_agree(&held, &scene, random);
+            kinds = std::array::from_fn(|k| kinds[k] + sampled[k]);
+        }
+        assert!(kinds.iter().all(|&count| count > 100), "{kinds:?}");
+    });
+}
