@@ -43,7 +43,10 @@ impl Measured {
         let fewer = fits.floor() as u32;
         let share = (fits / f64::from(fewer)).ln() / (f64::from(fewer + 1) / f64::from(fewer)).ln();
         let [a, b] = [error_of(fewer)?, error_of(fewer + 1)?];
-        Ok(Ok(self.found(fits, a * (b / a).powf(share))))
+        let found = self.found(fits, a * (b / a).powf(share));
+        // Divided and multiplied again, a budget may come out one rounding above itself.
+        let frame_ms = found.frame_ms.min(frame_ms);
+        Ok(Ok(Found { frame_ms, ..found }))
     }
 
     /// What leads to the `error`; where [`MOST_IMAGES`] do not, the error by those. Errors are taken as a power of the number of images:
@@ -123,6 +126,21 @@ mod tests {
         assert_eq!(within(5.9).err(), Some(6.0), "an update and one image");
         let most = within(1e9).expect("more than are tried");
         assert_eq!((most.images, most.frame_ms), (256.0, 2.0 + 256.0 * 4.0));
+    }
+
+    #[test]
+    fn no_frame_is_beyond_its_budget() {
+        let measured = Measured {
+            update_ms: 0.1,
+            least_ms: 0.3,
+            ..USUAL
+        };
+        for k in 0..1000 {
+            let budget = 1.0 + 0.07 * f64::from(k);
+            let found = measured.within(budget, &mut error_of).expect("no image fails");
+            let found = found.expect("several images");
+            assert!(found.frame_ms <= budget, "{budget} {found:?}");
+        }
     }
 
     #[test]
