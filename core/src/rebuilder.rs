@@ -77,9 +77,10 @@ impl Default for RebuilderParams {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct FrameStart {
-    /// Whether a rebuild was swapped in.
+    /// Whether parts of the top level, or small meshes, that were built came back; those that gain nothing, or whose place is gone, change nothing.
+    /// Large meshes are counted by `adopted` and `parts`.
     pub swapped: bool,
-    /// How long the frame waited for the worker; zero where there is no clock.
+    /// How long this call waited for threads, under [`Swap::Deterministic`] alone; zero where there is no clock.
     pub waited: Duration,
     /// How long the worker took for what was swapped in; zero if nothing was, and where there is no clock.
     pub built: Duration,
@@ -88,14 +89,15 @@ pub struct FrameStart {
     /// Number of parts of large meshes that were built anew, the rest of their trees being as good as it was, and put in place since then.
     pub parts: u32,
     /// Number of large meshes, and of parts of them, whose new trees came to nothing since then: the mesh is gone or was built by other means,
-    /// the light BVH is another one than it was taken from, building failed, or a part found no tree of as many nodes. Deformation drops none: what changes meanwhile is computed in the new tree.
+    /// building failed, or a part found no tree of as many nodes. Deformation drops none: what changes meanwhile is computed in the new tree.
     pub dropped: u32,
     /// Whether large meshes wait because another `Rebuilder` has some of the same light BVH under way. One for each light BVH is enough: a
     /// second one begins no large mesh as long as the first has one under way.
     pub is_second: bool,
     /// Number of large meshes that are under way or wait for it.
     pub under_way: u32,
-    /// Bytes copied of them, or time as much.
+    /// What of [`RebuilderParams::bytes`] went into them in this call: bytes copied, written for the first time, and nodes computed at bytes that take
+    /// as long. What changes meanwhile is computed in the new trees beside that.
     pub copied: u32,
     /// Whether it was built at the end of its frame on the frame's own thread, since no other could be started.
     pub inline: bool,
@@ -128,10 +130,12 @@ impl fmt::Display for RebuildError {
 
 impl core::error::Error for RebuildError {}
 
-/// Runs the rebuilds of one [`Bvh`] beside its frames: that of the top level and of small meshes, one at a time, and those of
+/// Runs the rebuilds of one [`Bvh`] beside its frames (paper section 3.5), [`begin_frame`](Self::begin_frame) before the frame's edits and
+/// [`end_frame`](Self::end_frame) after its refit: that of the top level and of small meshes, one at a time, and those of
 /// [some](RebuilderParams::meshes) large meshes.
 ///
-/// Dropping it waits for the worker to end the rebuild that it runs, if any. Where no thread can be started (a limit of
+/// Dropping it waits for its threads to end the rebuilds that they run, if any: 0.3 s for a mesh of 10^6 triangles;
+/// [`detach`](Self::detach) does not. Where no thread can be started (a limit of
 /// the system, or a platform without threads) rebuilds run at the end of their frame, with the same results: so it is on
 /// `wasm32-unknown-unknown`, where there is no clock either, and all times are zero. Where panics abort, one while building does
 /// too.
@@ -181,6 +185,13 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
             is_tops_turn: false,
             start: Worker::start,
         }
+    }
+
+    /// Ends without waiting: threads that still build go on alone until that is done, and what they build is dropped. Where their code may be
+    /// unloaded meanwhile, as that of a plugin, drop it instead, which waits.
+    pub fn detach(mut self) {
+        let workers = self.worker.iter_mut().chain(self.meshes.workers());
+        workers.for_each(Worker::detach);
     }
 
     /// Whether a rebuild is under way, or its result waits to be swapped in.

@@ -4,6 +4,7 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use super::known_flux::KnownFlux;
 use super::powers::Powers;
 use super::stage::Staged;
 use super::{Bvh, Trails};
@@ -29,12 +30,14 @@ pub(super) struct Blas {
     /// Its nodes, unless `is_unlisted`: then they have to be listed first.
     pub levels: Levels,
     pub is_unlisted: bool,
-    /// Nodes for whose subtrees none of as many nodes was found.
+    /// Nodes for whose subtrees none of as many nodes was found, so that parts below them are tried, until these are of another tree.
     pub misfits: Vec<u32>,
     pub depth: u32,
     pub extent: Extent,
     /// How the flux of its lights grows with an instance's scale.
     pub powers: Powers,
+    /// Its flux as the top level was built for it, and whether that was less once.
+    pub known_flux: KnownFlux,
     /// When its topology was made.
     pub created: u64,
     /// When what is known of it as a whole changed last.
@@ -64,6 +67,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             depth: 0,
             extent: Extent::of(triangles),
             powers: Powers::of(triangles),
+            known_flux: KnownFlux::default(),
             created: 0,
             changed: 0,
             staged: None,
@@ -81,6 +85,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.write_triangles(index, triangles);
         topology.move_primitives::<W>(range.start);
         self.place_blas(index, &topology);
+        self.blases[index as usize].known_flux = KnownFlux::of(self.root_of(index).phi());
         index
     }
 

@@ -228,13 +228,13 @@ impl fmt::Display for EditReason {
             ),
             Self::UnknownMesh(id) => write!(
                 f,
-                "mesh {} is not there: it was removed, or the id is of another light BVH (a clone has ids of its own: `mesh_id`)",
+                "mesh {} is not there: it was removed, or the id is of another light BVH (one that was cloned or read has ids of its own: `mesh_id`)",
                 id.index
             ),
             Self::UnknownInstance(id) => write!(
                 f,
-                "instance {} is not there: it was removed, or the id is of another light BVH (a clone has ids of its own: \
-                 `instance_id`)",
+                "instance {} is not there: it was removed, or the id is of another light BVH (one that was cloned or \
+                 read has ids of its own: `instance_id`)",
                 id.index
             ),
             Self::EmptyMesh => write!(f, "a mesh without emissive triangles; leave it out"),

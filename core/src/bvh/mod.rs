@@ -26,6 +26,7 @@ mod check;
 mod construct;
 mod edit;
 mod follow;
+mod known_flux;
 mod lights;
 mod one;
 mod opened;

@@ -13,6 +13,7 @@ use core::ops::Range;
 
 use super::apply::NO_INSTANCE;
 use super::blas::{Blas, put};
+use super::known_flux::KnownFlux;
 use super::powers::Powers;
 use super::records::InstanceState;
 use super::{Bvh, Trails};
@@ -362,6 +363,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             depth: 0,
             extent: Extent::of::<N::Light>(&[]),
             powers: Powers::default(),
+            known_flux: KnownFlux::default(),
             created: 0,
             changed: 0,
             staged: None,

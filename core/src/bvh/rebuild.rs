@@ -12,7 +12,8 @@ use super::{Bvh, Trails};
 use crate::build::{BuildParams, Topology, build_over};
 use crate::node::{Holds, Node};
 
-/// When trees are built anew: by default once they are 1.1 times worse than when they were built, either level.
+/// When trees are built anew: by default once they are 1.1 times worse than when they were built, either level. Any number is sound: NaN means
+/// never, and what is below 1 is taken as 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RebuildParams {
     /// The top level is once it is worse than when it was built by this factor, as below: 1 for whenever something has changed, infinite
@@ -40,7 +41,7 @@ const LARGE: usize = 512;
 
 impl RebuildParams {
     /// The top level whatever it lost, as the paper does in each frame; bottom levels as by default. By [`Bvh::rebuild`](crate::Bvh::rebuild) that is
-    /// the whole of it; by a [`Rebuilder`](crate::Rebuilder), where it has more than 1024 instances, each part that lost anything at all.
+    /// the whole of it; by a [`Rebuilder`](crate::Rebuilder), where it has more than 1024 instances, each part in which anything changed, in turn.
     #[must_use]
     pub fn eager() -> Self {
         Self {
@@ -50,7 +51,7 @@ impl RebuildParams {
     }
 }
 
-/// A tree that is to be built anew, and why: `drift` is `limit` or more.
+/// A tree that is to be built anew, and why: `drift` is more than `limit`, or as much for the top level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Due {
@@ -257,8 +258,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Swaps in what was built. Edits since the [`rebuild`](Self::rebuild) are not lost: instances removed meanwhile leave
-    /// empty slots, added ones are put beside it, bottom levels replaced meanwhile stay as they are. Comes before the next
+    /// Swaps in what was built. Edits since the [`rebuild`](Self::rebuild) are not lost: instances removed meanwhile are taken
+    /// out of it, added ones put into it, bottom levels replaced meanwhile stay as they are. Comes before the next
     /// frame's [`apply`](Self::apply) or after it, but before its [`refit`](Self::refit).
     ///
     /// # Errors

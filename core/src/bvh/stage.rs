@@ -25,9 +25,6 @@ use crate::levels::Levels;
 use crate::node::Node;
 use crate::refit;
 
-/// Where more than this share of the triangles changed since they were copied, all nodes are swept.
-const MOST: usize = 16;
-
 /// Which stage, of which light BVH.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct StageId {
@@ -101,16 +98,6 @@ impl Staged {
         self.changed = Dirty::none(self.triangles.len());
         self.dirty.mark_all(self.nodes.len());
     }
-
-    /// Its nodes and trails are there. So much may have changed meanwhile that ways down are no less work than all nodes.
-    fn place(&mut self) {
-        self.is_placed = true;
-        self.fresh = 0;
-        self.dirty = Dirty::none(self.nodes.len());
-        if self.changed.count() as usize * MOST > self.triangles.len() {
-            self.mark_all();
-        }
-    }
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
@@ -152,6 +139,11 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         own.staged
             .as_deref_mut()
             .filter(|staged| staged.number == id.number)
+    }
+
+    /// Whether it is of this light BVH.
+    pub(crate) fn has(&self, id: StageId) -> bool {
+        id.tree == self.id.0
     }
 
     /// Whether its tree is in place.

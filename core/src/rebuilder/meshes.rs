@@ -88,6 +88,18 @@ impl<N: Holds, const W: usize> Default for Meshes<N, W> {
 }
 
 impl<N: Node<W>, const W: usize> Meshes<N, W> {
+    /// The threads there are.
+    pub fn workers(&mut self) -> impl Iterator<Item = &mut Worker<N, W>> {
+        let under_way = self
+            .under_way
+            .iter_mut()
+            .filter_map(|flight| match &mut flight.at {
+                At::Room(_, worker) | At::Built(_, worker) | At::Copied(_, Some(worker)) => Some(worker),
+                _ => None,
+            });
+        under_way.chain(&mut self.idle).chain(&mut self.leaving)
+    }
+
     pub fn is_busy(&self) -> bool {
         !self.under_way.is_empty()
             || !self.waiting.is_empty()
@@ -306,6 +318,9 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
             scene.give_up(id);
         }
         if matches!(flight.at, At::Over) {
+            if !scene.has(id) && result.is_ok() {
+                result = Err(RebuildError::Foreign);
+            }
             let is_adopted = scene.is_adopted(id);
             let count = match (is_adopted, flight.is_part) {
                 (true, false) => &mut start.adopted,

@@ -117,6 +117,40 @@ fn what_was_built_for_another_is_built_again() {
     assert!(!rebuilder.is_busy());
 }
 
+/// A large mesh under way is of one light BVH, and another is told so.
+#[test]
+fn a_large_mesh_of_another_is_an_error() {
+    let mut bvh = LightBvh::default();
+    let mesh = bvh
+        .add_mesh((0..3000).map(|k| line(k, 1.0)).collect())
+        .expect("a mesh");
+    bvh.add_instance(mesh, Transform::IDENTITY).expect("one");
+    let mixed = (0..3000)
+        .map(|k: u32| line((k * 1009 % 3000) as u16, 1.0))
+        .collect();
+    bvh.set_triangles(mesh, mixed).expect("as many");
+    bvh.refit();
+    let mut rebuilder = Rebuilder::new(RebuilderParams {
+        swap: Swap::Deterministic,
+        rebuild: RebuildParams {
+            top: f64::INFINITY,
+            ..RebuildParams::default()
+        },
+        ..RebuilderParams::default()
+    });
+    rebuilder.end_frame(&bvh);
+    assert_eq!(rebuilder.begin_frame(&mut bvh).expect("its own").under_way, 1);
+    let mut copy = bvh.clone();
+    assert_eq!(rebuilder.begin_frame(&mut copy), Err(RebuildError::Foreign));
+    assert_eq!(rebuilder.begin_frame(&mut copy).expect("once").dropped, 0);
+    // With nobody to wait for.
+    copy.refit();
+    rebuilder.end_frame(&copy);
+    assert_eq!(rebuilder.begin_frame(&mut copy).expect("its own").under_way, 1);
+    rebuilder.detach();
+    copy.validate().expect("valid");
+}
+
 /// Part after part is built anew while instances move, come and go, and none again once nothing changes.
 #[test]
 fn large_top_levels_are_built_in_parts() {

@@ -138,6 +138,13 @@ impl<N: Node<W>, const W: usize> Worker<N, W> {
     }
 }
 
+impl<N: Holds, const W: usize> Worker<N, W> {
+    /// Lets the thread end by itself.
+    pub fn detach(&mut self) {
+        self.thread = None;
+    }
+}
+
 impl<N: Holds, const W: usize> Drop for Worker<N, W> {
     fn drop(&mut self) {
         self.handover.close();

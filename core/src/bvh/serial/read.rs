@@ -9,6 +9,7 @@ use super::places::{read_indices, read_range, read_ranges, taken};
 use super::words::Words;
 use crate::bvh::blas::Blas;
 use crate::bvh::check::factor;
+use crate::bvh::known_flux::KnownFlux;
 use crate::bvh::powers::Powers;
 use crate::bvh::top::{MOST_EDITS, Top};
 use crate::bvh::{Bvh, EditReason, InstanceState, Mesh};
@@ -60,6 +61,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         bvh.note_sizes();
         bvh.reserve_room();
         bvh.restore_top_quality(&top_built);
+        // Where what was written was not refitted.
+        bvh.note_fluxes(&Vec::from_iter(0..header.blases));
         Ok(bvh)
     }
 
@@ -78,6 +81,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 depth: 0,
                 extent: Extent::of::<N::Light>(&[]),
                 powers: Powers::default(),
+                known_flux: KnownFlux::default(),
                 created: 0,
                 changed: 0,
                 staged: None,
@@ -91,6 +95,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 blas.triangles = read_range(words, header.triangles, "triangles of a bottom level")?;
                 nodes.push(blas.nodes.clone());
                 blas.parts = read_parts(words, header.blases)?;
+                let known = KnownFlux::from_word(words.one()?);
+                blas.known_flux = known.ok_or_else(|| words.wrong("flux of a mesh"))?;
             }
             self.blases.push(blas);
         }

@@ -74,6 +74,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 blas.triangles.end,
             ]);
             write_parts(words, &blas.parts);
+            words.push(blas.known_flux.word());
         }
         words.extend(
             self.meshes

@@ -64,19 +64,21 @@ impl Dirty {
     /// Takes the last `count`, or all there are, from the last on.
     pub fn take_last(&mut self, count: u32) -> Vec<u32> {
         let count = count.min(self.count);
-        let mut taken = Vec::with_capacity(count as usize);
-        while taken.len() < count as usize {
+        (0..count).filter_map(|_| self.pop()).collect()
+    }
+
+    /// Takes the last.
+    pub fn pop(&mut self) -> Option<u32> {
+        self.count = self.count.checked_sub(1)?;
+        loop {
             let word = &mut self.words[self.end - 1];
-            if *word == 0 {
-                self.end -= 1;
-                continue;
+            if *word != 0 {
+                let bit = 63 - word.leading_zeros();
+                *word &= !(1 << bit);
+                return Some((self.end as u32 - 1) * 64 + bit);
             }
-            let bit = 63 - word.leading_zeros();
-            *word &= !(1 << bit);
-            taken.push((self.end as u32 - 1) * 64 + bit);
+            self.end -= 1;
         }
-        self.count -= count;
-        taken
     }
 }
 

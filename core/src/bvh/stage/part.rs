@@ -20,6 +20,8 @@ use crate::trail::{BitTrail, max_levels, word_levels};
 
 /// Nodes that one search for such a part looks at.
 const LOOKED_AT: usize = 128;
+/// Most nodes that are known to have no other tree of as many nodes.
+const MISFITS: usize = 64;
 /// Bytes of a frame that take about the time of a node that is put in place, with its triangles.
 const PLACED: usize = 128;
 /// Bytes that take about the time of a triangle that is copied again, and of a node computed apart.
@@ -133,10 +135,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }]);
         for _ in 0..LOOKED_AT {
             let step = found.pop()?;
-            if own.misfits.contains(&step.node) {
-                continue;
-            }
-            if step.level > 0 && step.end - step.node <= most && self.quality(step.node).drift() > worse {
+            let is_worn = step.level > 0 && self.quality(step.node).drift() > worse;
+            if is_worn && step.end - step.node <= most && !own.misfits.contains(&step.node) {
                 return Some(step);
             }
             let node = &self.nodes[step.node as usize];
@@ -173,7 +173,11 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             .as_ref()
             .map(|part| (part.node, part.level))?;
         if tree.nodes.is_empty() {
-            self.blases[id.blas as usize].misfits.push(root);
+            let misfits = &mut self.blases[id.blas as usize].misfits;
+            if misfits.len() == MISFITS {
+                misfits.remove(0);
+            }
+            misfits.push(root);
             self.drop_stage(id.blas);
             return None;
         }
@@ -182,9 +186,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let fresh = core::mem::take(&mut staged.fresh);
         let some = staged
             .changed
-            .take_last((*bytes / TRIANGLE).max(2 * fresh).max(1) as u32);
+            .take_last((fresh + (*bytes / TRIANGLE).max(1)) as u32);
         let is_clean = staged.changed.count() == 0;
-        *bytes = bytes.saturating_sub(some.len() * TRIANGLE);
+        *bytes = bytes.saturating_sub(some.len().saturating_sub(fresh) * TRIANGLE);
         let before = tree.dirty.count();
         for &triangle in &some {
             let Ok(local) = tree.places.binary_search(&triangle) else {
@@ -193,10 +197,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             tree.triangles[local] = self.triangles[(start + triangle) as usize];
             tree.mark_path::<W>(local, level);
         }
-        let marked = if fresh > 0 { tree.dirty.count() - before } else { 0 };
-        let count = ((*bytes / NODE).max(1) as u32).max(2 * marked);
-        let list = tree.dirty.take_last(count);
-        *bytes = bytes.saturating_sub(list.len() * NODE);
+        let own = if fresh > 0 { tree.dirty.count() - before } else { 0 };
+        let list = tree.dirty.take_last(own + (*bytes / NODE).max(1) as u32);
+        *bytes = bytes.saturating_sub(list.len().saturating_sub(own as usize) * NODE);
         tree.compute::<W>(&list);
         if tree.dirty.count() > 0 || !is_clean {
             return Some(false);
@@ -253,7 +256,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         own.depth = own.depth.max(level + tree.depth);
         own.adopted = id.number;
         own.is_unlisted = true;
-        own.misfits.clear();
+        // What is below has other nodes, and what is above other triangles in them.
+        let end = root + tree.nodes.len() as u32;
+        own.misfits.retain(|node| !(root..end).contains(node));
         self.retired.push(core::mem::take(&mut own.levels));
         self.drop_stage(id.blas);
     }

@@ -1,23 +1,59 @@
 //! What changed while a tree was built is computed in it, until it may take its place.
 
-use super::{MOST, StageId};
+use alloc::vec::Vec;
+
+use super::dirty::Dirty;
+use super::{StageId, Staged};
 use crate::bvh::changes::merged;
 use crate::bvh::{Bvh, Trails};
 use crate::node::{Node, kind};
 use crate::sweep;
 
-/// Bytes that take about the time of a node, and of a way down to a triangle.
+/// Bytes that take about the time of a node, of one that is computed after its neighbour, and of a path down to a triangle.
 const NODE: usize = 2048;
+const SWEPT: usize = 512;
 const PATH: usize = 4096;
+/// Neighbours are so near.
+const NEAR: u32 = 8;
+/// Of a triangle that changed: its path, and the nodes there that no other shares.
+const TRIANGLE: usize = PATH + 4 * NODE;
+/// Where more than this share of the triangles changed, a refit sweeps all nodes.
+const MOST: usize = 16;
 /// Few enough nodes for one thread, which takes them in order.
 pub(super) const IN_ORDER: usize = 1024;
+
+impl Staged {
+    /// Its nodes and trails are there. So much may have changed meanwhile that paths down are no less work than all nodes.
+    pub(super) fn place(&mut self) {
+        self.is_placed = true;
+        self.fresh = 0;
+        self.dirty = Dirty::none(self.nodes.len());
+        if self.changed.count() as usize * TRIANGLE > self.nodes.len() * SWEPT {
+            self.mark_all();
+        }
+    }
+
+    /// The next nodes to be computed: `own`, and those that the bytes are for, one at least.
+    fn take_dirty(&mut self, own: u32, bytes: &mut usize) -> Vec<u32> {
+        let mut list = self.dirty.take_last(own.saturating_add(1));
+        let mut last = list.last().copied().unwrap_or(0);
+        while *bytes >= NODE {
+            let Some(node) = self.dirty.pop() else { break };
+            *bytes -= if last - node < NEAR { SWEPT } else { NODE };
+            list.push(node);
+            last = node;
+        }
+        list
+    }
+}
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Computes more of what changed since the triangles were copied, and lets the new tree take the place of the old where nothing is
     /// left; whether it has. `None` where the stage is gone.
     ///
-    /// However much changes, and however often, it ends: more triangles are looked for than have changed since the last frame, and more
-    /// nodes are computed than those newly marked, by the bytes at least.
+    /// However much changes, and however often, it ends: beside the triangles that have changed since the last frame others are looked for, and
+    /// beside the nodes that these mark others are computed, as many as the bytes are for. Those of the last frame are not of the bytes: the frame
+    /// changed them itself.
     pub(crate) fn settle_stage(&mut self, id: StageId, bytes: &mut usize) -> Option<bool> {
         let staged = self.staged(id)?;
         let fresh = core::mem::take(&mut staged.fresh);
@@ -25,22 +61,18 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if staged.changed.count() > 0 && !T::KEPT {
             staged.mark_all();
         } else {
-            let some = staged
-                .changed
-                .take_last((*bytes / PATH).max(2 * fresh).max(1) as u32);
-            *bytes = bytes.saturating_sub(some.len() * PATH);
+            let some = staged.changed.take_last((fresh + (*bytes / PATH).max(1)) as u32);
+            *bytes = bytes.saturating_sub(some.len().saturating_sub(fresh) * PATH);
             self.mark_paths(id, &some)?;
         }
         let staged = self.staged(id)?;
-        let marked = if fresh > 0 {
+        let own = if fresh > 0 {
             staged.dirty.count() - before
         } else {
             0
         };
-        let count = ((*bytes / NODE).max(1) as u32).max(2 * marked);
         let base = staged.nodes.start;
-        let mut list = staged.dirty.take_last(count);
-        *bytes = bytes.saturating_sub(list.len() * NODE);
+        let mut list = staged.take_dirty(own, bytes);
         list.iter_mut().for_each(|node| *node += base);
         for some in list.chunks(IN_ORDER) {
             sweep::bottom(&mut self.nodes, &self.triangles, some);

@@ -193,9 +193,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if self.top.counts[above as usize] <= PART {
             return None;
         }
+        // As built, there is nothing to gain, and whatever has changed is to be built by those who say so.
         let drift = self.quality(node).drift();
-        // As built, there is nothing to gain.
-        let is_worn = drift > 1.0 && drift >= asked.worse;
+        let is_worn = (drift > 1.0 && drift >= asked.worse)
+            || (asked.worse <= 1.0 && self.changes_since_tried(number as usize) > 0);
         (is_worn || self.is_untried(node, asked)).then_some(Worn::Part(node, is_worn))
     }
 

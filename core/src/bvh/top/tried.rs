@@ -72,9 +72,13 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     pub(super) fn stir(&mut self, node: u32, count: u32) {
         let mut node = node;
         while node != INVALID {
-            let number = self.top.number(node) as usize;
-            self.top.stirred[number] = bounded_sum(self.top.stirred[number], count);
+            self.stir_one(self.top.number(node) as usize, count);
             node = self.parents[node as usize];
         }
+    }
+
+    /// The same of one node, by number.
+    pub(in crate::bvh) fn stir_one(&mut self, number: usize, count: u32) {
+        self.top.stirred[number] = bounded_sum(self.top.stirred[number], count);
     }
 }

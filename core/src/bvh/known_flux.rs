@@ -1,0 +1,96 @@
+//! Meshes that become brighter or dimmer by their lights: the top level was built for other fluxes.
+//!
+//! A node does not see that it is no longer a good one: lights that outshine all others lie in one of its children, and it tells those apart as
+//! well as before. So the nodes above count all that the mesh outshines as built anew, and a rebuilder tries them.
+
+use super::{Bvh, Trails};
+use crate::node::Node;
+use crate::summary::Summary;
+use crate::tree::INVALID;
+
+/// A flux is another one from this factor on.
+const FACTOR: f32 = 2.0;
+
+/// Flux of a mesh, in its own space, for which the top level was built or is to be built.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct KnownFlux {
+    /// W.
+    phi: f32,
+    /// Whether it was dimmer once: a mesh that blinks is known by its greater flux, and asks for nothing from then on.
+    blinks: bool,
+}
+
+impl KnownFlux {
+    /// That of a mesh that is new.
+    pub fn of(phi: f32) -> Self {
+        Self { phi, blinks: false }
+    }
+
+    /// Takes a flux; of another one than before, the greater of both.
+    fn note(&mut self, phi: f32) -> Option<f32> {
+        let was = self.phi;
+        let is_dimmer = was > FACTOR * phi;
+        if phi <= FACTOR * was && (self.blinks || !is_dimmer) {
+            return None;
+        }
+        self.blinks |= is_dimmer;
+        self.phi = phi;
+        Some(crate::exact::max(was, phi))
+    }
+
+    /// A word of the format: the flux, the sign telling that it blinks.
+    pub fn word(self) -> u32 {
+        self.phi.copysign(if self.blinks { -1.0 } else { 1.0 }).to_bits()
+    }
+
+    /// From such a word; `None` where it is no flux.
+    pub fn from_word(word: u32) -> Option<Self> {
+        let flux = f32::from_bits(word);
+        flux.is_finite().then(|| Self {
+            phi: crate::exact::abs(flux),
+            blinks: flux.is_sign_negative(),
+        })
+    }
+}
+
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+    /// After a refit of these roots: looks for meshes whose flux is another one. In time in proportion to their instances, times the depth of the
+    /// top level, and to nothing where there are none.
+    pub(super) fn note_fluxes(&mut self, roots: &[u32]) {
+        for &blas in roots {
+            let phi = self.root_of(blas).phi();
+            // Parts of opened instances have roots of their own, which are looked at with the whole.
+            let own = self
+                .blases
+                .get_mut(blas as usize)
+                .filter(|own| !own.nodes.is_empty());
+            let Some(own) = own else { continue };
+            let Some(greater) = own.known_flux.note(phi) else {
+                continue;
+            };
+            let mesh = own.mesh as usize;
+            for user in 0..self.meshes[mesh].users.len() {
+                let index = self.meshes[mesh].users[user];
+                let flux = f64::from(greater) * f64::from(self.instances[index as usize].flux);
+                for leaf in self.leaves_of(index) {
+                    self.stir_by_flux(self.placed[leaf as usize].node, flux);
+                }
+            }
+        }
+    }
+
+    /// The nodes from `node` up, of which each has so much flux below that is another one, count instances in that share as built anew.
+    fn stir_by_flux(&mut self, node: u32, flux: f64) {
+        let mut node = node;
+        while node != INVALID {
+            let number = self.top.number(node) as usize;
+            let all = f64::from(self.nodes[node as usize].merged().phi());
+            let share = if all > flux { flux / all } else { 1.0 };
+            self.stir_one(number, (share * f64::from(self.top.counts[number])) as u32);
+            node = self.parents[node as usize];
+        }
+    }
+}
+
+#[cfg(all(test, feature = "std"))]
+mod tests;
