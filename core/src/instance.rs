@@ -108,7 +108,7 @@ impl Instance {
     /// Whether [`flux`](Self::flux) of its lights, of type `L`, grows with area.
     #[inline(always)]
     pub(crate) fn is_by_area<L: Light>(&self) -> bool {
-        if L::IS_BY_AREA {
+        if L::FLUX_POWER == 2 && !L::HAS_FLUX_POWERS {
             true
         } else if L::HAS_FLUX_POWERS {
             self.mirrored & Self::IS_NOT_BY_AREA == 0

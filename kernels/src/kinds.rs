@@ -12,49 +12,13 @@ use spirv_std::spirv;
 use crate::bvh::Node;
 use crate::invocation;
 use crate::query::{PointsPush, Query};
-use crate::refit::RefitPush;
+use crate::refit::{RefitPush, bottom_pass, top_pass};
 
 /// Node over lights of any kind: the words of [`Node`].
 pub type AnyNode = Lit<Node, AnyLight>;
 
-/// As `refit_bottom`, over lights of any kind.
-#[spirv(compute(threads(64), entry_point_name = "refit_bottom_any"))]
-pub fn refit_bottom_any(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(push_constant)] push: &RefitPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] triangles: &[AnyLight],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] nodes: &mut [AnyNode],
-) {
-    let i = invocation(id);
-    let entry = push.first.wrapping_add(i);
-    if i < push.count && entry < list.len() as u32 {
-        let node = list[entry as usize];
-        if node < nodes.len() as u32 {
-            nodes[node as usize] = refit::bottom(nodes, triangles, node);
-        }
-    }
-}
-
-/// As `refit_top`, over lights of any kind.
-#[spirv(compute(threads(64), entry_point_name = "refit_top_any"))]
-pub fn refit_top_any(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(push_constant)] push: &RefitPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] roots: &[BlasRoot],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] nodes: &mut [AnyNode],
-) {
-    let i = invocation(id);
-    let entry = push.first.wrapping_add(i);
-    if i < push.count && entry < list.len() as u32 {
-        let node = list[entry as usize];
-        if node < nodes.len() as u32 {
-            nodes[node as usize] = refit::top(nodes, instances, roots, node);
-        }
-    }
-}
+bottom_pass!(AnyNode, AnyLight, refit_bottom_any, "refit_bottom_any");
+top_pass!(AnyNode, refit_top_any, "refit_top_any");
 
 /// The point on a sampled light that the two numbers of `uv` choose for the receiver of `query`.
 #[inline]

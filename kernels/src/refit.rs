@@ -21,18 +21,18 @@ pub struct RefitPush {
     pub count: u32,
 }
 
-/// The three passes for one choice.
-macro_rules! refit_passes {
-    ($choice:ty, $bottom:ident, $bottom_name:tt, $roots:ident, $roots_name:tt, $top:ident, $top_name:tt) => {
+/// The pass over bottom levels of one type of node and of light.
+macro_rules! bottom_pass {
+    ($node:ty, $light:ty, $pass:ident, $name:tt) => {
         /// Nodes `list[first + i]` of bottom levels, all of one level, take the summaries of their triangles and of the nodes
         /// below them.
-        #[spirv(compute(threads(64), entry_point_name = $bottom_name))]
-        pub fn $bottom(
+        #[spirv(compute(threads(64), entry_point_name = $name))]
+        pub fn $pass(
             #[spirv(global_invocation_id)] id: UVec3,
             #[spirv(push_constant)] push: &RefitPush,
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] triangles: &[EmissiveTriangle],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] nodes: &mut [NodeOf<$choice>],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] triangles: &[$light],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] nodes: &mut [$node],
         ) {
             let i = invocation(id);
             let entry = push.first.wrapping_add(i);
@@ -43,14 +43,19 @@ macro_rules! refit_passes {
                 }
             }
         }
+    };
+}
 
+/// The pass over their roots.
+macro_rules! roots_pass {
+    ($node:ty, $pass:ident, $name:tt) => {
         /// The summaries of bottom levels `list[first + i]` from their root nodes.
-        #[spirv(compute(threads(64), entry_point_name = $roots_name))]
-        pub fn $roots(
+        #[spirv(compute(threads(64), entry_point_name = $name))]
+        pub fn $pass(
             #[spirv(global_invocation_id)] id: UVec3,
             #[spirv(push_constant)] push: &RefitPush,
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] nodes: &[NodeOf<$choice>],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] nodes: &[$node],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] roots: &mut [BlasRoot],
         ) {
             let i = invocation(id);
@@ -62,17 +67,22 @@ macro_rules! refit_passes {
                 }
             }
         }
+    };
+}
 
+/// The pass over the top level.
+macro_rules! top_pass {
+    ($node:ty, $pass:ident, $name:tt) => {
         /// Top-level nodes `list[first + i]`, all of one level, take the summaries of their instances, from the bottom levels'
         /// roots, and of the nodes below them.
-        #[spirv(compute(threads(64), entry_point_name = $top_name))]
-        pub fn $top(
+        #[spirv(compute(threads(64), entry_point_name = $name))]
+        pub fn $pass(
             #[spirv(global_invocation_id)] id: UVec3,
             #[spirv(push_constant)] push: &RefitPush,
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] roots: &[BlasRoot],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] nodes: &mut [NodeOf<$choice>],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] nodes: &mut [$node],
         ) {
             let i = invocation(id);
             let entry = push.first.wrapping_add(i);
@@ -86,21 +96,16 @@ macro_rules! refit_passes {
     };
 }
 
-refit_passes!(
-    Standard,
-    refit_bottom,
-    "refit_bottom",
-    refit_roots,
-    "refit_roots",
-    refit_top,
-    "refit_top"
-);
-refit_passes!(
-    Paper,
+pub(crate) use {bottom_pass, top_pass};
+
+bottom_pass!(NodeOf<Standard>, EmissiveTriangle, refit_bottom, "refit_bottom");
+roots_pass!(NodeOf<Standard>, refit_roots, "refit_roots");
+top_pass!(NodeOf<Standard>, refit_top, "refit_top");
+bottom_pass!(
+    NodeOf<Paper>,
+    EmissiveTriangle,
     refit_bottom_eq4,
-    "refit_bottom_eq4",
-    refit_roots_eq4,
-    "refit_roots_eq4",
-    refit_top_eq4,
-    "refit_top_eq4"
+    "refit_bottom_eq4"
 );
+roots_pass!(NodeOf<Paper>, refit_roots_eq4, "refit_roots_eq4");
+top_pass!(NodeOf<Paper>, refit_top_eq4, "refit_top_eq4");

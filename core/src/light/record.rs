@@ -31,9 +31,6 @@ pub trait Light: Pod + PartialEq + Debug + Send + Sync {
     const FLUX_POWER: u32 = 2;
     /// Whether one of its lights may have another [`flux_power`](Self::flux_power) than [`FLUX_POWER`](Self::FLUX_POWER).
     const HAS_FLUX_POWERS: bool = false;
-    /// Whether the flux of all goes with area.
-    #[doc(hidden)]
-    const IS_BY_AREA: bool = Self::FLUX_POWER == 2 && !Self::HAS_FLUX_POWERS;
     /// The lights of a node's slots, as processors compute several of them at a time.
     #[doc(hidden)]
     type Slots<const W: usize>: LightSlots<Self, W>;
