@@ -35,7 +35,7 @@ impl Staged {
 
     /// The next nodes to be computed: `own`, and those that the bytes are for, one at least.
     fn take_dirty(&mut self, own: u32, bytes: &mut usize) -> Vec<u32> {
-        let mut list = self.dirty.take_last(own.saturating_add(1));
+        let mut list = self.dirty.take_last(own + 1);
         let mut last = list.last().copied().unwrap_or(0);
         while *bytes >= NODE {
             let Some(node) = self.dirty.pop() else { break };
