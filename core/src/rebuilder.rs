@@ -213,10 +213,6 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
         let meshes = self
             .meshes
             .begin_frame(scene, &self.params, self.start, &mut start);
-        // What it would have built is still to be built.
-        if core::mem::take(&mut self.meshes.is_lost) {
-            self.taken = None;
-        }
         self.begin_flight(scene, &mut start)?;
         meshes?;
         Ok(start)

@@ -213,7 +213,7 @@ fn lights_that_cannot_be_followed() {
     let mesh = bvh.mesh_id(0).expect("the first");
     let error = bvh.remove_mesh(mesh).expect_err("in use");
     assert!(
-        error.to_string().starts_with("the mesh still has 1 instances"),
+        error.to_string().starts_with("the mesh still has 1 instance;"),
         "{error}"
     );
 }

@@ -259,7 +259,8 @@ impl fmt::Display for EditReason {
                 u64::from(*first) + *count as u64
             ),
             Self::InUse { instances } => {
-                write!(f, "the mesh still has {instances} instances; remove them first")
+                let s = if *instances == 1 { "" } else { "s" };
+                write!(f, "the mesh still has {instances} instance{s}; remove them first")
             }
             Self::TooMany => write!(
                 f,

@@ -86,7 +86,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             let number = self.top.number(node) as usize;
             let all = f64::from(self.nodes[node as usize].merged().phi());
             let share = if all > flux { flux / all } else { 1.0 };
-            self.stir_one(number, (share * f64::from(self.top.counts[number])) as u32);
+            self.unsettle_one(number, (share * f64::from(self.top.counts[number])) as u32);
             node = self.parents[node as usize];
         }
     }

@@ -196,6 +196,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             lists.push(&own.levels);
         }
         work.bottom = Levels::join(&lists);
+        let swept: Vec<u32> = pending.blases.iter().copied().collect();
         let mut changed = pending.blases;
         changed.extend(pending.built);
         changed.extend(touched);
@@ -212,7 +213,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         } else {
             self.dirty_top(&instances, &pending.top_nodes, &mut work);
         }
-        self.note_changes(&instances, &work.top);
+        self.note_changes(&pending.instances, &swept, &instances, &work.top);
         work
     }
 

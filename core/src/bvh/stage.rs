@@ -184,12 +184,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.changes.new.built.insert(blas);
         self.update_parts(blas);
         self.settle_some(super::rebuild::ADOPTED);
-        // Built for triangles that have changed since, it may be due again.
-        if self.drift(blas) > 1.0 {
-            self.epoch += 1;
-            self.blases[blas as usize].changed = self.epoch;
-            self.note_refitted(blas, self.epoch);
-        }
+        // Built for triangles that have changed since, it may be due again, and files tell how it was built.
+        self.epoch += 1;
+        self.blases[blas as usize].changed = self.epoch;
+        self.note_refitted(blas, self.epoch);
     }
 
     /// Gives up what was under way for a bottom level.

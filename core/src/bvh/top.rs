@@ -60,12 +60,16 @@ pub(super) struct Top {
     pub edits: Vec<u32>,
     /// By number: instances below in subtrees that were built since it was tried to build this one.
     pub stirred: Vec<u32>,
-    /// By number: the epoch that the last refit for a change of an instance below made, 0 before any.
+    /// By number: the epoch that the last refit made in which much below changed, 0 before any.
     pub moved: Vec<u64>,
+    /// By number: the epoch of the last refit in which anything below changed, 0 before any.
+    pub seen: Vec<u64>,
     /// By number: the epoch of what it was built from, or what it was tried to build anew from.
     pub tried: Vec<u64>,
     /// By number: how many changes of instances below refits have seen since.
     pub changes: Vec<u32>,
+    /// The epoch as changes were counted last.
+    pub counted_at: u64,
     /// By number: children that came or went since the last refit.
     pub counted: Vec<u32>,
     /// Nodes whose children edits have changed; they may be gone.
@@ -117,6 +121,7 @@ impl Top {
             + size_of_val(&*self.born)
             + size_of_val(&*self.stirred)
             + size_of_val(&*self.moved)
+            + size_of_val(&*self.seen)
             + size_of_val(&*self.tried)
             + size_of_val(&*self.changes)
             + size_of_val(&*self.counted)
@@ -159,6 +164,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.top.edits.clear();
         self.top.stirred.clear();
         self.top.moved.clear();
+        self.top.seen.clear();
         self.top.tried.clear();
         self.top.changes.clear();
         self.top.counted.clear();

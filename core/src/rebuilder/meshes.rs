@@ -32,8 +32,6 @@ pub(super) struct Meshes<N: Holds, const W: usize> {
     waste: Vec<Waste<N>>,
     /// By which the light BVH knows whose stages are whose.
     builder: Builder,
-    /// Whether one came to nothing that may still be wanted.
-    pub is_lost: bool,
 }
 
 /// A mesh under way.
@@ -82,7 +80,6 @@ impl<N: Holds, const W: usize> Default for Meshes<N, W> {
             leaving: Vec::new(),
             waste: Vec::new(),
             builder: Builder::default(),
-            is_lost: false,
         }
     }
 }
@@ -210,7 +207,8 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
                     });
                     begun += 1;
                 }
-                None => self.is_lost = true,
+                // It is asked for again where it gets worse.
+                None => {}
             }
         }
         if begun < free {
@@ -328,10 +326,13 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
                 (false, _) => &mut start.dropped,
             };
             *count += 1;
-            // A part that came to nothing is looked for again once its mesh changes.
-            self.is_lost |= !is_adopted && !flight.is_part;
-            // What changed while it was built may have worn the new tree already, and nobody asks for it again.
-            if is_adopted && !flight.is_part && scene.is_worn(flight.blas, &params.rebuild) {
+            // Nobody asks for it again: what changed while it was built may have worn the new tree already, and what came to nothing is as
+            // worn as it was. A mesh of which a part found no tree may have other parts.
+            if flight.is_part {
+                if !is_adopted {
+                    self.strained.push(flight.blas);
+                }
+            } else if scene.has(id) && scene.is_worn(flight.blas, &params.rebuild) {
                 self.waiting.push(flight.blas);
             }
         }

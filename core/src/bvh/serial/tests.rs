@@ -62,7 +62,7 @@ fn goes_on<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32,
         if is_read {
             // Changes are counted by refits.
             for number in 0..first.top.nodes.len() {
-                let changes = first.changes_since_tried(number);
+                let changes = first.top.changes[number];
                 again.top.changes[number] = changes;
                 again.top.moved[number] = if changes > 0 { again.epoch } else { 0 };
                 again.top.tried[number] = 0;

@@ -46,7 +46,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             if node != INVALID {
                 let built = self.quality(node).built.to_bits();
                 words.extend([edits, built]);
-                words.extend([self.top.stirred[number], self.changes_since_tried(number)]);
+                words.extend([self.top.stirred[number], self.top.changes[number]]);
             }
         }
         words.extend(&refitted);

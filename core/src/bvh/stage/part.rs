@@ -20,7 +20,7 @@ use crate::trail::{BitTrail, max_levels, word_levels};
 
 /// Nodes that one search for such a part looks at.
 const LOOKED_AT: usize = 128;
-/// Most nodes that are known to have no other tree of as many nodes.
+/// Nodes known to have no other tree of as many nodes from which on no part of a mesh is built: until parts around them were, or the whole is worn.
 const MISFITS: usize = 64;
 /// Bytes of a frame that take about the time of a node that is put in place, with its triangles.
 const PLACED: usize = 128;
@@ -83,7 +83,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         bytes: usize,
     ) -> Option<(StageId, MeshJob<N>)> {
         let own = self.blases.get(blas as usize)?;
-        if own.nodes.is_empty() || own.staged.is_some() || !T::KEPT {
+        let is_hopeless = own.misfits.len() >= MISFITS;
+        if own.nodes.is_empty() || own.staged.is_some() || !T::KEPT || is_hopeless {
             return None;
         }
         let step = self.worn_part(blas, params.drift, (bytes / PLACED) as u32)?;
@@ -173,11 +174,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             .as_ref()
             .map(|part| (part.node, part.level))?;
         if tree.nodes.is_empty() {
-            let misfits = &mut self.blases[id.blas as usize].misfits;
-            if misfits.len() == MISFITS {
-                misfits.remove(0);
-            }
-            misfits.push(root);
+            self.blases[id.blas as usize].misfits.push(root);
             self.drop_stage(id.blas);
             return None;
         }

@@ -72,7 +72,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         for &node in &nodes {
             let number = self.top.number(node) as usize;
             self.top.moved[number] = 0;
-            self.top.tried[number] = since;
+            self.top.seen[number] = 0;
+            self.top.note_tried(number, since);
         }
         match above {
             None => self.set_root(nodes[0]),

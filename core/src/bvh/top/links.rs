@@ -25,6 +25,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.top.edits[number as usize] = 0;
         self.top.stirred[number as usize] = 0;
         self.top.moved[number as usize] = 0;
+        self.top.seen[number as usize] = 0;
         self.top.tried[number as usize] = 0;
         self.top.changes[number as usize] = 0;
         self.top.counted[number as usize] = 0;
@@ -61,6 +62,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.top.born.resize(numbers, 0);
         self.top.stirred.resize(numbers, 0);
         self.top.moved.resize(numbers, 0);
+        self.top.seen.resize(numbers, 0);
         self.top.tried.resize(numbers, 0);
         self.top.changes.resize(numbers, 0);
         self.top.counted.resize(numbers, 0);

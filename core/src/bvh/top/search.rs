@@ -196,7 +196,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         // As built, there is nothing to gain, and whatever has changed is to be built by those who say so.
         let drift = self.quality(node).drift();
         let is_worn = (drift > 1.0 && drift >= asked.worse)
-            || (asked.worse <= 1.0 && self.changes_since_tried(number as usize) > 0);
+            || (asked.worse <= 1.0 && self.top.seen[number as usize] > self.top.tried[number as usize]);
         (is_worn || self.is_untried(node, asked)).then_some(Worn::Part(node, is_worn))
     }
 
@@ -244,11 +244,11 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         has_nodes && asked.worse.is_finite() && (self.is_stirred(node) || self.is_rested(node, asked))
     }
 
-    /// Whether much below a node changed since it was tried, and nothing has for [`REST`] frames. What a tree lost is measured by flux and node
+    /// Whether much below a node changed since it was tried, and no more than little in a frame has for [`REST`] frames. What a tree lost is measured by flux and node
     /// by node, and light reaches a point from dim lamps too: so each node is tried once when its lights have come to rest.
     fn is_rested(&self, node: u32, asked: Asked) -> bool {
         let number = self.top.number(node) as usize;
-        let changes = self.changes_since_tried(number);
+        let changes = self.top.changes[number];
         changes > 0
             && self.top.moved[number] <= asked.rests_since
             && u64::from(changes) * SHARE >= u64::from(self.top.counts[number])

@@ -1,45 +1,88 @@
 //! What there may be to gain below a node of the top level that it has not lost: what changed, and what was built anew, since it was tried.
 
+use super::Top;
 use super::rebuild::{PART, TopTree};
 use crate::bvh::{Bvh, Trails};
 use crate::levels::Levels;
 use crate::node::Node;
 use crate::tree::INVALID;
 
+/// A frame in which fewer than one in so many instances below a node changed is one in which it rests: a mesh that sways in every frame, or a
+/// lamp that flickers, keeps no node from being tried.
+const QUIET: u64 = 32;
+
 /// A sum of counts, which stays the greatest number once it is there.
 pub(super) fn bounded_sum(a: u32, b: u32) -> u32 {
     (u64::from(a) + u64::from(b)).min(u64::from(u32::MAX)) as u32
 }
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Changes of instances below a node of the top level, by number, since it was built or tried.
-    pub(in crate::bvh) fn changes_since_tried(&self, number: usize) -> u32 {
-        match self.top.moved[number] > self.top.tried[number] {
-            true => self.top.changes[number],
-            false => 0,
+impl Top {
+    /// The node of that number was built, or tried to build anew, from what there was at the epoch `since`. What changed after it is still to be tried.
+    pub(super) fn note_tried(&mut self, number: usize, since: u64) {
+        self.tried[number] = since;
+        if self.moved[number] <= since {
+            self.changes[number] = 0;
         }
     }
+}
 
-    /// Counts the changes of instances, and children that came and went, at all nodes above them, of which `top` lists each with all above.
-    pub(in crate::bvh) fn note_changes(&mut self, instances: &[u32], top: &Levels) {
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+    /// Counts the changes of instances, and children that came and went, at all nodes above them, of which `top` lists each with all above. Of
+    /// `refitted` instances those count that were edited since the last count, and all of `swept` bottom levels: that some of a mesh's triangles
+    /// changed, or that its tree is another, is nothing to the top level, as long as its flux is about the same. `all` are those and these.
+    pub(in crate::bvh) fn note_changes(
+        &mut self,
+        refitted: &[u32],
+        swept: &[u32],
+        all: &[u32],
+        top: &Levels,
+    ) {
         let now = self.epoch + 1;
+        let since = core::mem::replace(&mut self.top.counted_at, self.epoch);
         let mut counted = core::mem::take(&mut self.top.counted);
-        for &instance in instances {
-            let number = self.top.number(self.placed[instance as usize].node);
+        let mut count = |leaf: u32| {
+            let number = self.top.number(self.placed[leaf as usize].node);
             if number != INVALID {
                 counted[number as usize] += 1;
+            }
+        };
+        for &leaf in refitted {
+            let placed = &self.placed[leaf as usize];
+            let whole = match placed.part_of {
+                INVALID => placed,
+                whole => &self.placed[whole as usize],
+            };
+            if whole.changed > since {
+                count(leaf);
+            }
+        }
+        for &blas in swept {
+            let users = &self.meshes[self.blases[blas as usize].mesh as usize].users;
+            let leaves = users.iter().flat_map(|&user| self.leaves_of(user));
+            leaves.for_each(&mut count);
+        }
+        for &leaf in all {
+            let number = self.top.number(self.placed[leaf as usize].node);
+            if number != INVALID {
+                self.top.seen[number as usize] = now;
             }
         }
         // Each after those below it.
         for &node in top.nodes() {
             let number = self.top.number(node) as usize;
             let count = core::mem::take(&mut counted[number]);
-            if count > 0 {
-                self.top.changes[number] = bounded_sum(self.changes_since_tried(number), count);
-                self.top.moved[number] = now;
-                let above = self.top.number(self.parents[node as usize]);
-                if above != INVALID {
-                    counted[above as usize] += count;
+            // A node that was built since the last refit was built of what it finds.
+            if count > 0 && self.top.tried[number] < now {
+                self.top.changes[number] = bounded_sum(self.top.changes[number], count);
+                if u64::from(count) * QUIET >= u64::from(self.top.counts[number]) {
+                    self.top.moved[number] = now;
+                }
+            }
+            let above = self.top.number(self.parents[node as usize]);
+            if above != INVALID {
+                counted[above as usize] += count;
+                if self.top.seen[number] == now {
+                    self.top.seen[above as usize] = now;
                 }
             }
         }
@@ -55,7 +98,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             if let Some(node) = self.node_of(part) {
                 if tree.kept.is_empty() || self.top.counts[part.number as usize] > PART {
                     self.judge_new(node);
-                    self.top.tried[part.number as usize] = since;
+                    self.top.note_tried(part.number as usize, since);
                 } else {
                     self.judge_list(&[node]);
                 }
@@ -80,5 +123,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// The same of one node, by number.
     pub(in crate::bvh) fn stir_one(&mut self, number: usize, count: u32) {
         self.top.stirred[number] = bounded_sum(self.top.stirred[number], count);
+    }
+
+    /// So many instances below the node of that number are others than it was built for: it is to be tried, and once more when it rests.
+    pub(in crate::bvh) fn unsettle_one(&mut self, number: usize, count: u32) {
+        self.stir_one(number, count);
+        self.top.changes[number] = bounded_sum(self.top.changes[number], count);
+        self.top.moved[number] = self.epoch + 1;
     }
 }
