@@ -5,9 +5,9 @@ use glam::Vec4;
 use crate::exact;
 
 /// Ranges of numbers are at most this long, 2^22: their sums are exact in `f32`.
-pub(super) const FULL: u32 = 1 << 22;
+pub(crate) const FULL: u32 = 1 << 22;
 /// Bits of [`FULL`].
-pub(super) const FULL_BITS: u32 = 22;
+pub(crate) const FULL_BITS: u32 = 22;
 
 /// Share of a range that is given out by weight, 1 − 2^-15. The sum of up to 16 weights, its reciprocal, the rounding of
 /// shares and the numbers that the least weights are raised to are together too large by less than the rest, which goes to
@@ -19,7 +19,7 @@ const COUNTS: f32 = 8_388_608.0;
 
 /// The numbers of a range that choose a child.
 #[derive(Clone, Copy)]
-pub(super) struct Share {
+pub(crate) struct Share {
     pub slot: u32,
     /// The first of them.
     pub first: u32,
@@ -30,7 +30,7 @@ pub(super) struct Share {
 /// Shares the numbers `0..range` out among the children, to each at least one where its weight is positive. Returns the share
 /// that holds `number`, or with `follow` the share of `wanted`, which is below 16.
 #[inline(always)]
-pub(super) fn choose<const W: usize>(
+pub(crate) fn choose<const W: usize>(
     weights: &[f32; W],
     range: u32,
     number: u32,

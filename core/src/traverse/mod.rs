@@ -20,6 +20,7 @@ mod tests;
 mod walk;
 mod widest;
 
+pub(crate) use choose::{FULL, FULL_BITS, choose};
 pub use random::Random64;
 pub use sample::SampledLight;
 

@@ -1,0 +1,69 @@
+//! Suns.
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::error::LightError;
+use crate::exact;
+use crate::light::{MAX_RADIANCE, MIN_RADIANCE};
+use crate::point::ShadingPoint;
+use crate::vector::dot;
+use glam::Vec3;
+
+/// The same light from one direction, wherever a point is.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct DistantLight {
+    /// Unit vector towards the light.
+    pub direction: [f32; 3],
+    /// Irradiance of a surface that faces it, W/m², linear RGB; zero or in [`MIN_RADIANCE`]`..=`[`MAX_RADIANCE`].
+    pub irradiance: [f32; 3],
+}
+
+impl DistantLight {
+    /// Brings the light into the domain of this crate, or says why it cannot be: a direction whose length is not 1 up to
+    /// [`NORMAL_TOLERANCE`](crate::error::NORMAL_TOLERANCE), an irradiance that is not finite, negative or out of range.
+    ///
+    /// # Errors
+    /// [`LightError::Axis`] or [`LightError::Emission`].
+    pub fn checked(mut self) -> Result<Self, LightError> {
+        let point = ShadingPoint {
+            p: [0.0; 3],
+            n: self.direction,
+        };
+        let is_none = self.direction == [0.0; 3];
+        match point.checked() {
+            Ok(point) if !is_none => self.direction = point.n,
+            _ => {
+                return Err(LightError::Axis { axis: self.direction });
+            }
+        }
+        for channel in 0..3 {
+            let value = self.irradiance[channel];
+            if value != 0.0 && !(MIN_RADIANCE..=MAX_RADIANCE).contains(&value) {
+                return Err(LightError::Emission {
+                    what: "distant light",
+                    channel,
+                    value,
+                });
+            }
+            self.irradiance[channel] = exact::flush(value, MIN_RADIANCE);
+        }
+        Ok(self)
+    }
+
+    /// What a receiver gets where nothing is between, W/m²: irradiance times the cosine at its normal, which in a volume is 1.
+    #[inline(always)]
+    #[must_use]
+    pub fn irradiance_at(&self, receiver: &ShadingPoint) -> [f32; 3] {
+        let n = receiver.normal();
+        let in_volume = (n.x == 0.0) & (n.y == 0.0) & (n.z == 0.0);
+        let d = Vec3::new(self.direction[0], self.direction[1], self.direction[2]);
+        let cosine = exact::flush(exact::max(dot(d, n), 0.0), exact::pow2(-24));
+        let cosine = if in_volume { 1.0 } else { cosine };
+        [
+            self.irradiance[0] * cosine,
+            self.irradiance[1] * cosine,
+            self.irradiance[2] * cosine,
+        ]
+    }
+}

@@ -1,0 +1,277 @@
+//! What is chosen has the probability that is told, by every measure there is.
+
+extern crate std;
+
+use std::vec::Vec;
+
+use super::environment::start_of;
+use super::*;
+use crate::exact::hash;
+use crate::kit::Random;
+use crate::traverse::Random64;
+
+/// Of directions and of places there is one each.
+#[test]
+fn places_and_directions_undo_each_other() {
+    let n = 257;
+    for k in 0..n * n {
+        let place = [k % n, k / n].map(|x| (x as f32 + 0.5) * 2.0 / n as f32 - 1.0);
+        let d = direction_at(place);
+        let length: f64 = d.iter().map(|&x| f64::from(x) * f64::from(x)).sum();
+        assert!((length - 1.0).abs() < 1e-6, "{length}");
+        let again = place_of(d);
+        assert!(
+            (0..2).all(|k| (again[k] - place[k]).abs() < 1e-6),
+            "{place:?} {again:?}"
+        );
+        let longer = place_of(d.map(|x| x * 1e9));
+        assert!((0..2).all(|k| (longer[k] - place[k]).abs() < 1e-6));
+    }
+    assert_eq!(direction_at([0.0, 0.0]), [0.0, 1.0, 0.0]);
+    assert_eq!(direction_at([1.0, 1.0]), [0.0, -1.0, 0.0]);
+    assert_eq!(direction_at([0.0, -1.0]), [0.0, 0.0, -1.0]);
+}
+
+/// The sphere has 4 pi steradians, and each texel its share.
+#[test]
+fn densities_are_those_over_solid_angle() {
+    let n = 512;
+    let mut all = 0.0_f64;
+    for k in 0..n * n {
+        let place = [k % n, k / n].map(|x| (x as f32 + 0.5) * 2.0 / n as f32 - 1.0);
+        all += 4.0 / f64::from(n * n) / f64::from(octahedron::cubed_distance(direction_at(place)));
+    }
+    assert!((all / (4.0 * core::f64::consts::PI) - 1.0).abs() < 1e-4, "{all}");
+}
+
+fn sky(size: u32) -> Environment {
+    Environment::from_fn(size, |[x, y, z]| {
+        let sun = if x * 0.6 + y * 0.8 > 0.99 { 1e4 } else { 0.0 };
+        let dark = if z > 0.7 { 0.0 } else { 1.0 };
+        [0.1 * dark + sun, dark * y.max(0.0) + sun, 0.3 * dark + sun]
+    })
+    .expect("a sky")
+}
+
+/// Exhaustive: each texel is chosen by exactly as many numbers as its pmf says.
+#[test]
+fn each_texel_has_its_share_of_the_numbers() {
+    let sky = sky(16);
+    let map = sky.map();
+    assert_eq!(map.counts[0], 1 << 31);
+    // Where its numbers begin is the sum of those before it.
+    let texels = &map.counts[start_of(map.levels) as usize..];
+    let mut before = 0_u32;
+    for (texel, &count) in (0..).zip(texels) {
+        assert_eq!(map.pmf(texel), count as f32 / (1_u32 << 31) as f32);
+        if count == 0 {
+            assert_eq!(map.radiance[texel as usize], [0.0; 3]);
+            continue;
+        }
+        for number in [before, before + count / 2, before + count - 1] {
+            let sampled = map.sample(
+                Random64 {
+                    high: number << 1,
+                    low: 0,
+                },
+                [0.5, 0.5],
+            );
+            assert_eq!((sampled.texel, sampled.pmf), (texel, map.pmf(texel)));
+        }
+        before += count;
+    }
+    assert_eq!(before, 1 << 31);
+}
+
+/// What a sample says of its direction is what anyone finds who comes from there.
+#[test]
+fn samples_and_queries_agree() {
+    for size in [1, 2, 32, 256] {
+        let sky = sky(size);
+        for k in 0..20_000 {
+            let uv = [hash(k), hash(k ^ 0x5555)].map(crate::exact::unit_f32);
+            let sampled = sky.sample(hash(k ^ 0x1234), uv);
+            // At the border of two texels rounding may name the other.
+            let texel = sky.map().texel_of(sampled.direction);
+            if texel == sampled.texel {
+                assert_eq!(
+                    sampled.density.to_bits(),
+                    sky.density(sampled.direction).to_bits()
+                );
+                assert_eq!(sampled.radiance, sky.radiance(sampled.direction));
+            } else {
+                assert!(uv.iter().any(|x| !(0.001..0.999).contains(x)), "{uv:?} of {size}");
+            }
+        }
+    }
+}
+
+/// Estimates of irradiance converge to the integral over all directions, for any normal.
+#[test]
+fn estimates_converge() {
+    let sky = sky(64);
+    for n in [[0.0, 1.0, 0.0], [0.6, 0.8, 0.0], [0.0, -1.0, 0.0]] {
+        let cosine = |d: [f32; 3]| (0..3).map(|k| f64::from(d[k]) * n[k]).sum::<f64>().max(0.0);
+        let fine = 1024;
+        let mut integral = 0.0;
+        for k in 0..fine * fine {
+            let place = [k % fine, k / fine].map(|x| (x as f32 + 0.5) * 2.0 / fine as f32 - 1.0);
+            let d = direction_at(place);
+            let angle = 4.0 / f64::from(fine * fine) / f64::from(octahedron::cubed_distance(d));
+            integral += f64::from(sky.radiance(d)[0]) * cosine(d) * angle;
+        }
+        let (mut sum, mut squares) = (0.0, 0.0);
+        let count = 200_000;
+        for k in 0..count {
+            let uv = [hash(k), hash(k ^ 0x5555)].map(crate::exact::unit_f32);
+            let sampled = sky.sample(hash(!k), uv);
+            let value =
+                f64::from(sampled.radiance[0]) * cosine(sampled.direction) / f64::from(sampled.density);
+            sum += value;
+            squares += value * value;
+        }
+        let mean = sum / f64::from(count);
+        let error = ((squares / f64::from(count) - mean * mean) / f64::from(count)).sqrt();
+        assert!(
+            (mean - integral).abs() < 4.0 * error + 1e-3 * integral,
+            "{n:?}: {mean} for {integral}, {error}"
+        );
+        // Nothing but the cosine and what a texel spans is left to chance.
+        assert!(
+            n[1] < 0.0 || error * f64::from(count).sqrt() < 2.0 * integral,
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn the_mean_is_that_of_all_directions() {
+    let even = Environment::from_fn(32, |_| [2.0; 3]).expect("a sky");
+    assert!((even.mean_luminance() - 2.0).abs() < 1e-5);
+    let half = Environment::from_fn(256, |[_, y, _]| [if y > 0.0 { 3.0 } else { 0.0 }; 3]).expect("a sky");
+    assert!((half.mean_luminance() - 1.5).abs() < 1e-2);
+}
+
+#[test]
+fn bad_input_is_refused_and_black_is_none() {
+    for found in [0, 3, 4096, u32::MAX] {
+        assert_eq!(
+            Environment::from_fn(found, |_| [1.0; 3]),
+            Err(EnvironmentError::Size { found })
+        );
+    }
+    for value in [f32::NAN, -1.0, f32::INFINITY, 1e35] {
+        let error = Environment::from_fn(4, |[x, ..]| if x > 0.5 { [1.0, value, 1.0] } else { [1.0; 3] });
+        let error = error.expect_err("refused");
+        assert!(matches!(error, EnvironmentError::Radiance { channel: 1, .. }));
+        assert!(std::format!("{error}").contains("green"));
+    }
+    let black = Environment::from_fn(8, |_| [0.0; 3]).expect("no light is no error");
+    let sampled = black.sample(7_u32, [0.5; 2]);
+    assert_eq!(
+        (sampled.pmf, sampled.density, sampled.texel),
+        (0.0, 0.0, u32::MAX)
+    );
+    let blue = Environment::from_fn(8, |_| [0.0, 0.0, 1e-29]).expect("hardly any");
+    assert!(blue.sample(7_u32, [0.5; 2]).pmf > 0.0);
+    for wrong in [[0.0; 3], [0.5, 0.0, 0.0], [f32::NAN, 1.0, 0.0]] {
+        let sun = DistantLight {
+            direction: wrong,
+            irradiance: [1.0; 3],
+        };
+        assert!(matches!(
+            sun.checked(),
+            Err(crate::error::LightError::Axis { .. })
+        ));
+    }
+    for value in [f32::NAN, -1.0, 1e35, 1e-38] {
+        let sun = DistantLight {
+            direction: [0.0, 1.0, 0.0],
+            irradiance: [1.0, value, 1.0],
+        };
+        assert!(matches!(
+            sun.checked(),
+            Err(crate::error::LightError::Emission { channel: 1, .. })
+        ));
+    }
+}
+
+/// Hostile words give some sample, or none; nothing panics or runs on.
+#[test]
+fn any_words_are_bounded() {
+    for k in 0..2000_u32 {
+        let counts: Vec<u32> = (0..hash(k) % 90)
+            .map(|i| hash(i ^ (k << 8)) >> (hash(k ^ i) % 33).min(31))
+            .collect();
+        let radiance: Vec<[f32; 3]> = (0..hash(!k) % 70)
+            .map(|i| [f32::from_bits(hash(i ^ k)); 3])
+            .collect();
+        let map = EnvironmentMap {
+            levels: k % 4,
+            counts: &counts,
+            radiance: &radiance,
+        };
+        let sampled = map.sample(hash(k ^ 77), [0.1, 0.9]);
+        assert!(sampled.texel == u32::MAX || sampled.texel < 1 << (2 * map.levels));
+        map.density([f32::from_bits(hash(k)), 0.3, f32::NAN]);
+        map.radiance([0.0; 3]);
+    }
+}
+
+/// Shares are exact: the numbers that lead to a source are those that its pmf says, and what is left of them is uniform.
+#[test]
+fn a_split_is_exact() {
+    let random = &mut Random(3);
+    for _ in 0..20 {
+        let weights: [f32; 5] = core::array::from_fn(|k| if k == 3 { 0.0 } else { random.unit().powi(6) });
+        let split = Split::new(weights);
+        let mut before = 0_u32;
+        let mut all = 0.0;
+        for index in 0..5 {
+            let pmf = split.pmf(index);
+            assert_eq!(pmf > 0.0, weights[index as usize] > 0.0);
+            all += f64::from(pmf);
+            let count = (pmf * (1 << 22) as f32) as u32;
+            if count == 0 {
+                continue;
+            }
+            for (number, part) in [
+                (before, 0.0),
+                (before + count / 2, 0.5),
+                (before + count - 1, 1.0),
+            ] {
+                let share = split.choose(Random64 {
+                    high: number << 10,
+                    low: 0,
+                });
+                assert_eq!((share.index, share.pmf), (index, pmf));
+                let rest = f64::from(share.rest.high) / 4_294_967_296.0;
+                assert!((rest - part).abs() <= 1.001 / f64::from(count), "{rest} {part}");
+            }
+            before += count;
+        }
+        assert_eq!((before, all), (1 << 22, 1.0));
+    }
+    let none = Split::new([0.0, f32::NAN, -1.0]).choose(5_u32);
+    assert_eq!((none.index, none.pmf), (3, 0.0));
+    assert_eq!(
+        Split::new([f32::INFINITY, 1.0]).pmf(0) + Split::new([f32::INFINITY, 1.0]).pmf(1),
+        1.0
+    );
+}
+
+/// What is left over is the quotient in 128 bits, so as uniform as what was given.
+#[test]
+fn what_is_left_is_the_quotient() {
+    let split = Split::new([1.0, 2.5, 0.3]);
+    for k in 0..50_000_u32 {
+        let bits = (u64::from(hash(k)) << 32) | u64::from(hash(!k));
+        let share = split.choose(bits);
+        let counts = [0, 1, 2].map(|index| (split.pmf(index) * (1 << 22) as f32) as u64);
+        let before: u64 = counts[..share.index as usize].iter().sum();
+        let within = u128::from(bits) - (u128::from(before) << 42);
+        let quotient = (within << 21) / u128::from(counts[share.index as usize]);
+        let found = (u64::from(share.rest.high) << 32) | u64::from(share.rest.low);
+        assert_eq!(u128::from(found >> 1), quotient);
+    }
+}
