@@ -10,6 +10,8 @@ use crate::tree::INVALID;
 
 /// A flux is another one from this factor on.
 const FACTOR: f32 = 2.0;
+/// Each mesh counts as so many instances at least: where one in 32 of a part is such there may be something to gain.
+const LEAST: u32 = 4;
 
 /// Flux of a mesh, in its own space, for which the top level was built or is to be built.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -73,20 +75,22 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 let index = self.meshes[mesh].users[user];
                 let flux = f64::from(greater) * f64::from(self.instances[index as usize].flux);
                 for leaf in self.leaves_of(index) {
-                    self.stir_by_flux(self.placed[leaf as usize].node, flux);
+                    self.unsettle_above(self.placed[leaf as usize].node, flux);
                 }
             }
         }
     }
 
-    /// The nodes from `node` up, of which each has so much flux below that is another one, count instances in that share as built anew.
-    fn stir_by_flux(&mut self, node: u32, flux: f64) {
-        let mut node = node;
+    /// Something below `node` and all above it has another flux, `flux` at most. What it outshines in a node is as good as unbuilt: that share
+    /// of its instances, and no fewer than of the node below, for what is little among all may be much where it is.
+    pub(super) fn unsettle_above(&mut self, node: u32, flux: f64) {
+        let (mut node, mut affected) = (node, LEAST);
         while node != INVALID {
             let number = self.top.number(node) as usize;
             let all = f64::from(self.nodes[node as usize].merged().phi());
             let share = if all > flux { flux / all } else { 1.0 };
-            self.unsettle_one(number, (share * f64::from(self.top.counts[number])) as u32);
+            affected = affected.max((share * f64::from(self.top.counts[number])) as u32);
+            self.unsettle_one(number, affected);
             node = self.parents[node as usize];
         }
     }

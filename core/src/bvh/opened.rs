@@ -217,6 +217,11 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 }
                 let leaves: Vec<u32> = self.leaves_of(index).collect();
                 self.insert_instances(&leaves);
+                // The tree was built over what it was before.
+                for leaf in leaves {
+                    let flux = f64::from(self.in_world(leaf).phi());
+                    self.unsettle_above(self.placed[leaf as usize].node, flux);
+                }
             }
         }
     }

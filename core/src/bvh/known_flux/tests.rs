@@ -123,7 +123,8 @@ fn what_outshines_others_gets_a_tree_while_it_changes() {
         "{brighter:?}"
     );
     let blinking = swaps_after(|frame| if frame % 2 == 0 { 900.0 } else { 0.09 });
-    assert!(blinking.iter().all(|&frame| frame < 20), "{blinking:?}");
+    // And once where it rests but for that.
+    assert!(blinking.iter().all(|&frame| frame <= 20), "{blinking:?}");
 }
 
 /// By `eager` whatever has changed is built, as good as it may be.
