@@ -115,7 +115,7 @@ impl Environment {
                 if value < MIN_RADIANCE { 0.0 } else { value }
             });
             // A channel that luminance hardly sees is light all the same.
-            let luminance = luminance_of(&own).max(own.iter().sum::<f32>() * 0.01);
+            let luminance = crate::exact::max(luminance_of(&own), own.iter().sum::<f32>() * 0.01);
             weights.push(f64::from(luminance) * angle);
             all.push(own);
         }

@@ -196,19 +196,16 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
             }
             // It may have gone, or been built by another.
             let is_worn = scene.is_worn(blas, &params.rebuild);
-            match is_worn.then(|| scene.begin_stage(blas, &self.builder)).flatten() {
-                Some((id, job)) => {
-                    let at = self.make_room(job, params.after, thread);
-                    self.under_way.push(Flight {
-                        id,
-                        blas,
-                        is_part: false,
-                        at,
-                    });
-                    begun += 1;
-                }
-                // It is asked for again where it gets worse.
-                None => {}
+            // What is not worn is asked for again where it gets worse.
+            if let Some((id, job)) = is_worn.then(|| scene.begin_stage(blas, &self.builder)).flatten() {
+                let at = self.make_room(job, params.after, thread);
+                self.under_way.push(Flight {
+                    id,
+                    blas,
+                    is_part: false,
+                    at,
+                });
+                begun += 1;
             }
         }
         if begun < free {
