@@ -42,7 +42,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// It is another BVH, so it has ids of its own: [`mesh_id`](Self::mesh_id) and [`instance_id`](Self::instance_id) give them by
     /// the indices, which stay; a program that keeps ids in a file keeps [`InstanceId::index`](super::InstanceId::index) and
     /// [`MeshId::index`](super::MeshId::index) in their place. A `Rebuilder` of the one that was written knows nothing of it: it starts with a
-    /// new one. What was planned for a mirror is not written: one takes all arrays over, as
+    /// new one; where both are to go on alike, so does the one that was written. What was planned for a mirror is not written: one takes all arrays over, as
     /// `lightbvh_gpu::Mirror` does by itself.
     ///
     /// The words may be anything that gives a sound light BVH, damaged ones too: there is no checksum, and a turned bit may be another
