@@ -158,3 +158,54 @@ fn files_tell_it() {
         assert_eq!(known(read), known(&bvh));
     }
 }
+
+/// Each instance counts, by its own flux, for what it outshines in each node above: the root's share is that of its instances, and no node counts fewer
+/// than the one below.
+#[test]
+fn what_is_outshone_counts() {
+    let (mut bvh, meshes) = scene(100);
+    let mesh = meshes[2];
+    let add = |radiance, x| Edit::AddInstance {
+        mesh,
+        transform: Transform::at([x, 50.0, 50.0]),
+        radiance,
+    };
+    bvh.apply(std::vec![add(0.5, 5.0), add(0.25, 95.0)])
+        .expect("two more");
+    bvh.refit();
+    let blas = bvh.meshes[mesh.index() as usize].blas;
+    let before = bvh.top.stirred.clone();
+    bvh.set_triangle_range(mesh, 0, mesh_of(3, 120.0))
+        .expect("its own");
+    bvh.refit();
+    let root = bvh.top.root;
+    let number = bvh.top.number(root) as usize;
+    let all = f64::from(bvh.nodes[root as usize].merged().phi());
+    let count = f64::from(bvh.top.counts[number]);
+    let phi = f64::from(bvh.root_of(blas).phi());
+    let users = bvh.meshes[mesh.index() as usize].users.clone();
+    assert_eq!(users.len(), 3);
+    let mut expected = 0;
+    for &user in &users {
+        assert!(bvh.placed[user as usize].parts.is_empty(), "one leaf each");
+        let share = phi * f64::from(bvh.instances[user as usize].flux) / all;
+        assert!(share > 0.05 && share < 0.9, "{share}");
+        expected += ((share * count) as u32).max(LEAST);
+    }
+    let found = bvh.top.stirred[number] - before[number];
+    assert!(
+        (expected..expected + 12).contains(&found),
+        "{found} for {expected}"
+    );
+    for &user in &users {
+        let mut node = bvh.placed[user as usize].node;
+        let mut below = LEAST;
+        while node != INVALID {
+            let number = bvh.top.number(node) as usize;
+            assert!(bvh.top.stirred[number] >= below, "{node}");
+            assert!(bvh.top.changes[number] >= LEAST);
+            below = bvh.top.stirred[number];
+            node = bvh.parents[node as usize];
+        }
+    }
+}
