@@ -213,6 +213,10 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
         let meshes = self
             .meshes
             .begin_frame(scene, &self.params, self.start, &mut start);
+        if meshes == Err(RebuildError::Foreign) {
+            // What it would have built of the other is still to be built.
+            self.taken = None;
+        }
         self.begin_flight(scene, &mut start)?;
         meshes?;
         Ok(start)
@@ -274,7 +278,10 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
             scene.search_again(&mut self.search);
         }
         if self.flight.is_some()
-            || (self.taken == Some(now) && self.search.is_done() && !self.meshes.has_small())
+            || (self.taken == Some(now)
+                && self.search.is_done()
+                && !self.meshes.has_small()
+                && !self.meshes.has_lost())
         {
             return;
         }

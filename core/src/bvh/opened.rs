@@ -217,8 +217,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 }
                 let leaves: Vec<u32> = self.leaves_of(index).collect();
                 self.insert_instances(&leaves);
-                // The tree was built over what it was before.
-                for leaf in leaves {
+                // The tree was built over what it was before. Among few others it has been decided anew.
+                for leaf in self.leaves_of(index) {
                     let flux = f64::from(self.in_world(leaf).phi());
                     self.unsettle_above(self.placed[leaf as usize].node, flux);
                 }

@@ -23,6 +23,8 @@ pub(super) struct Meshes<N: Holds, const W: usize> {
     waiting: Queue,
     /// Those that changed and are worth keeping, of which parts may not be.
     strained: Queue,
+    /// Those whose trees came to nothing since the last frame ended.
+    lost: Vec<u32>,
     /// Small ones, which are put in place at once, as many as a frame has room for.
     small: Queue,
     /// Threads that have nothing to do, and those whose results nobody waits for.
@@ -75,6 +77,7 @@ impl<N: Holds, const W: usize> Default for Meshes<N, W> {
             under_way: Vec::new(),
             waiting: Queue::default(),
             strained: Queue::default(),
+            lost: Vec::new(),
             small: Queue::default(),
             idle: Vec::new(),
             leaving: Vec::new(),
@@ -104,6 +107,11 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
             || !self.small.is_empty()
     }
 
+    /// Whether any came to nothing that may still be wanted.
+    pub fn has_lost(&self) -> bool {
+        !self.lost.is_empty()
+    }
+
     /// Whether small meshes wait.
     pub fn has_small(&self) -> bool {
         !self.small.is_empty()
@@ -117,6 +125,9 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
         scene: &Bvh<N, I, W, T>,
         params: &RebuilderParams,
     ) {
+        let lost = core::mem::take(&mut self.lost).into_iter();
+        let lost = lost.filter(|&blas| scene.is_worn(blas, &params.rebuild));
+        let worn: Vec<u32> = lost.chain(worn).collect();
         for blas in strained {
             if scene.blas_len(blas) > most_at_once(params) {
                 self.strained.push(blas);
@@ -325,12 +336,14 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
             *count += 1;
             // Nobody asks for it again: what changed while it was built may have worn the new tree already, and what came to nothing is as
             // worn as it was. A mesh of which a part found no tree may have other parts.
-            if flight.is_part {
-                if !is_adopted {
-                    self.strained.push(flight.blas);
+            match (flight.is_part, is_adopted) {
+                (true, true) => {}
+                (true, false) => self.strained.push(flight.blas),
+                (false, true) if scene.is_worn(flight.blas, &params.rebuild) => {
+                    self.waiting.push(flight.blas)
                 }
-            } else if scene.has(id) && scene.is_worn(flight.blas, &params.rebuild) {
-                self.waiting.push(flight.blas);
+                (false, true) => {}
+                (false, false) => self.lost.push(flight.blas),
             }
         }
         result

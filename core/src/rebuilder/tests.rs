@@ -147,6 +147,17 @@ fn a_large_mesh_of_another_is_an_error() {
     copy.refit();
     rebuilder.end_frame(&copy);
     assert_eq!(rebuilder.begin_frame(&mut copy).expect("its own").under_way, 1);
+    // The first is not forgotten.
+    assert_eq!(rebuilder.begin_frame(&mut bvh), Err(RebuildError::Foreign));
+    let mut adopted = 0;
+    for _ in 0..200 {
+        bvh.refit();
+        rebuilder.end_frame(&bvh);
+        adopted += rebuilder.begin_frame(&mut bvh).expect("its own").adopted;
+    }
+    assert_eq!(adopted, 1);
+    bvh.validate().expect("valid");
+    rebuilder.end_frame(&copy);
     rebuilder.detach();
     copy.validate().expect("valid");
 }

@@ -310,3 +310,23 @@ fn opened_instances_that_moved_are_read_as_they_were() {
         assert!(again.to_words() == bvh.to_words(), "{step}");
     }
 }
+
+/// An instance that is opened among so few others that the top level is built anew, which closes it again: nothing is asked of what it was.
+#[test]
+fn what_is_closed_as_it_is_opened_is_left_alone() {
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(ring(300, 5.0, 0.0)).expect("a mesh");
+    let ids = [1.0, 1e-9].map(|radiance| {
+        bvh.add_instance(mesh, Transform::IDENTITY).expect("one");
+        let id = bvh.instance_id(bvh.live.len() as u32 - 1).expect("there");
+        bvh.set_radiance(id, radiance).expect("there");
+        id
+    });
+    bvh.refit();
+    let dim = ids[1].index();
+    assert!(bvh.placed[dim as usize].parts.is_empty());
+    bvh.reopen(&[dim], &[]);
+    bvh.refit();
+    bvh.validate().expect("valid");
+    assert!(bvh.placed[dim as usize].parts.is_empty(), "closed again");
+}
