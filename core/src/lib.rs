@@ -91,7 +91,6 @@ extern crate std;
 pub mod error;
 pub mod exact;
 pub mod importance;
-pub mod infinite;
 pub mod light;
 pub mod node;
 pub mod refit;

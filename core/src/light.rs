@@ -15,6 +15,7 @@
 //! [`Light::point_for`] gives a [`LightPoint`] on each of them, [`LightPoint::irradiance`] what that sends. Builders, refits, samples, pmfs,
 //! instances, edits, rebuilds and files are the same for all; so are mirrors on devices:
 //! `lightbvh_gpu::KernelSet::ANY` are the kernels over [`AnyLight`]. The reference renderer knows triangles alone.
+//! Environment maps and suns stand beside the tree: [`infinite`].
 //!
 //! **Instances scale.** The top level knows how flux grows with an instance's scale: with area where lights are surfaces, with volume where
 //! they are boxes, not at all where they are points and spots ([`Light::FLUX_POWER`]). It takes one rule for all lights of a mesh. A mesh of
@@ -23,6 +24,7 @@
 
 mod any;
 mod flat;
+pub mod infinite;
 mod point;
 mod punctual;
 mod record;

@@ -6,7 +6,7 @@
 //!
 //! ```
 //! # #[cfg(feature = "alloc")] {
-//! use lightbvh::infinite::{DistantLight, Environment, Split};
+//! use lightbvh::light::infinite::{DistantLight, Environment, Split};
 //!
 //! // A sky that is brighter above, 64 texels wide.
 //! let sky = Environment::from_fn(64, |direction| [0.2 + 0.8 * direction[1].max(0.0); 3]).unwrap();
