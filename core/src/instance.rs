@@ -142,7 +142,14 @@ impl Instance {
 
     #[inline(always)]
     fn column(&self, k: usize) -> Vec3 {
-        vector(&self.columns[k])
+        // By a choice: rust-gpu inlines whatever has an index that might be out of bounds.
+        if k == 0 {
+            vector(&self.columns[0])
+        } else if k == 1 {
+            vector(&self.columns[1])
+        } else {
+            vector(&self.columns[2])
+        }
     }
 
     #[inline(always)]
@@ -194,8 +201,7 @@ impl Instance {
         );
         let mirrored = self.mirrors();
         let shines = self.radiance > 0.0 && has_flux(local);
-        let shine = |channel: usize| {
-            let l = local.radiance[channel];
+        let shine = |l: f32| {
             let scaled = exact::clamp(
                 l * self.radiance,
                 crate::light::MIN_RADIANCE,
@@ -205,7 +211,11 @@ impl Instance {
         };
         EmissiveTriangle {
             p: [a, if mirrored { c } else { b }, if mirrored { b } else { c }],
-            radiance: [shine(0), shine(1), shine(2)],
+            radiance: [
+                shine(local.radiance[0]),
+                shine(local.radiance[1]),
+                shine(local.radiance[2]),
+            ],
             mesh: index,
             flags: local.flags,
         }

@@ -88,11 +88,19 @@ impl EmissiveTriangle {
     /// Bit of [`flags`](Self::flags): the triangle emits from both faces.
     pub const TWO_SIDED: u32 = TWO_SIDED;
 
-    /// Vertex `k` in 0..3.
+    /// Vertex `k` in 0..3; the last one for any other.
     #[inline]
     #[must_use]
     pub fn vertex(&self, k: usize) -> Vec3 {
-        Vec3::new(self.p[k][0], self.p[k][1], self.p[k][2])
+        // By a choice: rust-gpu inlines whatever has an index that might be out of bounds.
+        let p = if k == 0 {
+            self.p[0]
+        } else if k == 1 {
+            self.p[1]
+        } else {
+            self.p[2]
+        };
+        Vec3::new(p[0], p[1], p[2])
     }
 
     /// Whether both faces emit.

@@ -9,7 +9,7 @@ pub(crate) use extent::Extent;
 
 use crate::exact;
 use crate::instance::Instance;
-use crate::light::{MAX_COORDINATE, MIN_COORDINATE};
+use crate::light::{Light, MAX_COORDINATE, MIN_COORDINATE};
 use vector::{cross, dot, greatest, magnitude};
 
 /// Entries of the maps below this count as zero: 2^-60.
@@ -53,6 +53,13 @@ impl Transform {
             columns: [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]],
             translation: [x[3], y[3], z[3]],
         }
+    }
+
+    /// `light` as it stands in the world where this map puts its mesh, as part of mesh light `mesh`: what a light BVH over instances makes of
+    /// it, to the bit.
+    #[must_use]
+    pub fn place<L: Light>(&self, light: &L, mesh: u32) -> L {
+        light.in_world(&self.instance_by(1.0, light.flux_power()), mesh)
     }
 
     /// Whether every entry is a number within the domain, and a mesh of that extent stays within it.

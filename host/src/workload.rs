@@ -1,6 +1,7 @@
 //! From a scene to what the backends run: arrays of a frame, light BVHs, queries.
 
 use lightbvh::exact::{hash, unit_f32};
+use lightbvh::node::{Holds, Node};
 use lightbvh::{BuildParams, Bvh, INVALID, LightNode, Lights, Random64, ShadingPoint};
 use lightbvh_kernels::query::Query;
 use lightbvh_kernels::render::RenderParams;
@@ -8,7 +9,7 @@ use lightbvh_kernels::render::RenderParams;
 use crate::backend::{Sampler, SceneArrays};
 use crate::error::HostError;
 use crate::render::{RayBvh, camera};
-use crate::scene::Scene;
+use crate::scene::{Scene, SceneLight};
 
 /// Image and frame of a rendering.
 #[derive(Clone, Copy, Debug)]
@@ -45,22 +46,41 @@ impl RenderSettings {
     }
 }
 
-/// The lights of `scene` at `frame`.
+/// The emissive triangles of `scene` at `frame`.
 ///
 /// # Errors
 /// [`HostError`] when there is none, or one is outside the domain.
 pub fn lights_at(scene: &Scene, frame: u32) -> Result<Lights, HostError> {
-    scene.require_lights()?;
-    Lights::new(scene.frame(frame).emissive).map_err(|error| HostError::in_frame(scene.name(), frame, error))
+    listed(scene, frame, scene.frame(frame).lights())
 }
 
-/// The arrays of `scene` at `frame` for an image of `width` × `height`.
+fn listed<L: SceneLight>(scene: &Scene, frame: u32, lights: Vec<L>) -> Result<Lights<L>, HostError> {
+    if lights.is_empty() {
+        scene.require_lights()?;
+    }
+    Lights::new(lights).map_err(|error| HostError::in_frame(scene.name(), frame, error))
+}
+
+/// The arrays of `scene` at `frame` for an image of `width` × `height`, lit by its emissive triangles.
 ///
 /// # Errors
-/// [`HostError`] when the scene has no lights, or is outside the domain of lights or rays.
+/// [`HostError`] when the scene has no such lights, or is outside the domain of lights or rays.
 pub fn arrays_at(scene: &Scene, frame: u32, width: u32, height: u32) -> Result<SceneArrays, HostError> {
-    let lights = lights_at(scene, frame)?;
+    arrays_lit_by(scene, frame, width, height)
+}
+
+/// [`arrays_at`], lit by all lights that type `L` holds.
+///
+/// # Errors
+/// As [`arrays_at`].
+pub fn arrays_lit_by<L: SceneLight>(
+    scene: &Scene,
+    frame: u32,
+    width: u32,
+    height: u32,
+) -> Result<SceneArrays<L>, HostError> {
     let data = scene.frame(frame);
+    let lights = listed(scene, frame, data.lights())?;
     let rays =
         RayBvh::build(&data.triangles).map_err(|error| HostError::in_frame(scene.name(), frame, error))?;
     Ok(SceneArrays::new(
@@ -72,8 +92,8 @@ pub fn arrays_at(scene: &Scene, frame: u32, width: u32, height: u32) -> Result<S
 }
 
 /// The light BVH that `sampler` walks; the other samplers walk none and get the two-level one.
-pub fn build<N: LightNode<W>, I, const W: usize>(
-    lights: &Lights,
+pub fn build<N: Node<W>, I, const W: usize>(
+    lights: &Lights<<N as Holds>::Light>,
     sampler: Sampler,
     params: &BuildParams,
 ) -> Bvh<N, I, W> {

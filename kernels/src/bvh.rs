@@ -1,18 +1,22 @@
 //! The light BVHs that the kernels are compiled for, and their picker for the renderer.
 
 use lightbvh::importance::{DefaultImportance, NativeMath};
-use lightbvh::node::DefaultNode;
+use lightbvh::light::AnyLight;
+use lightbvh::node::{DefaultNode, Holds, Lit, Node as Layout};
 use lightbvh::{
-    CompactNode, Defensive, Eq4, ImportanceModel, LightNode, LightTree, MomentNode, Moments, Random64,
+    CompactNode, Defensive, EmissiveTriangle, Eq4, ImportanceModel, LightTree, MomentNode, Moments, Random64,
     SampledLight, ShadingPoint,
 };
 
+use crate::shading::emitter::Emitter;
 use crate::shading::pick::PickLight;
 
 /// A layout with its importance: what one set of kernels is compiled for.
 pub trait Choice<const W: usize>: Copy + Send + Sync + 'static {
+    /// What the lights are.
+    type Light: Emitter;
     /// The node layout.
-    type Node: LightNode<W> + core::fmt::Debug;
+    type Node: Layout<W> + Holds<Light = Self::Light> + core::fmt::Debug;
     /// What children are chosen by.
     type Importance: ImportanceModel<Self::Node, W> + Clone + core::fmt::Debug + Send + Sync + 'static;
     /// Name for tables and options.
@@ -21,11 +25,17 @@ pub trait Choice<const W: usize>: Copy + Send + Sync + 'static {
     const SUFFIX: &'static str;
 }
 
+/// A choice over emissive triangles alone.
+pub trait TriangleChoice<const W: usize>: Choice<W, Light = EmissiveTriangle> {}
+
+impl<C: Choice<W, Light = EmissiveTriangle>, const W: usize> TriangleChoice<W> for C {}
+
 /// The paper's importance, Eq. 4, on quantised bounds, 4 children to a node.
 #[derive(Clone, Copy, Debug)]
 pub struct Paper;
 
 impl Choice<4> for Paper {
+    type Light = EmissiveTriangle;
     type Node = CompactNode<4>;
     type Importance = Eq4;
     const NAME: &'static str = "eq4";
@@ -38,6 +48,7 @@ impl Choice<4> for Paper {
 pub struct Standard;
 
 impl Choice<WIDTH> for Standard {
+    type Light = EmissiveTriangle;
     type Node = Node;
     type Importance = DefaultImportance;
     const NAME: &'static str = "moments";
@@ -50,6 +61,7 @@ impl Choice<WIDTH> for Standard {
 pub struct Native;
 
 impl Choice<WIDTH> for Native {
+    type Light = EmissiveTriangle;
     type Node = Node;
     type Importance = Defensive<Moments<NativeMath>, 6>;
     const NAME: &'static str = "native moments";
@@ -61,6 +73,7 @@ impl Choice<WIDTH> for Native {
 pub struct Narrow;
 
 impl Choice<4> for Narrow {
+    type Light = EmissiveTriangle;
     type Node = MomentNode<4>;
     type Importance = DefaultImportance;
     const NAME: &'static str = "moments, 4 children";
@@ -72,16 +85,31 @@ impl Choice<4> for Narrow {
 pub struct Wide;
 
 impl Choice<16> for Wide {
+    type Light = EmissiveTriangle;
     type Node = MomentNode<16>;
     type Importance = DefaultImportance;
     const NAME: &'static str = "moments, 16 children";
     const SUFFIX: &'static str = "_wide";
 }
 
+/// The default over lights of any kind.
+#[derive(Clone, Copy, Debug)]
+pub struct Kinds;
+
+impl Choice<WIDTH> for Kinds {
+    type Light = AnyLight;
+    type Node = AnyNode;
+    type Importance = DefaultImportance;
+    const NAME: &'static str = "moments";
+    const SUFFIX: &'static str = AnyLight::SUFFIX;
+}
+
 /// Children per node of [`Standard`].
 pub const WIDTH: usize = 8;
 /// Node of [`Standard`].
 pub type Node = DefaultNode;
+/// Node over lights of any kind: the words of [`Node`].
+pub type AnyNode = Lit<Node, AnyLight>;
 
 /// The node of a choice that is made for one width only: what a kernel's buffer holds.
 pub type NodeOf<C> = <C as Kernels>::Node;
@@ -94,6 +122,10 @@ pub trait Kernels {
 
 impl Kernels for Standard {
     type Node = Node;
+}
+
+impl Kernels for Kinds {
+    type Node = AnyNode;
 }
 
 impl Kernels for Native {
@@ -116,7 +148,7 @@ impl Kernels for Paper {
 pub type TreeOf<'a, C, const W: usize> =
     LightTree<'a, <C as Choice<W>>::Node, <C as Choice<W>>::Importance, W>;
 
-impl<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize> PickLight for LightTree<'_, N, I, W> {
+impl<N: Layout<W>, I: ImportanceModel<N, W>, const W: usize> PickLight for LightTree<'_, N, I, W> {
     #[inline]
     fn pick(&self, point: &ShadingPoint, random: Random64) -> SampledLight {
         self.sample(point, random)

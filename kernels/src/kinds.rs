@@ -1,21 +1,17 @@
-//! Passes over lights of any kind, [`AnyLight`]: `refit_bottom_any`, `refit_top_any` and `light_points_any`. Nodes are the default's, so
-//! `refit_roots`, `sample` and `pmf` are those of triangles.
+//! Passes over lights of any kind, [`AnyLight`]: `refit_bottom_any`, `refit_top_any` and `light_points_any`; those that render stand beside
+//! the ones over triangles. Nodes are the default's, so `refit_roots`, `sample` and `pmf` are those of triangles.
 
 use glam::UVec3;
 use lightbvh::instance::world_light;
 use lightbvh::light::{AnyLight, Light};
-use lightbvh::node::Lit;
 use lightbvh::refit::{self, BlasRoot};
 use lightbvh::{Instance, LightPoint, SampledLight};
 use spirv_std::spirv;
 
-use crate::bvh::Node;
+pub use crate::bvh::AnyNode;
 use crate::invocation;
 use crate::query::{PointsPush, Query};
 use crate::refit::{RefitPush, bottom_pass, top_pass};
-
-/// Node over lights of any kind: the words of [`Node`].
-pub type AnyNode = Lit<Node, AnyLight>;
 
 bottom_pass!(AnyNode, AnyLight, refit_bottom_any, "refit_bottom_any");
 top_pass!(AnyNode, refit_top_any, "refit_top_any");

@@ -3,13 +3,15 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{UVec3, Vec3};
 use lightbvh::exact::{div, hash};
+use lightbvh::light::AnyLight;
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
-use crate::bvh::{NodeOf, Paper, Standard, TreeOf};
+use crate::bvh::{Kinds, NodeOf, Paper, Standard, TreeOf};
 use crate::invocation;
 use crate::render::RenderParams;
 use crate::shading::camera::Camera;
+use crate::shading::emitter::Emitter;
 use crate::shading::grid::{TINY, flush_vector};
 use crate::shading::material::Material;
 use crate::shading::path::path_radiance;
@@ -23,8 +25,8 @@ use lightbvh::TreeWords;
 /// all paths of a pixel begin with the same camera ray, as the light samples of [`render_pixel`](crate::render::render_pixel).
 #[inline]
 #[must_use]
-pub fn path_pixel<P: PickLight>(
-    scene: &Scene<'_>,
+pub fn path_pixel<L: Emitter, P: PickLight>(
+    scene: &Scene<'_, L>,
     camera: &Camera,
     params: &RenderParams,
     bounces: u32,
@@ -72,7 +74,7 @@ pub struct PathPush {
 
 /// Pass `path_bvh` for one choice.
 macro_rules! path_pass {
-    ($choice:ty, $pass:ident, $name:tt) => {
+    ($choice:ty, $light:ty, $pass:ident, $name:tt) => {
         /// Paths with lights chosen from a light BVH of one or two levels.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -81,7 +83,7 @@ macro_rules! path_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[$light],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] nodes: &[NodeOf<$choice>],
@@ -105,64 +107,81 @@ macro_rules! path_pass {
     };
 }
 
-path_pass!(Standard, path_bvh, "path_bvh");
-path_pass!(Paper, path_bvh_eq4, "path_bvh_eq4");
+path_pass!(Standard, EmissiveTriangle, path_bvh, "path_bvh");
+path_pass!(Paper, EmissiveTriangle, path_bvh_eq4, "path_bvh_eq4");
+path_pass!(Kinds, AnyLight, path_bvh_any, "path_bvh_any");
 
-/// Paths with lights chosen in proportion to their power. `thresholds` is [`Power`]'s table.
-#[spirv(compute(threads(64), entry_point_name = "path_power"))]
-pub fn path_power(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(push_constant)] push: &PathPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] thresholds: &[u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] results: &mut [[f32; 3]],
-) {
-    let i = invocation(id);
-    if i < push.count {
-        let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
-        let picker = Power { thresholds };
-        results[i as usize] = path_pixel(
-            &scene,
-            &camera[0],
-            &push.params,
-            push.bounces,
-            &picker,
-            push.first.wrapping_add(i),
-        );
-    }
+/// Pass `path_power` for one type of light.
+macro_rules! path_power_pass {
+    ($light:ty, $pass:ident, $name:tt) => {
+        /// Paths with lights chosen in proportion to their power. `thresholds` is [`Power`]'s table.
+        #[spirv(compute(threads(64), entry_point_name = $name))]
+        pub fn $pass(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(push_constant)] push: &PathPush,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[$light],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] thresholds: &[u32],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] results: &mut [[f32; 3]],
+        ) {
+            let i = invocation(id);
+            if i < push.count {
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
+                let picker = Power { thresholds };
+                results[i as usize] = path_pixel(
+                    &scene,
+                    &camera[0],
+                    &push.params,
+                    push.bounces,
+                    &picker,
+                    push.first.wrapping_add(i),
+                );
+            }
+        }
+    };
 }
 
-/// Paths with lights chosen uniformly.
-#[spirv(compute(threads(64), entry_point_name = "path_uniform"))]
-pub fn path_uniform(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(push_constant)] push: &PathPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] results: &mut [[f32; 3]],
-) {
-    let i = invocation(id);
-    if i < push.count {
-        let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
-        let picker = Uniform {
-            count: triangles.len() as u32,
-        };
-        results[i as usize] = path_pixel(
-            &scene,
-            &camera[0],
-            &push.params,
-            push.bounces,
-            &picker,
-            push.first.wrapping_add(i),
-        );
-    }
+path_power_pass!(EmissiveTriangle, path_power, "path_power");
+path_power_pass!(AnyLight, path_power_any, "path_power_any");
+
+/// Pass `path_uniform` for one type of light.
+macro_rules! path_uniform_pass {
+    ($light:ty, $pass:ident, $name:tt) => {
+        /// Paths with lights chosen uniformly.
+        #[spirv(compute(threads(64), entry_point_name = $name))]
+        pub fn $pass(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(push_constant)] push: &PathPush,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[$light],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] results: &mut [[f32; 3]],
+        ) {
+            let i = invocation(id);
+            if i < push.count {
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
+                let picker = Uniform {
+                    count: triangles.len() as u32,
+                };
+                results[i as usize] = path_pixel(
+                    &scene,
+                    &camera[0],
+                    &push.params,
+                    push.bounces,
+                    &picker,
+                    push.first.wrapping_add(i),
+                );
+            }
+        }
+    };
 }
+
+path_uniform_pass!(EmissiveTriangle, path_uniform, "path_uniform");
+path_uniform_pass!(AnyLight, path_uniform_any, "path_uniform_any");

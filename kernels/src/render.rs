@@ -4,12 +4,14 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{UVec3, Vec3};
 use lightbvh::exact::hash;
+use lightbvh::light::AnyLight;
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
-use crate::bvh::{NodeOf, Paper, Standard, TreeOf};
+use crate::bvh::{Kinds, NodeOf, Paper, Standard, TreeOf};
 use crate::invocation;
 use crate::shading::camera::Camera;
+use crate::shading::emitter::Emitter;
 use crate::shading::material::Material;
 use crate::shading::numbers::Part;
 use crate::shading::pick::{PickLight, Power, Uniform};
@@ -57,8 +59,8 @@ const _: () = assert!(size_of::<RenderParams>() == 56);
 /// the upper left.
 #[inline]
 #[must_use]
-pub fn render_pixel<P: PickLight>(
-    scene: &Scene<'_>,
+pub fn render_pixel<L: Emitter, P: PickLight>(
+    scene: &Scene<'_, L>,
     camera: &Camera,
     params: &RenderParams,
     picker: &P,
@@ -107,7 +109,7 @@ pub struct RenderPush {
 
 /// Pass `render_bvh` for one choice.
 macro_rules! render_pass {
-    ($choice:ty, $pass:ident, $name:tt) => {
+    ($choice:ty, $light:ty, $pass:ident, $name:tt) => {
         /// Direct lighting by lights chosen from a light BVH of one or two levels.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -116,7 +118,7 @@ macro_rules! render_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[$light],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] nodes: &[NodeOf<$choice>],
@@ -139,62 +141,79 @@ macro_rules! render_pass {
     };
 }
 
-render_pass!(Standard, render_bvh, "render_bvh");
-render_pass!(Paper, render_bvh_eq4, "render_bvh_eq4");
+render_pass!(Standard, EmissiveTriangle, render_bvh, "render_bvh");
+render_pass!(Paper, EmissiveTriangle, render_bvh_eq4, "render_bvh_eq4");
+render_pass!(Kinds, AnyLight, render_bvh_any, "render_bvh_any");
 
-/// Direct lighting by lights chosen in proportion to their power. `thresholds` is [`Power`]'s table.
-#[spirv(compute(threads(64), entry_point_name = "render_power"))]
-pub fn render_power(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(push_constant)] push: &RenderPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] thresholds: &[u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] results: &mut [[f32; 3]],
-) {
-    let i = invocation(id);
-    if i < push.count {
-        let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
-        let picker = Power { thresholds };
-        results[i as usize] = render_pixel(
-            &scene,
-            &camera[0],
-            &push.params,
-            &picker,
-            push.first.wrapping_add(i),
-        );
-    }
+/// Pass `render_power` for one type of light.
+macro_rules! render_power_pass {
+    ($light:ty, $pass:ident, $name:tt) => {
+        /// Direct lighting by lights chosen in proportion to their power. `thresholds` is [`Power`]'s table.
+        #[spirv(compute(threads(64), entry_point_name = $name))]
+        pub fn $pass(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(push_constant)] push: &RenderPush,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[$light],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] thresholds: &[u32],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] results: &mut [[f32; 3]],
+        ) {
+            let i = invocation(id);
+            if i < push.count {
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
+                let picker = Power { thresholds };
+                results[i as usize] = render_pixel(
+                    &scene,
+                    &camera[0],
+                    &push.params,
+                    &picker,
+                    push.first.wrapping_add(i),
+                );
+            }
+        }
+    };
 }
 
-/// Direct lighting by lights chosen uniformly.
-#[spirv(compute(threads(64), entry_point_name = "render_uniform"))]
-pub fn render_uniform(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(push_constant)] push: &RenderPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] results: &mut [[f32; 3]],
-) {
-    let i = invocation(id);
-    if i < push.count {
-        let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
-        let picker = Uniform {
-            count: triangles.len() as u32,
-        };
-        results[i as usize] = render_pixel(
-            &scene,
-            &camera[0],
-            &push.params,
-            &picker,
-            push.first.wrapping_add(i),
-        );
-    }
+render_power_pass!(EmissiveTriangle, render_power, "render_power");
+render_power_pass!(AnyLight, render_power_any, "render_power_any");
+
+/// Pass `render_uniform` for one type of light.
+macro_rules! render_uniform_pass {
+    ($light:ty, $pass:ident, $name:tt) => {
+        /// Direct lighting by lights chosen uniformly.
+        #[spirv(compute(threads(64), entry_point_name = $name))]
+        pub fn $pass(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(push_constant)] push: &RenderPush,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[$light],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] results: &mut [[f32; 3]],
+        ) {
+            let i = invocation(id);
+            if i < push.count {
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
+                let picker = Uniform {
+                    count: triangles.len() as u32,
+                };
+                results[i as usize] = render_pixel(
+                    &scene,
+                    &camera[0],
+                    &push.params,
+                    &picker,
+                    push.first.wrapping_add(i),
+                );
+            }
+        }
+    };
 }
+
+render_uniform_pass!(EmissiveTriangle, render_uniform, "render_uniform");
+render_uniform_pass!(AnyLight, render_uniform_any, "render_uniform_any");

@@ -13,10 +13,11 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::UVec3;
+use lightbvh::light::AnyLight;
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
-use crate::bvh::{NodeOf, Paper, Standard, TreeOf};
+use crate::bvh::{Kinds, NodeOf, Paper, Standard, TreeOf};
 use crate::invocation;
 use crate::shading::camera::Camera;
 use crate::shading::emitters::Emitters;
@@ -49,35 +50,43 @@ pub struct RestirPush {
 
 const _: () = assert!(size_of::<RestirPush>() == 84);
 
-/// Pass 1 with candidates in proportion to power. `thresholds` is [`Power`]'s table.
-#[spirv(compute(threads(64), entry_point_name = "restir_initial_power"))]
-pub fn restir_initial_power(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(push_constant)] push: &RestirPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] thresholds: &[u32],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] gbuffer: &mut [Surface],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] reservoirs: &mut [PixelReservoir],
-) {
-    let i = invocation(id);
-    let pixel = push.first.wrapping_add(i);
-    if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-        let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
-        let surface = first_surface(&scene, &camera[0], &push.params, pixel);
-        let picker = Power { thresholds };
-        gbuffer[pixel as usize] = surface;
-        reservoirs[pixel as usize] = first_reservoir(&scene, &push.params, &picker, &surface, pixel);
-    }
+/// Pass `restir_initial_power` for one type of light.
+macro_rules! initial_power_pass {
+    ($light:ty, $pass:ident, $name:tt) => {
+        /// Pass 1 with candidates in proportion to power. `thresholds` is [`Power`]'s table.
+        #[spirv(compute(threads(64), entry_point_name = $name))]
+        pub fn $pass(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(push_constant)] push: &RestirPush,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[$light],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] thresholds: &[u32],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] gbuffer: &mut [Surface],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] reservoirs: &mut [PixelReservoir],
+        ) {
+            let i = invocation(id);
+            let pixel = push.first.wrapping_add(i);
+            if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
+                let surface = first_surface(&scene, &camera[0], &push.params, pixel);
+                let picker = Power { thresholds };
+                gbuffer[pixel as usize] = surface;
+                reservoirs[pixel as usize] = first_reservoir(&scene, &push.params, &picker, &surface, pixel);
+            }
+        }
+    };
 }
+
+initial_power_pass!(EmissiveTriangle, restir_initial_power, "restir_initial_power");
+initial_power_pass!(AnyLight, restir_initial_power_any, "restir_initial_power_any");
 
 /// Pass `restir_initial_bvh` for one choice.
 macro_rules! initial_pass {
-    ($choice:ty, $pass:ident, $name:tt) => {
+    ($choice:ty, $light:ty, $pass:ident, $name:tt) => {
         /// Pass 1 with candidates from the light BVH.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -86,7 +95,7 @@ macro_rules! initial_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[$light],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] nodes: &[NodeOf<$choice>],
@@ -107,193 +116,272 @@ macro_rules! initial_pass {
     };
 }
 
-initial_pass!(Standard, restir_initial_bvh, "restir_initial_bvh");
-initial_pass!(Paper, restir_initial_bvh_eq4, "restir_initial_bvh_eq4");
+initial_pass!(
+    Standard,
+    EmissiveTriangle,
+    restir_initial_bvh,
+    "restir_initial_bvh"
+);
+initial_pass!(
+    Paper,
+    EmissiveTriangle,
+    restir_initial_bvh_eq4,
+    "restir_initial_bvh_eq4"
+);
+initial_pass!(Kinds, AnyLight, restir_initial_bvh_any, "restir_initial_bvh_any");
 
-/// Pass 2 without bias; `before_*` is the frame before, `before_camera` its camera.
-#[spirv(compute(threads(64), entry_point_name = "restir_temporal_unbiased"))]
-pub fn restir_temporal_unbiased(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(push_constant)] push: &RestirPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] before_ray_nodes: &[RayNode],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] before_surfaces: &[TriangleBlock],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] before_triangles: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] before_instances: &[Instance],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] to_previous: &[[u32; 2]],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] triangles: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] instances: &[Instance],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] before_camera: &[Camera],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 9)] before_gbuffer: &[Surface],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 10)] before_reservoirs: &[PixelReservoir],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 11)] to_current: &[[u32; 2]],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 12)] gbuffer: &[Surface],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 13)] reservoirs: &mut [PixelReservoir],
-) {
-    let i = invocation(id);
-    let pixel = push.first.wrapping_add(i);
-    if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-        let emitters = Emitters { triangles, instances };
-        let combine = Unbiased {
-            surfaces: Surfaces {
-                nodes: before_ray_nodes,
-                blocks: before_surfaces,
-            },
-            emitters: Emitters {
-                triangles: before_triangles,
-                instances: before_instances,
-            },
-        };
-        let before = Before {
-            camera: &before_camera[0],
-            gbuffer: before_gbuffer,
-            reservoirs: before_reservoirs,
-            to_current,
-        };
-        let surface = gbuffer[pixel as usize];
-        let current = reservoirs[pixel as usize];
-        reservoirs[pixel as usize] = temporal(
-            &combine,
-            materials,
-            &emitters,
-            &before,
-            to_previous,
-            &push.params,
-            &surface,
-            current,
-            pixel,
-        );
-    }
+/// Pass `restir_temporal_unbiased` for one type of light.
+macro_rules! temporal_unbiased_pass {
+    ($light:ty, $pass:ident, $name:tt) => {
+        /// Pass 2 without bias; `before_*` is the frame before, `before_camera` its camera.
+        #[spirv(compute(threads(64), entry_point_name = $name))]
+        pub fn $pass(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(push_constant)] push: &RestirPush,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] before_ray_nodes: &[RayNode],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] before_surfaces: &[TriangleBlock],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] before_triangles: &[$light],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] before_instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] to_previous: &[[u32; 2]],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] materials: &[Material],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] triangles: &[$light],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] before_camera: &[Camera],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 9)] before_gbuffer: &[Surface],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 10)] before_reservoirs: &[PixelReservoir],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 11)] to_current: &[[u32; 2]],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 12)] gbuffer: &[Surface],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 13)] reservoirs: &mut [PixelReservoir],
+        ) {
+            let i = invocation(id);
+            let pixel = push.first.wrapping_add(i);
+            if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
+                let emitters = Emitters {
+                    triangles,
+                    instances,
+                };
+                let combine = Unbiased {
+                    surfaces: Surfaces {
+                        nodes: before_ray_nodes,
+                        blocks: before_surfaces,
+                    },
+                    emitters: Emitters {
+                        triangles: before_triangles,
+                        instances: before_instances,
+                    },
+                };
+                let before = Before {
+                    camera: &before_camera[0],
+                    gbuffer: before_gbuffer,
+                    reservoirs: before_reservoirs,
+                    to_current,
+                };
+                let surface = gbuffer[pixel as usize];
+                let current = reservoirs[pixel as usize];
+                reservoirs[pixel as usize] = temporal(
+                    &combine,
+                    materials,
+                    &emitters,
+                    &before,
+                    to_previous,
+                    &push.params,
+                    &surface,
+                    current,
+                    pixel,
+                );
+            }
+        }
+    };
 }
 
-/// Pass 2, **biased**.
-#[spirv(compute(threads(64), entry_point_name = "restir_temporal_biased"))]
-pub fn restir_temporal_biased(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(push_constant)] push: &RestirPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] triangles: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] instances: &[Instance],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] before_camera: &[Camera],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] before_gbuffer: &[Surface],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] before_reservoirs: &[PixelReservoir],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] to_current: &[[u32; 2]],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] gbuffer: &[Surface],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] reservoirs: &mut [PixelReservoir],
-) {
-    let i = invocation(id);
-    let pixel = push.first.wrapping_add(i);
-    if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-        let emitters = Emitters { triangles, instances };
-        let before = Before {
-            camera: &before_camera[0],
-            gbuffer: before_gbuffer,
-            reservoirs: before_reservoirs,
-            to_current,
-        };
-        let surface = gbuffer[pixel as usize];
-        let current = reservoirs[pixel as usize];
-        reservoirs[pixel as usize] = temporal(
-            &Biased,
-            materials,
-            &emitters,
-            &before,
-            to_current,
-            &push.params,
-            &surface,
-            current,
-            pixel,
-        );
-    }
+temporal_unbiased_pass!(
+    EmissiveTriangle,
+    restir_temporal_unbiased,
+    "restir_temporal_unbiased"
+);
+temporal_unbiased_pass!(
+    AnyLight,
+    restir_temporal_unbiased_any,
+    "restir_temporal_unbiased_any"
+);
+
+/// Pass `restir_temporal_biased` for one type of light.
+macro_rules! temporal_biased_pass {
+    ($light:ty, $pass:ident, $name:tt) => {
+        /// Pass 2, **biased**.
+        #[spirv(compute(threads(64), entry_point_name = $name))]
+        pub fn $pass(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(push_constant)] push: &RestirPush,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] materials: &[Material],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] triangles: &[$light],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] before_camera: &[Camera],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] before_gbuffer: &[Surface],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] before_reservoirs: &[PixelReservoir],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] to_current: &[[u32; 2]],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] gbuffer: &[Surface],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] reservoirs: &mut [PixelReservoir],
+        ) {
+            let i = invocation(id);
+            let pixel = push.first.wrapping_add(i);
+            if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
+                let emitters = Emitters {
+                    triangles,
+                    instances,
+                };
+                let before = Before {
+                    camera: &before_camera[0],
+                    gbuffer: before_gbuffer,
+                    reservoirs: before_reservoirs,
+                    to_current,
+                };
+                let surface = gbuffer[pixel as usize];
+                let current = reservoirs[pixel as usize];
+                reservoirs[pixel as usize] = temporal(
+                    &Biased,
+                    materials,
+                    &emitters,
+                    &before,
+                    to_current,
+                    &push.params,
+                    &surface,
+                    current,
+                    pixel,
+                );
+            }
+        }
+    };
 }
 
-/// Pass 3 without bias.
-#[spirv(compute(threads(64), entry_point_name = "restir_spatial_unbiased"))]
-pub fn restir_spatial_unbiased(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(push_constant)] push: &RestirPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] gbuffer: &[Surface],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] reservoirs: &[PixelReservoir],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] results: &mut [PixelReservoir],
-) {
-    let i = invocation(id);
-    let pixel = push.first.wrapping_add(i);
-    if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-        let emitters = Emitters { triangles, instances };
-        let combine = Unbiased {
-            surfaces: Surfaces {
-                nodes: ray_nodes,
-                blocks: surfaces,
-            },
-            emitters,
-        };
-        results[pixel as usize] = spatial(
-            &combine,
-            materials,
-            &emitters,
-            gbuffer,
-            reservoirs,
-            &push.params,
-            pixel,
-        );
-    }
+temporal_biased_pass!(EmissiveTriangle, restir_temporal_biased, "restir_temporal_biased");
+temporal_biased_pass!(AnyLight, restir_temporal_biased_any, "restir_temporal_biased_any");
+
+/// Pass `restir_spatial_unbiased` for one type of light.
+macro_rules! spatial_unbiased_pass {
+    ($light:ty, $pass:ident, $name:tt) => {
+        /// Pass 3 without bias.
+        #[spirv(compute(threads(64), entry_point_name = $name))]
+        pub fn $pass(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(push_constant)] push: &RestirPush,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[$light],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] gbuffer: &[Surface],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] reservoirs: &[PixelReservoir],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] results: &mut [PixelReservoir],
+        ) {
+            let i = invocation(id);
+            let pixel = push.first.wrapping_add(i);
+            if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
+                let emitters = Emitters {
+                    triangles,
+                    instances,
+                };
+                let combine = Unbiased {
+                    surfaces: Surfaces {
+                        nodes: ray_nodes,
+                        blocks: surfaces,
+                    },
+                    emitters,
+                };
+                results[pixel as usize] = spatial(
+                    &combine,
+                    materials,
+                    &emitters,
+                    gbuffer,
+                    reservoirs,
+                    &push.params,
+                    pixel,
+                );
+            }
+        }
+    };
 }
 
-/// Pass 3, **biased**.
-#[spirv(compute(threads(64), entry_point_name = "restir_spatial_biased"))]
-pub fn restir_spatial_biased(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(push_constant)] push: &RestirPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] triangles: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] instances: &[Instance],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] gbuffer: &[Surface],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] reservoirs: &[PixelReservoir],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] results: &mut [PixelReservoir],
-) {
-    let i = invocation(id);
-    let pixel = push.first.wrapping_add(i);
-    if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-        let emitters = Emitters { triangles, instances };
-        results[pixel as usize] = spatial(
-            &Biased,
-            materials,
-            &emitters,
-            gbuffer,
-            reservoirs,
-            &push.params,
-            pixel,
-        );
-    }
+spatial_unbiased_pass!(
+    EmissiveTriangle,
+    restir_spatial_unbiased,
+    "restir_spatial_unbiased"
+);
+spatial_unbiased_pass!(
+    AnyLight,
+    restir_spatial_unbiased_any,
+    "restir_spatial_unbiased_any"
+);
+
+/// Pass `restir_spatial_biased` for one type of light.
+macro_rules! spatial_biased_pass {
+    ($light:ty, $pass:ident, $name:tt) => {
+        /// Pass 3, **biased**.
+        #[spirv(compute(threads(64), entry_point_name = $name))]
+        pub fn $pass(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(push_constant)] push: &RestirPush,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] materials: &[Material],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] triangles: &[$light],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] gbuffer: &[Surface],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] reservoirs: &[PixelReservoir],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] results: &mut [PixelReservoir],
+        ) {
+            let i = invocation(id);
+            let pixel = push.first.wrapping_add(i);
+            if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
+                let emitters = Emitters {
+                    triangles,
+                    instances,
+                };
+                results[pixel as usize] = spatial(
+                    &Biased,
+                    materials,
+                    &emitters,
+                    gbuffer,
+                    reservoirs,
+                    &push.params,
+                    pixel,
+                );
+            }
+        }
+    };
 }
 
-/// Pass 4.
-#[spirv(compute(threads(64), entry_point_name = "restir_shade"))]
-pub fn restir_shade(
-    #[spirv(global_invocation_id)] id: UVec3,
-    #[spirv(push_constant)] push: &RestirPush,
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[EmissiveTriangle],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] gbuffer: &[Surface],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] reservoirs: &mut [PixelReservoir],
-    #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] results: &mut [Shaded],
-) {
-    let i = invocation(id);
-    let pixel = push.first.wrapping_add(i);
-    if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-        let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
-        let surface = gbuffer[pixel as usize];
-        let last = reservoirs[pixel as usize];
-        let (shaded, kept) = shade(&scene, &push.params, &surface, &last);
-        results[pixel as usize] = shaded;
-        reservoirs[pixel as usize] = kept;
-    }
+spatial_biased_pass!(EmissiveTriangle, restir_spatial_biased, "restir_spatial_biased");
+spatial_biased_pass!(AnyLight, restir_spatial_biased_any, "restir_spatial_biased_any");
+
+/// Pass `restir_shade` for one type of light.
+macro_rules! shade_pass {
+    ($light:ty, $pass:ident, $name:tt) => {
+        /// Pass 4.
+        #[spirv(compute(threads(64), entry_point_name = $name))]
+        pub fn $pass(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(push_constant)] push: &RestirPush,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] ray_nodes: &[RayNode],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] surfaces: &[TriangleBlock],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] materials: &[Material],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] triangles: &[$light],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] gbuffer: &[Surface],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] reservoirs: &mut [PixelReservoir],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] results: &mut [Shaded],
+        ) {
+            let i = invocation(id);
+            let pixel = push.first.wrapping_add(i);
+            if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
+                let surface = gbuffer[pixel as usize];
+                let last = reservoirs[pixel as usize];
+                let (shaded, kept) = shade(&scene, &push.params, &surface, &last);
+                results[pixel as usize] = shaded;
+                reservoirs[pixel as usize] = kept;
+            }
+        }
+    };
 }
+
+shade_pass!(EmissiveTriangle, restir_shade, "restir_shade");
+shade_pass!(AnyLight, restir_shade_any, "restir_shade_any");

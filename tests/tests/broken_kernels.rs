@@ -10,7 +10,7 @@ use lightbvh_host::scene::Scene;
 use lightbvh_host::vulkan::{Device, DeviceInfo, Exactness, Options};
 use lightbvh_host::words::compare_words;
 use lightbvh_host::workload::{arrays_at, build, lights_at, queries};
-use lightbvh_kernels::bvh::{Choice, Paper, Standard, WIDTH};
+use lightbvh_kernels::bvh::{Paper, Standard, TriangleChoice, WIDTH};
 use lightbvh_kernels_builder::verify::verify;
 use lightbvh_tests::broken::{Variant, module};
 use lightbvh_tests::devices::{devices, open};
@@ -62,7 +62,7 @@ fn see(info: &DeviceInfo, variant: Variant) -> Seen {
 }
 
 /// As `lightbvh verify`: a tree of the first frame refitted to a later one, samples, pmfs.
-fn different<C: Choice<W>, const W: usize>(device: &Device) -> [u64; 3] {
+fn different<C: TriangleChoice<W>, const W: usize>(device: &Device) -> [u64; 3] {
     let scene = Scene::open("street").expect("a built-in scene");
     let lights = lights_at(&scene, 0).expect("lights");
     let bvh: Bvh<C, W> = build(&lights, Sampler::TwoLevel, &BuildParams::default());

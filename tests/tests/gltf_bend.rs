@@ -1,7 +1,7 @@
 //! Meshes that bend, and lights without area.
 
 use lightbvh::{BuildParams, Edit};
-use lightbvh_host::scene::{Instances, Interpolation, PunctualKind, Scene, SceneData};
+use lightbvh_host::scene::{AnalyticKind, Instances, Interpolation, Scene, SceneData};
 use lightbvh_kernels::bvh::{Node, WIDTH};
 use lightbvh_tests::gltf_files::{bending, changed, embedded, push, read, read_json, triangle};
 use serde_json::{Value, json};
@@ -258,13 +258,13 @@ fn lights_without_area_are_kept_and_counted() {
     root["nodes"].as_array_mut().expect("a list").extend(places);
     root["scenes"][0]["nodes"] = (0..9).collect();
     let scene = read_json(&root).expect("a sound file");
-    let kinds: Vec<PunctualKind> = scene.data().punctual.iter().map(|light| light.kind).collect();
-    let spot = PunctualKind::Spot {
+    let kinds: Vec<AnalyticKind> = scene.data().analytic.iter().map(|light| light.kind).collect();
+    let spot = AnalyticKind::Spot {
         inner: 0.25,
         outer: 0.5,
     };
-    assert_eq!(kinds, [PunctualKind::Point, spot, PunctualKind::Directional]);
-    let first = &scene.data().punctual[0];
+    assert_eq!(kinds, [AnalyticKind::Point, spot, AnalyticKind::Directional]);
+    let first = &scene.data().analytic[0];
     assert_eq!(
         (first.intensity, first.range, first.color[1], first.node),
         (800.0, Some(9.0), 0.5, 1)
@@ -279,5 +279,5 @@ fn lights_without_area_are_kept_and_counted() {
     assert_eq!(said("is left out"), 5, "{:?}", scene.warnings());
     assert_eq!(said("3 left out"), 1, "{:?}", scene.warnings());
     let back = read(&scene.to_glb().expect("written")).expect("read back");
-    assert_eq!(back.data().punctual, scene.data().punctual);
+    assert_eq!(back.data().analytic, scene.data().analytic);
 }

@@ -6,7 +6,7 @@ use lightbvh::Instance;
 use lightbvh::node::NODE_FORMAT;
 use lightbvh::trail::max_levels;
 use lightbvh_host::vulkan::Options;
-use lightbvh_kernels::bvh::{Choice, Paper, Standard, WIDTH};
+use lightbvh_kernels::bvh::{Paper, Standard, TriangleChoice, WIDTH};
 use lightbvh_tests::devices::on_each_device;
 use lightbvh_tests::known::tree::{Tree, light_of};
 use lightbvh_tests::known::{FILES, File, Subject, answer, answer_on, changes_to_bits, stated_node_format};
@@ -60,7 +60,7 @@ fn every_exact_device_reproduces_every_word() {
 
 #[test]
 fn the_sweeps_of_the_cpu_refit_to_the_same_words() {
-    fn swept<C: Choice<W>, const W: usize>(name: &str) {
+    fn swept<C: TriangleChoice<W>, const W: usize>(name: &str) {
         let file = File::read(name);
         let nodes = Tree::<C::Node, W>::read(&file).swept();
         let known = file.find("nodes").expect("nodes").output();
@@ -138,7 +138,7 @@ fn trees_hold_what_they_are_named_after() {
     }
 }
 
-fn holds_what_it_is_named_after<C: Choice<W>, const W: usize>(name: &str) {
+fn holds_what_it_is_named_after<C: TriangleChoice<W>, const W: usize>(name: &str) {
     let file = File::read(name);
     let tree = Tree::<C::Node, W>::read(&file);
     let (nodes, _) = tree.refitted();

@@ -23,6 +23,7 @@ mod importance;
 mod instance;
 mod instanced;
 mod kinds_device;
+mod kinds_render;
 mod known_answers;
 mod known_words;
 mod light_identity;

@@ -7,10 +7,10 @@ use lightbvh_host::scene::Scene;
 use lightbvh_host::vulkan::Options;
 use lightbvh_host::words::compare_words;
 use lightbvh_host::workload::{RenderSettings, arrays_at, build};
-use lightbvh_kernels::bvh::{Choice, Paper, Standard, WIDTH};
+use lightbvh_kernels::bvh::{Paper, Standard, TriangleChoice, WIDTH};
 use lightbvh_tests::devices::on_each_device;
 
-fn same_words<C: Choice<W>, const W: usize>() {
+fn same_words<C: TriangleChoice<W>, const W: usize>() {
     let scene = Scene::open("carousel").expect("a built-in scene");
     let settings = RenderSettings {
         frame: 30,

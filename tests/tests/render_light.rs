@@ -337,7 +337,7 @@ fn surfaces_do_not_shadow_themselves() {
             instance: NONE,
         }])
         .unwrap();
-        let scene = Scene {
+        let scene: Scene<'_> = Scene {
             surfaces: bvh.surfaces(),
             materials: &[WHITE],
             emitters: Emitters {

@@ -1,7 +1,7 @@
 //! The choice of a light without a tree: every probability is the exact frequency.
 
 use lightbvh::{BuildParams, EmissiveTriangle, LightBvh, Lights, Random64, ShadingPoint};
-use lightbvh_host::render::{flux, power_thresholds};
+use lightbvh_host::render::{power_thresholds, triangle_flux};
 use lightbvh_kernels::bvh::{Choice, Node, Standard, WIDTH};
 use lightbvh_kernels::shading::pick::{MAX_PICKABLE, PickLight, Power, Uniform};
 use lightbvh_kernels::shading::trace::NONE;
@@ -86,16 +86,18 @@ fn power_pmfs_are_the_exact_frequencies_and_sum_to_one() {
     let choices = every_choice(&Power {
         thresholds: &thresholds,
     });
-    let emitters: Vec<usize> = (0..lights.len()).filter(|&i| flux(&lights[i]) > 0.0).collect();
+    let emitters: Vec<usize> = (0..lights.len())
+        .filter(|&i| triangle_flux(&lights[i]) > 0.0)
+        .collect();
     assert_eq!(choices.iter().map(|c| c.0 as usize).collect::<Vec<_>>(), emitters);
-    let total: f64 = lights.iter().map(flux).sum();
+    let total: f64 = lights.iter().map(triangle_flux).sum();
     let mut sum = 0.0_f64;
     for &(light, chances, pmf) in &choices {
         assert_eq!(f64::from(pmf), f64::from(chances) / f64::from(MAX_PICKABLE));
         sum += f64::from(pmf);
         // One unit for itself, its part of the rest, and less than one by rounding at either end.
         let rest = f64::from(MAX_PICKABLE) - emitters.len() as f64;
-        let expected = 1.0 + flux(&lights[light as usize]) / total * rest;
+        let expected = 1.0 + triangle_flux(&lights[light as usize]) / total * rest;
         assert!(
             (f64::from(chances) - expected).abs() < 1.0 + 1e-3,
             "light {light}: {chances} {expected}"
@@ -115,7 +117,7 @@ fn power_tables_at_the_edges() {
     };
     for hostile in [
         power_thresholds(&[dark, dark]).unwrap(),
-        power_thresholds(&[]).unwrap(),
+        power_thresholds::<EmissiveTriangle>(&[]).unwrap(),
         vec![],
         vec![5],
         vec![u32::MAX; 9],

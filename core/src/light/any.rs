@@ -53,14 +53,38 @@ impl AnyLight {
         self.kind & ((1 << KIND_BITS) - 1)
     }
 
+    /// Radiance of its surface, W/(m² sr), or what the kind has in its place: intensity, W/sr, or what a metre adds, W/(m³ sr). Linear RGB.
+    #[inline(always)]
+    #[must_use]
+    pub fn emission(&self) -> [f32; 3] {
+        self.emission
+    }
+
+    /// Whether both of its sides emit.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_two_sided(&self) -> bool {
+        self.flags() & TWO_SIDED != 0
+    }
+
     #[inline(always)]
     fn flags(&self) -> u32 {
         self.kind >> KIND_BITS
     }
 
+    /// Three words from `at` on: 0, 3, 6 or 9. By a choice: rust-gpu inlines whatever has an index that might be out of bounds.
     #[inline(always)]
     fn three(&self, at: usize) -> [f32; 3] {
-        [self.words[at], self.words[at + 1], self.words[at + 2]]
+        let w = &self.words;
+        if at == 0 {
+            [w[0], w[1], w[2]]
+        } else if at == 3 {
+            [w[3], w[4], w[5]]
+        } else if at == 6 {
+            [w[6], w[7], w[8]]
+        } else {
+            [w[9], w[10], w[11]]
+        }
     }
 
     #[inline(always)]
@@ -75,9 +99,16 @@ impl AnyLight {
 
     #[inline(always)]
     fn with(mut self, at: usize, three: &[f32; 3]) -> Self {
-        self.words[at] = three[0];
-        self.words[at + 1] = three[1];
-        self.words[at + 2] = three[2];
+        let w = &mut self.words;
+        if at == 0 {
+            (w[0], w[1], w[2]) = (three[0], three[1], three[2]);
+        } else if at == 3 {
+            (w[3], w[4], w[5]) = (three[0], three[1], three[2]);
+        } else if at == 6 {
+            (w[6], w[7], w[8]) = (three[0], three[1], three[2]);
+        } else {
+            (w[9], w[10], w[11]) = (three[0], three[1], three[2]);
+        }
         self
     }
 
@@ -275,6 +306,21 @@ macro_rules! by_kind {
     };
 }
 
+/// What [`Light::in_world`] says. A function of its own on devices, by value: what is inlined wherever it is called took rust-gpu more than 10 GB, and one that
+/// takes references may be inlined whatever it says.
+#[cfg_attr(target_arch = "spirv", inline(never))]
+#[cfg_attr(not(target_arch = "spirv"), inline(always))]
+fn placed(light: AnyLight, instance: Instance, index: u32) -> AnyLight {
+    by_kind!(light, own => own.in_world(&instance, index).into(), AnyLight { mesh: index, ..AnyLight::DARK })
+}
+
+/// What [`Light::point_for`] says, as [`placed`].
+#[cfg_attr(target_arch = "spirv", inline(never))]
+#[cfg_attr(not(target_arch = "spirv"), inline(always))]
+fn point_on(light: AnyLight, from: Vec3, uv: [f32; 2]) -> LightPoint {
+    by_kind!(light, own => own.point_for(from, uv), PointLight::DARK.point_for(from, uv))
+}
+
 impl Light for AnyLight {
     const NAME: &'static str = "light of any kind";
     const DARK: Self = Self {
@@ -336,11 +382,11 @@ impl Light for AnyLight {
 
     #[inline(always)]
     fn in_world(&self, instance: &Instance, index: u32) -> Self {
-        by_kind!(self, own => own.in_world(instance, index).into(), Self { mesh: index, ..Self::DARK })
+        placed(*self, *instance, index)
     }
 
     #[inline(always)]
     fn point_for(&self, from: Vec3, uv: [f32; 2]) -> LightPoint {
-        by_kind!(self, own => own.point_for(from, uv), PointLight::DARK.point_for(from, uv))
+        point_on(*self, from, uv)
     }
 }

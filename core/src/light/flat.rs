@@ -89,9 +89,11 @@ impl Flat {
         Vec3::new(self.p[0], self.p[1], self.p[2])
     }
 
+    // By a choice: rust-gpu inlines whatever has an index that might be out of bounds.
     #[inline(always)]
     fn axis(&self, k: usize) -> Vec3 {
-        Vec3::new(self.half[k][0], self.half[k][1], self.half[k][2])
+        let half = if k == 0 { self.half[0] } else { self.half[1] };
+        Vec3::new(half[0], half[1], half[2])
     }
 
     #[inline(always)]

@@ -84,8 +84,12 @@ impl LightPoint {
         } else {
             per_area * exact::pow2(scale)
         };
-        let sent = |k: usize| exact::min(self.radiance[k] * factor, f32::MAX);
-        [sent(0), sent(1), sent(2)]
+        let sent = |radiance: f32| exact::min(radiance * factor, f32::MAX);
+        [
+            sent(self.radiance[0]),
+            sent(self.radiance[1]),
+            sent(self.radiance[2]),
+        ]
     }
 }
 

@@ -296,7 +296,7 @@ impl Light for SpotLight {
     fn point_for(&self, from: Vec3, _uv: [f32; 2]) -> LightPoint {
         let direction = towards(Vec3::new(self.p[0], self.p[1], self.p[2]), from);
         let falloff = self.falloff(dot(self.axis(), direction));
-        let sent = |k: usize| self.intensity[k] * falloff;
-        at(&self.p, [sent(0), sent(1), sent(2)])
+        let [r, g, b] = self.intensity;
+        at(&self.p, [r * falloff, g * falloff, b * falloff])
     }
 }

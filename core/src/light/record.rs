@@ -219,12 +219,11 @@ pub(super) fn checked_emission(what: &'static str, mut emission: [f32; 3]) -> Re
 #[inline(always)]
 pub(crate) fn shining(emission: &[f32; 3], factor: f32, has_flux: bool) -> [f32; 3] {
     let shines = (factor > 0.0) & has_flux;
-    let shine = |channel: usize| {
-        let l = emission[channel];
+    let shine = |l: f32| {
         let scaled = exact::clamp(l * factor, MIN_RADIANCE, MAX_RADIANCE);
         if (l > 0.0) & shines { scaled } else { 0.0 }
     };
-    [shine(0), shine(1), shine(2)]
+    [shine(emission[0]), shine(emission[1]), shine(emission[2])]
 }
 
 /// The direction from `p` to `q`, of length 1 within 1e-5; zero where they are one point.

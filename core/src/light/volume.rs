@@ -53,7 +53,15 @@ impl BoxLight {
 
     #[inline(always)]
     fn axis(&self, k: usize) -> Vec3 {
-        Vec3::new(self.half[k][0], self.half[k][1], self.half[k][2])
+        // By a choice, as of `Flat`.
+        let half = if k == 0 {
+            self.half[0]
+        } else if k == 1 {
+            self.half[1]
+        } else {
+            self.half[2]
+        };
+        Vec3::new(half[0], half[1], half[2])
     }
 
     #[inline(always)]

@@ -18,6 +18,7 @@ use super::{
     node_record,
 };
 use crate::render::{render, render_path};
+use crate::scene::SceneLight;
 use crate::words::Record;
 
 /// The CPU as a backend: the reference that devices are compared with.
@@ -42,12 +43,12 @@ impl<C: Choice<W>, const W: usize> CpuBackend<C, W> {
     }
 }
 
-impl<C: Choice<W>, const W: usize> Backend for CpuBackend<C, W> {
+impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for CpuBackend<C, W> {
     fn node_record(&self) -> Record {
         node_record::<C::Node, W>()
     }
 
-    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, BackendError> {
+    fn refit(&mut self, lights: &Lights<C::Light>) -> Result<Timed<Vec<u32>>, BackendError> {
         let Timed { value, time } = Timed::of(|| self.bvh.follow(lights));
         value?;
         let value = self.words();
@@ -68,7 +69,7 @@ impl<C: Choice<W>, const W: usize> Backend for CpuBackend<C, W> {
 
     fn render(
         &mut self,
-        scene: &SceneArrays,
+        scene: &SceneArrays<C::Light>,
         params: &RenderParams,
         sampler: Sampler,
         integrator: Integrator,
@@ -91,8 +92,8 @@ impl<C: Choice<W>, const W: usize> Backend for CpuBackend<C, W> {
 
     fn restir(
         &mut self,
-        restir: &mut Restir,
-        frame: &RestirFrame<'_>,
+        restir: &mut Restir<C::Light>,
+        frame: &RestirFrame<'_, C::Light>,
     ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
         let source = restir.options().source;
         let view = self.view(frame.scene, source);
@@ -104,27 +105,30 @@ impl<C: Choice<W>, const W: usize> Backend for CpuBackend<C, W> {
     }
 }
 
-fn uniform(scene: &SceneArrays) -> Uniform {
+fn uniform<L>(scene: &SceneArrays<L>) -> Uniform
+where
+    L: SceneLight,
+{
     Uniform {
         count: scene.lights.triangles().len() as u32,
     }
 }
 
-fn power(scene: &SceneArrays) -> Power<'_> {
+fn power<L>(scene: &SceneArrays<L>) -> Power<'_> {
     Power {
         thresholds: &scene.thresholds,
     }
 }
 
 /// An image, but for how its lights are chosen.
-struct Image<'a> {
-    scene: &'a Scene<'a>,
+struct Image<'a, L> {
+    scene: &'a Scene<'a, L>,
     camera: &'a Camera,
     params: &'a RenderParams,
     integrator: Integrator,
 }
 
-impl Image<'_> {
+impl<L: SceneLight> Image<'_, L> {
     /// The image with lights from `picker`.
     fn by<P: PickLight + Sync>(&self, picker: &P) -> Vec<[f32; 3]> {
         match self.integrator {
@@ -136,7 +140,7 @@ impl Image<'_> {
     }
 }
 
-impl<C: Choice<W>, const W: usize> Follow<C, W> for CpuBackend<C, W> {
+impl<C: Choice<W, Light: SceneLight>, const W: usize> Follow<C, W> for CpuBackend<C, W> {
     fn follow(&mut self, bvh: &Bvh<C, W>) -> Result<Timed<()>, BackendError> {
         let mut own = bvh.clone();
         let refitted = Timed::of(|| own.refit());
@@ -145,9 +149,9 @@ impl<C: Choice<W>, const W: usize> Follow<C, W> for CpuBackend<C, W> {
     }
 }
 
-impl<C: Choice<W>, const W: usize> CpuBackend<C, W> {
+impl<C: Choice<W, Light: SceneLight>, const W: usize> CpuBackend<C, W> {
     /// A scene with the lights that `sampler` chooses among: a light BVH knows where its own are.
-    fn view<'a>(&'a self, scene: &'a SceneArrays, sampler: Sampler) -> Scene<'a> {
+    fn view<'a>(&'a self, scene: &'a SceneArrays<C::Light>, sampler: Sampler) -> Scene<'a, C::Light> {
         scene.lit_by(match sampler.needs_bvh() {
             true => Emitters {
                 triangles: self.bvh.triangles(),

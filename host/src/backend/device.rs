@@ -16,11 +16,12 @@ use lightbvh_kernels::render::{RenderParams, RenderPush};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
 use super::batches::{all_candidates, in_batches};
-use super::device_arrays::{DeviceEmitters, DeviceTree, HeldScene, device_time, kernel_name};
+use super::device_arrays::{DeviceEmitters, DeviceTree, HeldScene, device_time, kernel_name, suffix};
 use super::restir::device::resample;
 use super::{
     Backend, BackendError, Bvh, Integrator, Restir, RestirFrame, Sampler, SceneArrays, Timed, node_record,
 };
+use crate::scene::SceneLight;
 use crate::vulkan::{Binding, Buffer, Device, Kernel, Pass, Submission};
 use crate::words::Record;
 
@@ -34,7 +35,7 @@ const SURFACES_PER_PASS: usize = 1 << 18;
 /// A light BVH on a device.
 pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     pub(super) device: &'d Device,
-    pub(super) tree: DeviceTree<C::Node>,
+    pub(super) tree: DeviceTree<C::Node, C::Light>,
     pub(super) roots: Arc<Buffer<BlasRoot>>,
     /// What refits are listed in.
     pub(super) list: Buffer<u32>,
@@ -46,7 +47,7 @@ pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     /// What was followed and is not yet submitted.
     pub(super) pending: Option<Pass<'static>>,
     /// The scene rendered last.
-    pub(super) scene: HeldScene,
+    pub(super) scene: HeldScene<C::Light>,
 }
 
 impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
@@ -94,13 +95,13 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     }
 
     /// The lights that `sampler` chooses among, where they are the light BVH's.
-    pub(super) fn emitters(&self, sampler: Sampler) -> Option<DeviceEmitters> {
+    pub(super) fn emitters(&self, sampler: Sampler) -> Option<DeviceEmitters<C::Light>> {
         sampler.needs_bvh().then(|| self.tree.emitters.clone())
     }
 
     /// The kernel of this choice.
     pub(super) fn kernel(&self, name: &str) -> Result<Arc<Kernel>, BackendError> {
-        Ok(self.device.kernel(&format!("{name}{}", C::SUFFIX))?)
+        Ok(self.device.kernel(&format!("{name}{}", suffix::<C, W>(name)))?)
     }
 
     /// Refits everything after what `pass` does, without a wait.
@@ -172,12 +173,12 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
     }
 }
 
-impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
+impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for DeviceBackend<'_, C, W> {
     fn node_record(&self) -> Record {
         node_record::<C::Node, W>()
     }
 
-    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, BackendError> {
+    fn refit(&mut self, lights: &Lights<C::Light>) -> Result<Timed<Vec<u32>>, BackendError> {
         if self.refit.is_none() {
             return Err(BackendError::Edited);
         }
@@ -212,7 +213,7 @@ impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
 
     fn render(
         &mut self,
-        scene: &SceneArrays,
+        scene: &SceneArrays<C::Light>,
         params: &RenderParams,
         sampler: Sampler,
         integrator: Integrator,
@@ -294,8 +295,8 @@ impl<C: Choice<W>, const W: usize> Backend for DeviceBackend<'_, C, W> {
 
     fn restir(
         &mut self,
-        restir: &mut Restir,
-        frame: &RestirFrame<'_>,
+        restir: &mut Restir<C::Light>,
+        frame: &RestirFrame<'_, C::Light>,
     ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
         resample::<C, W>(restir, frame, self)
     }

@@ -4,59 +4,83 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use bytemuck::Pod;
+use lightbvh::Instance;
 use lightbvh::TreeWords;
-use lightbvh::{EmissiveTriangle, Instance};
+use lightbvh::light::AnyLight;
 use lightbvh_kernels::bvh::{Choice, TreeOf};
 use lightbvh_kernels::shading::camera::Camera;
+use lightbvh_kernels::shading::emitter::Emitter;
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::trace::{RayNode, TriangleBlock};
 
 use super::held::Held;
 use super::{Sampler, SceneArrays};
+use crate::scene::SceneLight;
 use crate::vulkan::{Binding, Buffer, Device, Pass, Timings, VulkanError};
 
 /// Lights on the device: triangles in the spaces of their meshes, and where the meshes stand. Who shares them reads them as they
 /// were when it took them.
-#[derive(Clone)]
-pub(super) struct DeviceEmitters {
-    pub triangles: Arc<Buffer<EmissiveTriangle>>,
+pub(super) struct DeviceEmitters<L> {
+    pub triangles: Arc<Buffer<L>>,
     pub instances: Arc<Buffer<Instance>>,
 }
 
 /// A frame's arrays on the device. Who keeps them reads them as they were.
-pub(super) struct DeviceScene {
+pub(super) struct DeviceScene<L> {
     ray_nodes: Arc<Buffer<RayNode>>,
     surfaces: Arc<Buffer<TriangleBlock>>,
     materials: Arc<Buffer<Material>>,
-    emitters: DeviceEmitters,
+    emitters: DeviceEmitters<L>,
     pub camera: Arc<Buffer<Camera>>,
     /// Where lights are chosen by power.
     thresholds: Option<Arc<Buffer<u32>>>,
 }
 
 /// The arrays of the scene that was rendered last.
-#[derive(Default)]
-pub(super) struct HeldScene {
+pub(super) struct HeldScene<L> {
     ray_nodes: Held<RayNode>,
     surfaces: Held<TriangleBlock>,
     materials: Held<Material>,
-    triangles: Held<EmissiveTriangle>,
+    triangles: Held<L>,
     instances: Held<Instance>,
     camera: Held<Camera>,
     thresholds: Held<u32>,
 }
 
-impl HeldScene {
+impl<L> Clone for DeviceEmitters<L> {
+    fn clone(&self) -> Self {
+        Self {
+            triangles: Arc::clone(&self.triangles),
+            instances: Arc::clone(&self.instances),
+        }
+    }
+}
+
+impl<L> Default for HeldScene<L> {
+    fn default() -> Self {
+        Self {
+            ray_nodes: Held::default(),
+            surfaces: Held::default(),
+            materials: Held::default(),
+            triangles: Held::default(),
+            instances: Held::default(),
+            camera: Held::default(),
+            thresholds: Held::default(),
+        }
+    }
+}
+
+impl<L: SceneLight> HeldScene<L> {
     /// A frame's arrays for a kernel that chooses lights by `sampler`, once `pass` has run, which writes what differs from those of the frame
     /// before. They are lit by `emitters` or, without, by the lights that the frame lists. Where `pass` does not run, what is held is not known any more: make it new then.
     pub fn bring<'a>(
         &mut self,
         device: &Device,
-        scene: &'a SceneArrays,
+        scene: &'a SceneArrays<L>,
         sampler: Sampler,
-        emitters: Option<DeviceEmitters>,
+        emitters: Option<DeviceEmitters<L>>,
         pass: &mut Pass<'a>,
-    ) -> Result<DeviceScene, VulkanError> {
+    ) -> Result<DeviceScene<L>, VulkanError> {
         let listed = scene.emitters();
         Ok(DeviceScene {
             ray_nodes: self.ray_nodes.bring(device, &scene.rays.nodes, pass)?,
@@ -80,7 +104,7 @@ impl HeldScene {
     }
 }
 
-impl DeviceScene {
+impl<L: SceneLight> DeviceScene<L> {
     /// The buffers that a [`Scene`](lightbvh_kernels::shading::pixel::Scene) is made of.
     pub fn view(&self) -> [Binding; 5] {
         [
@@ -94,7 +118,7 @@ impl DeviceScene {
 
     /// What a kernel that chooses lights by `sampler` takes from the scene on: the scene, who looks, and what lights are
     /// chosen by.
-    pub fn with_lights<N: Pod>(&self, sampler: Sampler, tree: &DeviceTree<N>) -> Vec<Binding> {
+    pub fn with_lights<N: Pod>(&self, sampler: Sampler, tree: &DeviceTree<N, L>) -> Vec<Binding> {
         let mut bindings = self.view().to_vec();
         bindings.push(self.camera.bind());
         match sampler {
@@ -109,18 +133,18 @@ impl DeviceScene {
 }
 
 /// The arrays of a light BVH on the device.
-pub(super) struct DeviceTree<N> {
+pub(super) struct DeviceTree<N, L> {
     pub nodes: Arc<Buffer<N>>,
-    pub emitters: DeviceEmitters,
+    pub emitters: DeviceEmitters<L>,
     pub trails: Arc<Buffer<u32>>,
     pub push: TreeWords,
 }
 
-impl<N: Pod> DeviceTree<N> {
-    pub fn upload<C: Choice<W, Node = N>, const W: usize>(
+impl<N: Pod, L: Pod> DeviceTree<N, L> {
+    pub fn upload<C: Choice<W, Node = N, Light = L>, const W: usize>(
         device: &Device,
         tree: &TreeOf<'_, C, W>,
-        triangles: &[EmissiveTriangle],
+        triangles: &[L],
     ) -> Result<Self, VulkanError> {
         Ok(Self {
             nodes: Arc::new(device.upload(tree.nodes)?),
@@ -146,9 +170,20 @@ impl<N: Pod> DeviceTree<N> {
 /// The name of the kernel of `pass` that chooses lights by `sampler`.
 pub(super) fn kernel_name<C: Choice<W>, const W: usize>(pass: &str, sampler: Sampler) -> String {
     match sampler {
-        Sampler::Uniform => format!("{pass}_uniform"),
-        Sampler::Power => format!("{pass}_power"),
+        Sampler::Uniform => format!("{pass}_uniform{}", C::Light::SUFFIX),
+        Sampler::Power => format!("{pass}_power{}", C::Light::SUFFIX),
         Sampler::SingleLevel | Sampler::TwoLevel => format!("{pass}_bvh{}", C::SUFFIX),
+    }
+}
+
+/// What the name of a kernel of a choice ends in. Lights of any kind have nodes of the default's words, so what reads nothing else is the
+/// default's.
+pub(super) fn suffix<C: Choice<W>, const W: usize>(kernel: &str) -> &'static str {
+    let reads_nodes_alone = matches!(kernel, "refit_roots" | "sample" | "pmf");
+    if C::SUFFIX == AnyLight::SUFFIX && reads_nodes_alone {
+        ""
+    } else {
+        C::SUFFIX
     }
 }
 

@@ -11,12 +11,13 @@ use lightbvh_kernels::bvh::Choice;
 use super::device::DeviceBackend;
 use super::device_arrays::device_time;
 use super::{BackendError, Bvh, Follow, Timed};
+use crate::scene::SceneLight;
 use crate::vulkan::{Buffer, Device, Pass, Submission, VulkanError};
 
 /// Bytes of a frame that are kept for the submission of what is asked next; more are submitted at once, from where they lie.
 const KEPT: usize = 1 << 20;
 
-impl<C: Choice<W>, const W: usize> Follow<C, W> for DeviceBackend<'_, C, W> {
+impl<C: Choice<W, Light: SceneLight>, const W: usize> Follow<C, W> for DeviceBackend<'_, C, W> {
     fn follow(&mut self, bvh: &Bvh<C, W>) -> Result<Timed<()>, BackendError> {
         let submitted = match self.stage(bvh)? {
             Some(submitted) => Some(submitted),

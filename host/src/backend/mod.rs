@@ -27,10 +27,11 @@ pub use words::DeviceArrays;
 
 use std::time::{Duration, Instant};
 
-use lightbvh::{Lights, SampledLight};
+use lightbvh::{EmissiveTriangle, Lights, SampledLight};
 use lightbvh_kernels::bvh::{Choice, Standard, WIDTH};
 use lightbvh_kernels::query::Query;
 use lightbvh_kernels::render::RenderParams;
+use lightbvh_kernels::shading::emitter::Emitter;
 
 use crate::words::Record;
 
@@ -57,8 +58,8 @@ impl<T> Timed<T> {
     }
 }
 
-/// Runs the passes over one light BVH.
-pub trait Backend {
+/// Runs the passes over one light BVH, whose lights are of type `L`.
+pub trait Backend<L: Emitter = EmissiveTriangle> {
     /// Words of a node.
     fn node_record(&self) -> Record;
 
@@ -66,7 +67,7 @@ pub trait Backend {
     ///
     /// # Errors
     /// [`BackendError`] from a device, or where they are not the same lights.
-    fn refit(&mut self, lights: &Lights) -> Result<Timed<Vec<u32>>, BackendError>;
+    fn refit(&mut self, lights: &Lights<L>) -> Result<Timed<Vec<u32>>, BackendError>;
 
     /// The words of all nodes as they are.
     ///
@@ -95,7 +96,7 @@ pub trait Backend {
     /// [`BackendError`] from a device.
     fn render(
         &mut self,
-        scene: &SceneArrays,
+        scene: &SceneArrays<L>,
         params: &RenderParams,
         sampler: Sampler,
         integrator: Integrator,
@@ -108,13 +109,13 @@ pub trait Backend {
     /// [`BackendError`] from a device.
     fn restir(
         &mut self,
-        restir: &mut Restir,
-        frame: &RestirFrame<'_>,
+        restir: &mut Restir<L>,
+        frame: &RestirFrame<'_, L>,
     ) -> Result<Timed<Vec<[f32; 3]>>, BackendError>;
 }
 
 /// A backend that follows a BVH through its edits.
-pub trait Follow<C: Choice<W> = Standard, const W: usize = WIDTH>: Backend {
+pub trait Follow<C: Choice<W> = Standard, const W: usize = WIDTH>: Backend<C::Light> {
     /// Takes over what [`plan`](lightbvh::Bvh::plan) says has changed in `bvh`, and refits it here. Planned frames must be followed
     /// without gaps, each before it is refitted in `bvh` itself.
     ///

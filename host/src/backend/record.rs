@@ -2,12 +2,12 @@
 
 use std::marker::PhantomData;
 
-use lightbvh::LightNode;
+use lightbvh::node::Node;
 
 use crate::words::{Field, Record};
 
 /// Words of a node of layout `N`; by place alone where the names of the layout's words are not known here.
-pub fn node_record<N: LightNode<W>, const W: usize>() -> Record {
+pub fn node_record<N: Node<W>, const W: usize>() -> Record {
     let words = size_of::<N>() / size_of::<u32>();
     let known = [Words::<W>::COMPACT, Words::<W>::MOMENTS];
     let names = ["compact", "moments"];
@@ -84,7 +84,7 @@ mod tests {
     use lightbvh::FullNode;
     use lightbvh_kernels::bvh::{Choice, Paper, Standard};
 
-    fn covers<N: LightNode<W>, const W: usize>(first: &str) {
+    fn covers<N: Node<W>, const W: usize>(first: &str) {
         let record = node_record::<N, W>();
         assert_eq!(record.words() * size_of::<u32>(), size_of::<N>());
         assert_eq!(record.name_of(0), first);

@@ -1,12 +1,13 @@
 //! A frame of a scene as the render pass reads it.
 
-use lightbvh::{Instance, Lights};
+use lightbvh::{EmissiveTriangle, Instance, Lights};
 use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::emitters::{Emitters, listed};
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pixel::Scene as SceneView;
 
 use crate::render::{RayBvh, power_thresholds};
+use crate::scene::SceneLight;
 
 /// How the renderer chooses lights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, strum::IntoStaticStr, serde::Serialize)]
@@ -40,13 +41,13 @@ impl Sampler {
 
 /// A frame's arrays.
 #[derive(Clone, Debug)]
-pub struct SceneArrays {
+pub struct SceneArrays<L = EmissiveTriangle> {
     /// What rays meet.
     pub rays: RayBvh,
     /// How it reflects.
     pub materials: Vec<Material>,
     /// What of it emits, in the world.
-    pub lights: Lights,
+    pub lights: Lights<L>,
     /// The one instance that all lights are of where they are read from here.
     identity: [Instance; 1],
     /// Table of the power sampler; empty when there are more lights than it can tell apart, or none has flux.
@@ -55,9 +56,9 @@ pub struct SceneArrays {
     pub camera: Camera,
 }
 
-impl SceneArrays {
+impl<L: SceneLight> SceneArrays<L> {
     /// Gathers a frame; the power table is made here.
-    pub fn new(rays: RayBvh, materials: Vec<Material>, lights: Lights, camera: Camera) -> Self {
+    pub fn new(rays: RayBvh, materials: Vec<Material>, lights: Lights<L>, camera: Camera) -> Self {
         let thresholds = power_thresholds(lights.triangles()).unwrap_or_default();
         let identity = listed(lights.triangles().len() as u32);
         Self {
@@ -71,12 +72,12 @@ impl SceneArrays {
     }
 
     /// The arrays as the kernels' functions take them, the lights as they are listed here.
-    pub fn view(&self) -> SceneView<'_> {
+    pub fn view(&self) -> SceneView<'_, L> {
         self.lit_by(self.emitters())
     }
 
     /// The arrays as the kernels' functions take them, with lights from elsewhere: those of a light BVH.
-    pub fn lit_by<'a>(&'a self, emitters: Emitters<'a>) -> SceneView<'a> {
+    pub fn lit_by<'a>(&'a self, emitters: Emitters<'a, L>) -> SceneView<'a, L> {
         SceneView {
             surfaces: self.rays.surfaces(),
             materials: &self.materials,
@@ -85,7 +86,7 @@ impl SceneArrays {
     }
 
     /// The lights as they are listed here.
-    pub fn emitters(&self) -> Emitters<'_> {
+    pub fn emitters(&self) -> Emitters<'_, L> {
         Emitters {
             triangles: self.lights.triangles(),
             instances: &self.identity,

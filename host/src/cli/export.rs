@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use super::{Context, Outcome};
+use crate::cli::table::news;
 use crate::error::HostError;
-use crate::scene::Scene;
+use crate::scene::{AnalyticKind, Scene};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -16,6 +17,25 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(_: &Context, args: &Args) -> Result<Outcome, HostError> {
-    Scene::open(&args.scene)?.write_glb(&args.output)?;
+    let scene = Scene::open(&args.scene)?;
+    let known = |kind| {
+        matches!(
+            kind,
+            AnalyticKind::Directional | AnalyticKind::Point | AnalyticKind::Spot { .. }
+        )
+    };
+    let lost = scene
+        .data()
+        .analytic
+        .iter()
+        .filter(|light| !known(light.kind))
+        .count();
+    if lost > 0 {
+        news!(
+            "{}: glTF has no word for spheres, rectangles, discs and boxes that shine: {lost} left out",
+            scene.name()
+        );
+    }
+    scene.write_glb(&args.output)?;
     Ok(Outcome::Good)
 }

@@ -9,7 +9,7 @@ use lightbvh::exact::{hash, unit_f32};
 use lightbvh::{
     BuildParams, Bvh, EmissiveTriangle, ImportanceModel, LightNode, Lights, Random64, ShadingPoint,
 };
-use lightbvh_kernels::bvh::{Choice, Paper, Standard};
+use lightbvh_kernels::bvh::{Paper, Standard, TriangleChoice};
 use serde::Serialize;
 use serde_json::json;
 use strum::VariantArray;
@@ -107,7 +107,7 @@ fn estimate<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
     }
 }
 
-fn measure<C: Choice<W>, const W: usize>(lights: &Lights, numbers: u32) -> Vec<Row> {
+fn measure<C: TriangleChoice<W>, const W: usize>(lights: &Lights, numbers: u32) -> Vec<Row> {
     let bvh = Bvh::<C::Node, C::Importance, W>::single_level(lights, &BuildParams::default());
     let mut errors = Vec::new();
     for &sequence in Sequence::VARIANTS {
@@ -141,7 +141,7 @@ fn measure<C: Choice<W>, const W: usize>(lights: &Lights, numbers: u32) -> Vec<R
 
 /// The floor by one number a pixel: independent numbers left, a blue-noise mask's right; below, the same smoothed as an eye
 /// from afar does.
-fn picture<C: Choice<W>, const W: usize>(lights: &Lights) -> Canvas {
+fn picture<C: TriangleChoice<W>, const W: usize>(lights: &Lights) -> Canvas {
     let bvh = Bvh::<C::Node, C::Importance, W>::single_level(lights, &BuildParams::default());
     let mut canvas = Canvas::new(2 * SIDE * ZOOM + 8, 2 * SIDE * ZOOM + 8, [255; 3]);
     for (column, blue) in [(0, false), (1, true)] {

@@ -4,6 +4,8 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use lightbvh::EmissiveTriangle;
+use lightbvh::light::AnyLight;
 use lightbvh_kernels::shading::candidates::MAX_SCATTERED;
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 use lightbvh_kernels::shading::pixel::MAX_CANDIDATES;
@@ -14,11 +16,13 @@ use super::{Context, Outcome, devices, frames, table};
 use crate::backend::{Combination, Integrator, SceneArrays};
 use crate::cli::table::{news, say};
 use crate::error::HostError;
-use crate::method::{Builder, Importance, Method, Recipe, SampleBudget, SequenceId, Step, Target};
+use crate::method::{
+    Builder, Importance, Method, MethodLight, Recipe, SampleBudget, SequenceId, Step, Target,
+};
 use crate::render::Film;
-use crate::scene::Scene;
+use crate::scene::{Scene, SceneLight};
 use crate::vulkan::{Device, VulkanError};
-use crate::workload::{RenderSettings, arrays_at};
+use crate::workload::{RenderSettings, arrays_lit_by};
 
 /// Frames that ReSTIR runs through before the first one shown, where there are as many before it.
 const WARM_UP: u32 = 8;
@@ -271,8 +275,20 @@ struct Sequence<'a> {
 }
 
 impl Sequence<'_> {
-    /// Renders and writes all frames; returns what the report says of each.
+    /// Renders and writes all frames, by lights of the type that the scene needs; returns what the report says of each.
     fn render(&self, context: &Context, device: Option<&Device>) -> Result<Vec<Value>, HostError> {
+        if self.scene.analytic_count() > 0 {
+            self.render_by::<AnyLight>(context, device)
+        } else {
+            self.render_by::<EmissiveTriangle>(context, device)
+        }
+    }
+
+    fn render_by<L: MethodLight>(
+        &self,
+        context: &Context,
+        device: Option<&Device>,
+    ) -> Result<Vec<Value>, HostError> {
         let args = self.args;
         let shown = args
             .animate
@@ -280,7 +296,7 @@ impl Sequence<'_> {
             .unwrap_or(args.frame..args.frame.saturating_add(1));
         let warm_up = if self.recipe.reuse.is_some() { WARM_UP } else { 0 };
         let start = shown.start.saturating_sub(warm_up);
-        let first = self.arrays(start)?;
+        let first = self.arrays::<L>(start)?;
         let target = device.map_or(Target::Cpu, Target::Device);
         let mut runner = self.recipe.runner(&self.step(start, &first), target)?;
         let mut exposure = args.exposure;
@@ -336,7 +352,7 @@ impl Sequence<'_> {
         Ok(reports)
     }
 
-    fn step<'b>(&'b self, frame: u32, arrays: &'b SceneArrays) -> Step<'b> {
+    fn step<'b, L>(&'b self, frame: u32, arrays: &'b SceneArrays<L>) -> Step<'b, L> {
         Step {
             scene: self.scene,
             frame,
@@ -344,8 +360,8 @@ impl Sequence<'_> {
         }
     }
 
-    fn arrays(&self, frame: u32) -> Result<Arc<SceneArrays>, HostError> {
-        let arrays = arrays_at(self.scene, frame, self.args.width, self.args.height)?;
+    fn arrays<L: SceneLight>(&self, frame: u32) -> Result<Arc<SceneArrays<L>>, HostError> {
+        let arrays = arrays_lit_by(self.scene, frame, self.args.width, self.args.height)?;
         Ok(Arc::new(arrays))
     }
 }

@@ -1,6 +1,6 @@
 //! `lightbvh validate`: every invariant of the light BVHs of a scene, as built and as refitted.
 
-use lightbvh_kernels::bvh::{Choice, Paper, Standard, WIDTH};
+use lightbvh_kernels::bvh::{Paper, Standard, TriangleChoice, WIDTH};
 use serde::Serialize;
 use serde_json::json;
 
@@ -70,7 +70,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
 }
 
 /// Every structure at every frame.
-fn rows<C: Choice<W>, const W: usize>(scene: &Scene, args: &Args) -> Result<Vec<Row>, HostError> {
+fn rows<C: TriangleChoice<W>, const W: usize>(scene: &Scene, args: &Args) -> Result<Vec<Row>, HostError> {
     let params = args.heuristic.unwrap_or(args.importance.builder()).params();
     let mut rows = Vec::new();
     for sampler in [Sampler::SingleLevel, Sampler::TwoLevel] {

@@ -10,13 +10,14 @@ use super::moving::Moving;
 use super::{Recipe, Runner, SampleBudget, SequenceId, Step, Target, UpdateTimes, mean_of, time_power_table};
 use crate::backend::{Backend, Bvh, Follow, Integrator, Sampler, SceneArrays, Timed, all_candidates};
 use crate::error::HostError;
+use crate::scene::SceneLight;
 use crate::workload::{RenderSettings, build};
 
 /// Camera rays per pixel that make edges smooth; the light samples of a pixel are shared out among them.
 const MAX_CAMERA_RAYS: u32 = 8;
 
 /// A method of independent samples.
-pub(super) struct Independent<'d, C: Choice<W>, const W: usize> {
+pub(super) struct Independent<'d, C: Choice<W, Light: SceneLight>, const W: usize> {
     recipe: Recipe,
     target: Target<'d>,
     backend: Box<dyn Follow<C, W> + 'd>,
@@ -24,8 +25,8 @@ pub(super) struct Independent<'d, C: Choice<W>, const W: usize> {
     moving: Option<Moving<C, W>>,
 }
 
-impl<'d, C: Choice<W>, const W: usize> Independent<'d, C, W> {
-    pub fn new(recipe: Recipe, first: &Step<'_>, target: Target<'d>) -> Result<Self, HostError> {
+impl<'d, C: Choice<W, Light: SceneLight>, const W: usize> Independent<'d, C, W> {
+    pub fn new(recipe: Recipe, first: &Step<'_, C::Light>, target: Target<'d>) -> Result<Self, HostError> {
         let params = recipe.builder.params();
         let moving = (recipe.lights == Sampler::TwoLevel)
             .then(|| Moving::<C, W>::new(first, params))
@@ -44,8 +45,8 @@ impl<'d, C: Choice<W>, const W: usize> Independent<'d, C, W> {
     }
 }
 
-impl<C: Choice<W>, const W: usize> Runner for Independent<'_, C, W> {
-    fn advance(&mut self, step: &Step<'_>) -> Result<UpdateTimes, HostError> {
+impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Independent<'_, C, W> {
+    fn advance(&mut self, step: &Step<'_, C::Light>) -> Result<UpdateTimes, HostError> {
         if let Some(moving) = &mut self.moving {
             return moving.advance(step, Some(&mut *self.backend));
         }
@@ -67,8 +68,8 @@ impl<C: Choice<W>, const W: usize> Runner for Independent<'_, C, W> {
 
     fn image(
         &mut self,
-        step: &Step<'_>,
-        arrays: &Arc<SceneArrays>,
+        step: &Step<'_, C::Light>,
+        arrays: &Arc<SceneArrays<C::Light>>,
         settings: &RenderSettings,
         _sequence: SequenceId,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {
@@ -103,7 +104,7 @@ impl<C: Choice<W>, const W: usize> Runner for Independent<'_, C, W> {
         }
     }
 
-    fn backend(&mut self) -> Option<&mut dyn Backend> {
+    fn backend(&mut self) -> Option<&mut dyn Backend<C::Light>> {
         Some(&mut *self.backend)
     }
 

@@ -13,8 +13,9 @@ use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Duration;
 
-use lightbvh::{EditError, Lights};
-use lightbvh_kernels::bvh::{Choice, Paper, Standard, WIDTH};
+use lightbvh::light::AnyLight;
+use lightbvh::{EditError, EmissiveTriangle, Lights};
+use lightbvh_kernels::bvh::{Choice, Kinds, Paper, Standard, WIDTH};
 
 use self::independent::Independent;
 use self::restir::Reservoirs;
@@ -23,22 +24,30 @@ use crate::backend::{
 };
 use crate::error::HostError;
 use crate::render::power_thresholds;
-use crate::scene::Scene;
+use crate::scene::{Scene, SceneLight};
 use crate::vulkan::Device;
 use crate::workload::RenderSettings;
 
 /// A frame of an animation, as a method learns of it.
-#[derive(Clone, Copy, Debug)]
-pub struct Step<'a> {
+#[derive(Debug)]
+pub struct Step<'a, L = EmissiveTriangle> {
     /// The scene.
     pub scene: &'a Scene,
     /// Number of the frame.
     pub frame: u32,
     /// Its lights.
-    pub lights: &'a Lights,
+    pub lights: &'a Lights<L>,
 }
 
-impl Step<'_> {
+impl<L> Clone for Step<'_, L> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<L> Copy for Step<'_, L> {}
+
+impl<L> Step<'_, L> {
     /// The error for lights of this frame that a light BVH does not take.
     fn refused(&self, error: EditError) -> HostError {
         HostError::in_frame(self.scene.name(), self.frame, error)
@@ -81,14 +90,14 @@ pub enum SampleBudget {
     CameraRays,
 }
 
-/// A method over one scene on one backend.
-pub trait Runner {
+/// A method over one scene on one backend, whose lights are of type `L`.
+pub trait Runner<L: SceneLight = EmissiveTriangle> {
     /// Brings the structures to the next frame. Frames come in ascending order; only methods that say so in
     /// [`may_skip`](Self::may_skip) see them with gaps.
     ///
     /// # Errors
     /// [`HostError`] from a device, or for lights that the method cannot take.
-    fn advance(&mut self, step: &Step<'_>) -> Result<UpdateTimes, HostError>;
+    fn advance(&mut self, step: &Step<'_, L>) -> Result<UpdateTimes, HostError>;
 
     /// Renders the frame last advanced to, which `arrays` are of, and `settings` too. Images of one `sequence` follow each other
     /// over consecutive frames, so that what one leaves behind (reservoirs) may serve the next; a sequence that is not
@@ -98,8 +107,8 @@ pub trait Runner {
     /// [`HostError`] from a device, or for a scene that the method cannot take.
     fn image(
         &mut self,
-        step: &Step<'_>,
-        arrays: &Arc<SceneArrays>,
+        step: &Step<'_, L>,
+        arrays: &Arc<SceneArrays<L>>,
         settings: &RenderSettings,
         sequence: SequenceId,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError>;
@@ -108,7 +117,7 @@ pub trait Runner {
     fn end(&mut self, _sequence: SequenceId) {}
 
     /// What renders single images, where one does: of the frame last advanced to.
-    fn backend(&mut self) -> Option<&mut dyn Backend> {
+    fn backend(&mut self) -> Option<&mut dyn Backend<L>> {
         None
     }
 
@@ -155,7 +164,7 @@ impl<'d> Target<'d> {
     }
 
     /// A backend over `bvh`.
-    pub(crate) fn backend<C: Choice<W>, const W: usize>(
+    pub(crate) fn backend<C: Choice<W, Light: SceneLight>, const W: usize>(
         &self,
         bvh: Bvh<C, W>,
     ) -> Result<Box<dyn Follow<C, W> + 'd>, BackendError> {
@@ -183,22 +192,19 @@ impl Recipe {
     ///
     /// # Errors
     /// [`HostError`] from a device, or for a scene that the method cannot take.
-    pub fn runner<'d>(
+    pub fn runner<'d, L: MethodLight>(
         &self,
-        first: &Step<'_>,
+        first: &Step<'_, L>,
         target: Target<'d>,
-    ) -> Result<Box<dyn Runner + 'd>, HostError> {
-        match self.importance {
-            Importance::Moments => self.runner_by::<Standard, WIDTH>(first, target),
-            Importance::Eq4 => self.runner_by::<Paper, 4>(first, target),
-        }
+    ) -> Result<Box<dyn Runner<L> + 'd>, HostError> {
+        L::runner(self, first, target)
     }
 
-    fn runner_by<'d, C: Choice<W>, const W: usize>(
+    fn runner_by<'d, C: Choice<W, Light: SceneLight>, const W: usize>(
         &self,
-        first: &Step<'_>,
+        first: &Step<'_, C::Light>,
         target: Target<'d>,
-    ) -> Result<Box<dyn Runner + 'd>, HostError> {
+    ) -> Result<Box<dyn Runner<C::Light> + 'd>, HostError> {
         Ok(match self.restir() {
             Some(options) => Box::new(Reservoirs::<C, W>::new(*self, options, first, target)?),
             None => Box::new(Independent::<C, W>::new(*self, first, target)?),
@@ -206,7 +212,11 @@ impl Recipe {
     }
 
     /// An error where lights are chosen by a power table and there is none.
-    fn require_power_table(&self, step: &Step<'_>, arrays: &SceneArrays) -> Result<(), HostError> {
+    fn require_power_table<L: SceneLight>(
+        &self,
+        step: &Step<'_, L>,
+        arrays: &SceneArrays<L>,
+    ) -> Result<(), HostError> {
         if self.lights == Sampler::Power && arrays.thresholds.is_empty() {
             return Err(HostError::Sampler {
                 scene: step.scene.name().to_owned(),
@@ -218,8 +228,50 @@ impl Recipe {
     }
 }
 
+/// Lights that methods are compiled for.
+pub trait MethodLight: SceneLight {
+    /// Builds what `recipe` needs at its first frame.
+    ///
+    /// # Errors
+    /// [`HostError`] from a device, or for what the method does not take.
+    fn runner<'d>(
+        recipe: &Recipe,
+        first: &Step<'_, Self>,
+        target: Target<'d>,
+    ) -> Result<Box<dyn Runner<Self> + 'd>, HostError>;
+}
+
+impl MethodLight for EmissiveTriangle {
+    fn runner<'d>(
+        recipe: &Recipe,
+        first: &Step<'_, Self>,
+        target: Target<'d>,
+    ) -> Result<Box<dyn Runner<Self> + 'd>, HostError> {
+        match recipe.importance {
+            Importance::Moments => recipe.runner_by::<Standard, WIDTH>(first, target),
+            Importance::Eq4 => recipe.runner_by::<Paper, 4>(first, target),
+        }
+    }
+}
+
+impl MethodLight for AnyLight {
+    fn runner<'d>(
+        recipe: &Recipe,
+        first: &Step<'_, Self>,
+        target: Target<'d>,
+    ) -> Result<Box<dyn Runner<Self> + 'd>, HostError> {
+        match recipe.importance {
+            Importance::Moments => recipe.runner_by::<Kinds, WIDTH>(first, target),
+            Importance::Eq4 => Err(HostError::Usage {
+                option: "--importance eq4 (and samplers by it)",
+                needs: "a scene of emissive triangles alone; this one has lights of other kinds, which moments choose among",
+            }),
+        }
+    }
+}
+
 /// The renderer reads the table that comes with the frame's arrays; here it is made once more, for its time.
-fn time_power_table(step: &Step<'_>) -> UpdateTimes {
+fn time_power_table<L: SceneLight>(step: &Step<'_, L>) -> UpdateTimes {
     let made = Timed::of(|| black_box(power_thresholds(step.lights.triangles())).is_ok());
     UpdateTimes::waited(made.time)
 }

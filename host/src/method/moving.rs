@@ -10,18 +10,18 @@ use lightbvh_kernels::bvh::Choice;
 use super::{Step, UpdateTimes};
 use crate::backend::{Bvh, Follow, Timed};
 use crate::error::HostError;
-use crate::scene::Instances;
+use crate::scene::{Instances, SceneLight};
 
 /// Moving lights, their rebuilder, and where they stand.
-pub(super) struct Moving<C: Choice<W>, const W: usize> {
+pub(super) struct Moving<C: Choice<W, Light: SceneLight>, const W: usize> {
     scene: Bvh<C, W>,
-    instances: Instances,
+    instances: Instances<C::Light>,
     rebuilder: Rebuilder<C::Node, W>,
 }
 
-impl<C: Choice<W>, const W: usize> Moving<C, W> {
+impl<C: Choice<W, Light: SceneLight>, const W: usize> Moving<C, W> {
     /// The lights at the first frame, built.
-    pub fn new(first: &Step<'_>, params: BuildParams) -> Result<Self, HostError> {
+    pub fn new(first: &Step<'_, C::Light>, params: BuildParams) -> Result<Self, HostError> {
         let (scene, instances) =
             Instances::new(first.scene, first.frame, params).map_err(|source| first.refused(source))?;
         // Every frame the same on all backends, for which it may wait.
@@ -48,7 +48,7 @@ impl<C: Choice<W>, const W: usize> Moving<C, W> {
     /// it: swapping in the rebuilt tree, noting what moved, and new summaries (those of `backend`, where there is one).
     pub fn advance(
         &mut self,
-        step: &Step<'_>,
+        step: &Step<'_, C::Light>,
         backend: Option<&mut (dyn Follow<C, W> + '_)>,
     ) -> Result<UpdateTimes, HostError> {
         // Following the animation is the scene's business, whichever method renders it.

@@ -10,26 +10,27 @@ use super::moving::Moving;
 use super::{Recipe, Runner, SampleBudget, SequenceId, Step, Target, UpdateTimes, mean_of, time_power_table};
 use crate::backend::{Follow, History, Restir, RestirFrame, RestirOptions, SceneArrays, Timed};
 use crate::error::HostError;
+use crate::scene::SceneLight;
 use crate::workload::RenderSettings;
 
 /// Frames that a history runs through before the image that counts.
 const HISTORY: u32 = 8;
 
 /// ReSTIR with one history per pixel or several that know nothing of each other.
-pub(super) struct Reservoirs<'d, C: Choice<W>, const W: usize> {
+pub(super) struct Reservoirs<'d, C: Choice<W, Light: SceneLight>, const W: usize> {
     recipe: Recipe,
     options: RestirOptions,
     backend: Box<dyn Follow<C, W> + 'd>,
     moving: Moving<C, W>,
-    sequences: BTreeMap<SequenceId, Vec<Restir>>,
+    sequences: BTreeMap<SequenceId, Vec<Restir<C::Light>>>,
 }
 
-impl<'d, C: Choice<W>, const W: usize> Reservoirs<'d, C, W> {
+impl<'d, C: Choice<W, Light: SceneLight>, const W: usize> Reservoirs<'d, C, W> {
     /// Before the first image.
     pub fn new(
         recipe: Recipe,
         options: RestirOptions,
-        first: &Step<'_>,
+        first: &Step<'_, C::Light>,
         target: Target<'d>,
     ) -> Result<Self, HostError> {
         let moving = Moving::<C, W>::new(first, recipe.builder.params())?;
@@ -43,8 +44,8 @@ impl<'d, C: Choice<W>, const W: usize> Reservoirs<'d, C, W> {
     }
 }
 
-impl<C: Choice<W>, const W: usize> Runner for Reservoirs<'_, C, W> {
-    fn advance(&mut self, step: &Step<'_>) -> Result<UpdateTimes, HostError> {
+impl<C: Choice<W, Light: SceneLight>, const W: usize> Runner<C::Light> for Reservoirs<'_, C, W> {
+    fn advance(&mut self, step: &Step<'_, C::Light>) -> Result<UpdateTimes, HostError> {
         if self.recipe.lights.needs_bvh() {
             self.moving.advance(step, Some(&mut *self.backend))
         } else {
@@ -54,8 +55,8 @@ impl<C: Choice<W>, const W: usize> Runner for Reservoirs<'_, C, W> {
 
     fn image(
         &mut self,
-        step: &Step<'_>,
-        arrays: &Arc<SceneArrays>,
+        step: &Step<'_, C::Light>,
+        arrays: &Arc<SceneArrays<C::Light>>,
         settings: &RenderSettings,
         sequence: SequenceId,
     ) -> Result<Timed<Vec<[f32; 3]>>, HostError> {

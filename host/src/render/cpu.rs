@@ -3,14 +3,15 @@
 use lightbvh_kernels::path::path_pixel;
 use lightbvh_kernels::render::{RenderParams, render_pixel};
 use lightbvh_kernels::shading::camera::Camera;
+use lightbvh_kernels::shading::emitter::Emitter;
 use lightbvh_kernels::shading::pick::PickLight;
 use lightbvh_kernels::shading::pixel::Scene;
 use rayon::prelude::*;
 
 /// Radiance of every pixel, by rows from the upper left. Pixels do not depend on each other, so neither does the image on
 /// the number of threads.
-pub fn render<P: PickLight + Sync>(
-    scene: &Scene<'_>,
+pub fn render<L: Emitter, P: PickLight + Sync>(
+    scene: &Scene<'_, L>,
     camera: &Camera,
     params: &RenderParams,
     picker: &P,
@@ -22,8 +23,8 @@ pub fn render<P: PickLight + Sync>(
 }
 
 /// [`render`], for paths of up to `bounces` reflections.
-pub fn render_path<P: PickLight + Sync>(
-    scene: &Scene<'_>,
+pub fn render_path<L: Emitter, P: PickLight + Sync>(
+    scene: &Scene<'_, L>,
     camera: &Camera,
     params: &RenderParams,
     bounces: u32,

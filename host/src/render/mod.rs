@@ -14,5 +14,5 @@ pub use cpu::{render, render_path};
 pub(crate) use film::write_image;
 pub use film::{Film, FilmError, MAX_AUTO_EXPOSURE};
 pub use output::write_whole;
-pub use power::{PowerError, flux, power_thresholds};
+pub use power::{PowerError, power_thresholds, triangle_flux};
 pub use ray_bvh::{RayBvh, RayBvhError};

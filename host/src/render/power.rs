@@ -3,6 +3,7 @@
 use lightbvh::EmissiveTriangle;
 use lightbvh_kernels::shading::pick::MAX_PICKABLE;
 
+use crate::scene::SceneLight;
 use crate::vector::{dot, normal};
 
 /// Why there is no power table.
@@ -19,7 +20,7 @@ pub enum PowerError {
 }
 
 /// Luminous part of the flux of a triangle: pi times area times luminance, doubled where both sides emit.
-pub fn flux(light: &EmissiveTriangle) -> f64 {
+pub fn triangle_flux(light: &EmissiveTriangle) -> f64 {
     let normal = normal(light.p);
     let area = 0.5 * dot(normal, normal).sqrt();
     let sides = if light.is_two_sided() { 2.0 } else { 1.0 };
@@ -33,8 +34,8 @@ pub fn flux(light: &EmissiveTriangle) -> f64 {
 ///
 /// # Errors
 /// [`PowerError::TooMany`] where more than 2^24 lights emit.
-pub fn power_thresholds(lights: &[EmissiveTriangle]) -> Result<Vec<u32>, PowerError> {
-    let fluxes: Vec<f64> = lights.iter().map(flux).collect();
+pub fn power_thresholds<L: SceneLight>(lights: &[L]) -> Result<Vec<u32>, PowerError> {
+    let fluxes: Vec<f64> = lights.iter().map(SceneLight::flux).collect();
     let emitters = fluxes.iter().filter(|&&f| f > 0.0).count();
     if emitters > MAX_PICKABLE as usize {
         return Err(PowerError::TooMany { emitters });

@@ -42,8 +42,8 @@ impl Scene {
         check.nodes(&data)?;
         check.skins(&data)?;
         check.animations(&data)?;
-        for (index, light) in data.punctual.iter().enumerate() {
-            check.punctual(index, light, data.nodes.len())?;
+        for (index, light) in data.analytic.iter().enumerate() {
+            check.analytic(index, light, data.nodes.len())?;
         }
         for (index, camera) in data.cameras.iter().enumerate() {
             check.index(
@@ -294,6 +294,10 @@ impl Check<'_> {
             total.triangles = total.triangles.saturating_add(counts.triangles);
             total.emissive = total.emissive.saturating_add(counts.emissive);
             total.mesh_lights = total.mesh_lights.saturating_add(counts.mesh_lights);
+        }
+        for light in &data.analytic {
+            total.triangles = total.triangles.saturating_add(light.facets());
+            total.analytic += usize::from(light.light().is_some());
         }
         self.limit("triangles over all instances", total.triangles, MAX_TRIANGLES)?;
         if total.triangles == 0 {

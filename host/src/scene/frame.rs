@@ -1,6 +1,6 @@
 //! One frame of a scene: world-space triangles and lights, in the same order every frame.
 
-use lightbvh::light::{EmissiveTriangle, MIN_COORDINATE, TWO_SIDED};
+use lightbvh::light::{AnyLight, EmissiveTriangle, MIN_COORDINATE, TWO_SIDED};
 use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 
@@ -11,7 +11,9 @@ use super::camera::view_of_node;
 use super::deform::Placed;
 use super::flush::flush;
 use super::framing;
+use super::lamps;
 use super::model::{Scene, SceneData};
+use super::scene_light::SceneLight;
 
 /// The paper animates its scenes at a simulated 25 frames per second (section 4.1).
 pub const FRAMES_PER_SECOND: u32 = 25;
@@ -36,7 +38,9 @@ pub struct Frame {
     pub emissive: Vec<EmissiveTriangle>,
     /// Ranges of `emissive`, in order, without gaps.
     pub mesh_lights: Vec<MeshRange>,
-    /// By [`SurfaceTriangle::material`].
+    /// Lights by formula, numbered after those, and each a mesh light of its own after [`mesh_lights`](Self::mesh_lights).
+    pub others: Vec<AnyLight>,
+    /// By [`SurfaceTriangle::material`]; the last one of lights by formula, where there are any.
     pub materials: Vec<SurfaceMaterial>,
     /// Where the frame is seen from.
     pub camera: View,
@@ -53,11 +57,13 @@ impl Scene {
             triangles: Vec::with_capacity(self.counts.triangles),
             emissive: Vec::with_capacity(self.counts.emissive),
             mesh_lights: Vec::with_capacity(self.counts.mesh_lights),
+            others: Vec::with_capacity(self.counts.analytic),
             materials: data.materials.iter().map(super::Material::surface).collect(),
             camera: NOWHERE,
             background: data.background,
         };
         place_meshes(data, &pose, &mut out);
+        lamps::place(data, &pose, &mut out);
         out.camera = match data.cameras.first() {
             Some(camera) => view_of_node(&pose.world[camera.node as usize], camera.yfov),
             // The same in every frame.
@@ -68,6 +74,16 @@ impl Scene {
             },
         };
         out
+    }
+}
+
+impl Frame {
+    /// All lights that the type holds, in the order in which they are numbered.
+    pub fn lights<L: SceneLight>(&self) -> Vec<L> {
+        let triangles = self.emissive.iter().map(|&triangle| L::from(triangle));
+        triangles
+            .chain(self.others.iter().filter_map(|&light| L::of_kind(light)))
+            .collect()
     }
 }
 

@@ -5,11 +5,13 @@
 //! which most of it is seen. The number of rays is bounded, and small for small scenes.
 
 use glam::Vec3;
+use lightbvh::light::{AnyLight, Light, SpotLight};
 use lightbvh_kernels::shading::ray::{FAR, Ray};
 use lightbvh_kernels::shading::trace::{LANES, NONE, any_hit, closest_hit};
 
 use super::camera::{DEFAULT_YFOV, view_of_box};
 use super::frame::Frame;
+use super::scene_light::SceneLight;
 use crate::render::{RayBvh, View};
 use crate::vector::{cross, dot, normal, sub};
 
@@ -94,25 +96,28 @@ fn narrowed(v: [f64; 3]) -> Vec3 {
 /// Where light lands, and where it comes from.
 fn points(frame: &Frame, rays: &RayBvh, size: [f64; 3]) -> Vec<Point> {
     let luminance = |rgb: [f32; 3]| rgb.iter().map(|&channel| f64::from(channel)).sum::<f64>() / 3.0;
-    let flux: Vec<f64> = frame
+    let triangles = frame
         .emissive
         .iter()
-        .map(|light| area(&light.p) * luminance(light.radiance))
-        .collect();
+        .map(|light| area(&light.p) * luminance(light.radiance));
+    // As triangles' are: without π.
+    let others = frame
+        .others
+        .iter()
+        .map(|light| light.flux() / std::f64::consts::PI);
+    let flux: Vec<f64> = triangles.chain(others).collect();
     let mut points = Vec::new();
     let sent = (SENT.2 * frame.triangles.len()).clamp(SENT.0, SENT.1);
     let step = 1e-6 * dot(size, size).sqrt();
     for (index, i) in spread(&flux, sent) {
-        let light = &frame.emissive[index];
-        let n = unit(normal(light.p));
+        let (start, n) = point_on(frame, index, i);
         // Every other ray from the back.
-        let n = if light.is_two_sided() && i % 2 == 1 {
+        let n = if is_two_sided(frame, index) && i % 2 == 1 {
             n.map(|x| -x)
         } else {
             n
         };
-        let d = cosine(n, i);
-        let start = inside(&light.p, i);
+        let d = if n == [0.0; 3] { anywhere(i) } else { cosine(n, i) };
         let start = [0, 1, 2].map(|axis| start[axis] + step * d[axis]);
         let hit = closest_hit(&rays.surfaces(), &Ray::new(narrowed(start), narrowed(d), FAR));
         let (block, lane) = (hit.triangle as usize / LANES, hit.triangle as usize % LANES);
@@ -138,16 +143,52 @@ fn points(frame: &Frame, rays: &RayBvh, size: [f64; 3]) -> Vec<Point> {
     let all = if lit > 0.0 { LIGHTS_COUNT * lit } else { 1.0 };
     let weight = all / count.max(1) as f64;
     points.extend(spread(&flux, count).map(|(index, i)| {
-        let light = &frame.emissive[index];
-        let n = if light.is_two_sided() {
-            [0.0; 3]
-        } else {
-            unit(normal(light.p))
-        };
-        let p = inside(&light.p, i);
+        let (p, n) = point_on(frame, index, i);
+        let n = if is_two_sided(frame, index) { [0.0; 3] } else { n };
         Point { p, n, weight }
     }));
     points
+}
+
+/// The `i`-th of points of a light, and its normal there: none of what has no surface, but the axis of a spot.
+fn point_on(frame: &Frame, index: usize, i: usize) -> ([f64; 3], [f64; 3]) {
+    match frame.emissive.get(index) {
+        Some(light) => (inside(&light.p, i), unit(normal(light.p))),
+        None => {
+            let light = &frame.others[index - frame.emissive.len()];
+            let [u, v, w, _] = sequence(i);
+            // Of a sphere, the side that a receiver in this direction would see.
+            let towards = anywhere(i).map(|x| x as f32);
+            let center = light.centroid();
+            let reach = light.bounds().max - light.bounds().min;
+            let far = 4.0 * (reach.x + reach.y + reach.z) + 1.0;
+            let from = Vec3::from(center) + Vec3::from(towards) * far;
+            let at = light.point_for(
+                from,
+                [u as f32, if light.kind() == AnyLight::BOX { w } else { v } as f32],
+            );
+            let n = match SpotLight::try_from(*light) {
+                Ok(spot) => spot.axis,
+                Err(_) => at.normal,
+            };
+            (at.p.map(f64::from), n.map(f64::from))
+        }
+    }
+}
+
+fn is_two_sided(frame: &Frame, index: usize) -> bool {
+    match frame.emissive.get(index) {
+        Some(light) => light.is_two_sided(),
+        None => frame.others[index - frame.emissive.len()].is_two_sided(),
+    }
+}
+
+/// The `i`-th of directions, all alike.
+fn anywhere(i: usize) -> [f64; 3] {
+    let [_, _, u, v] = sequence(i);
+    let (angle, z) = (std::f64::consts::TAU * u, 1.0 - 2.0 * v);
+    let flat = (1.0 - z * z).sqrt();
+    [libm::cos(angle) * flat, z, libm::sin(angle) * flat]
 }
 
 /// The `i`-th of directions about `n`, as often as a diffuse light sends light there.

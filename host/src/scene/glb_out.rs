@@ -129,8 +129,8 @@ impl Writer {
             "bufferViews": self.views,
             "buffers": [{ "byteLength": self.binary.len() }],
         });
-        if !data.punctual.is_empty() {
-            let lights: Vec<Value> = data.punctual.iter().map(light).collect();
+        let lights: Vec<Value> = data.analytic.iter().filter_map(light).collect();
+        if !lights.is_empty() {
             root["extensions"] = json!({ "KHR_lights_punctual": { "lights": lights } });
             root["extensionsUsed"]
                 .as_array_mut()
@@ -278,7 +278,12 @@ fn nodes(scene: &Scene) -> Vec<Value> {
         }
         out.push(value);
     }
-    for (index, light) in data.punctual.iter().enumerate() {
+    for (index, light) in data
+        .analytic
+        .iter()
+        .filter(|own| light(own).is_some())
+        .enumerate()
+    {
         // A node has one light; a further one of the same node stands on a node of its own.
         let on = light.node as usize;
         let named = json!({ "KHR_lights_punctual": { "light": index } });

@@ -3,45 +3,47 @@
 use std::collections::BTreeMap;
 
 use lightbvh::light::TWO_SIDED;
-use lightbvh::{BuildParams, Edit, EditError, EmissiveTriangle, InstanceId, LightNode, MeshId};
+use lightbvh::node::{Holds, Node as Layout};
+use lightbvh::{BuildParams, Edit, EditError, EmissiveTriangle, InstanceId, MeshId};
 
 use super::animate::Pose;
 use super::deform::{deforms, is_skinned};
 use super::frame::{FRAMES_PER_SECOND, emits, rounded};
 use super::model::{Primitive, Scene, SceneData};
+use super::scene_light::SceneLight;
 use super::transform::Affine;
 
 /// The mesh lights of a scene as instances of meshes, followed from frame to frame. Instances come in the order of
 /// [`Frame::mesh_lights`](super::Frame::mesh_lights), and their lights are numbered as [`Frame::emissive`](super::Frame::emissive).
 /// What bends has a mesh of its own, whose triangles are told anew in each frame where they have changed.
 #[derive(Clone, Debug)]
-pub struct Instances {
-    followed: Vec<Followed>,
+pub struct Instances<L = EmissiveTriangle> {
+    followed: Vec<Followed<L>>,
 }
 
 /// An instance, and what was last told of it.
 #[derive(Clone, Debug)]
-struct Followed {
+struct Followed<L> {
     node: usize,
     id: InstanceId,
     place: Affine,
-    bent: Option<Bent>,
+    bent: Option<Bent<L>>,
 }
 
 /// A primitive that bends.
 #[derive(Clone, Debug)]
-struct Bent {
+struct Bent<L> {
     primitive: usize,
     mesh: MeshId,
-    triangles: Vec<EmissiveTriangle>,
+    triangles: Vec<L>,
 }
 
-impl Instances {
+impl<L: SceneLight> Instances<L> {
     /// A light BVH over the lights of `scene` at `frame`, refitted, and what follows them.
     ///
     /// # Errors
     /// [`EditError`] for lights outside the domain.
-    pub fn new<N: LightNode<W>, I, const W: usize>(
+    pub fn new<N: Layout<W> + Holds<Light = L>, I, const W: usize>(
         scene: &Scene,
         frame: u32,
         params: BuildParams,
@@ -51,7 +53,7 @@ impl Instances {
         let mut lights = lightbvh::Bvh::new(params);
         let mut meshes: BTreeMap<(u32, usize), MeshId> = BTreeMap::new();
         let mut add = Vec::new();
-        let mut followed: Vec<(usize, Affine, Option<Bent>)> = Vec::new();
+        let mut followed: Vec<(usize, Affine, Option<Bent<L>>)> = Vec::new();
         for (index, node) in data.nodes.iter().enumerate() {
             let Some(mesh) = node.mesh else { continue };
             for (number, primitive) in data.meshes[mesh as usize].primitives.iter().enumerate() {
@@ -85,6 +87,20 @@ impl Instances {
                 });
             }
         }
+        for own in &data.analytic {
+            let Some(light) = own.light().and_then(L::of_kind) else {
+                continue;
+            };
+            let triangles = vec![light];
+            let mesh = lights.apply(vec![Edit::AddMesh { triangles }])?.meshes[0];
+            let (node, place) = (own.node as usize, pose.world[own.node as usize]);
+            followed.push((node, place, None));
+            add.push(Edit::AddInstance {
+                mesh,
+                transform: transform(&place),
+                radiance: 1.0,
+            });
+        }
         let ids = lights.apply(add)?.instances;
         lights.refit();
         let followed = followed.into_iter().zip(ids);
@@ -103,7 +119,7 @@ impl Instances {
     }
 
     /// The edits from the last frame asked for to this one: the instances that moved, and the meshes that bent.
-    pub fn edits(&mut self, scene: &Scene, frame: u32) -> Vec<Edit> {
+    pub fn edits(&mut self, scene: &Scene, frame: u32) -> Vec<Edit<L>> {
         let data = scene.data();
         let pose = pose_at(scene, frame);
         let mut edits = Vec::new();
@@ -133,7 +149,7 @@ impl Instances {
 
     /// The only instance of a mesh that bends.
     pub fn of_bent(&self, mesh: MeshId) -> Option<InstanceId> {
-        let bends = |followed: &&Followed| followed.bent.as_ref().is_some_and(|bent| bent.mesh == mesh);
+        let bends = |followed: &&Followed<L>| followed.bent.as_ref().is_some_and(|bent| bent.mesh == mesh);
         self.followed.iter().find(bends).map(|followed| followed.id)
     }
 }
@@ -152,7 +168,7 @@ fn place(data: &SceneData, pose: &Pose, node: usize, primitive: &Primitive) -> A
 }
 
 /// Rounded to what a light BVH is told.
-fn transform(place: &Affine) -> lightbvh::Transform {
+pub(super) fn transform(place: &Affine) -> lightbvh::Transform {
     let [a, b, c, t] = place.columns.map(|column| column.map(|x| x as f32));
     lightbvh::Transform {
         columns: [a, b, c],
@@ -161,7 +177,7 @@ fn transform(place: &Affine) -> lightbvh::Transform {
 }
 
 /// The emissive triangles of a primitive, in the space that [`place`] places.
-fn emissive_of(data: &SceneData, pose: &Pose, node: usize, primitive: &Primitive) -> Vec<EmissiveTriangle> {
+fn emissive_of<L: SceneLight>(data: &SceneData, pose: &Pose, node: usize, primitive: &Primitive) -> Vec<L> {
     let material = &data.materials[primitive.material as usize];
     let lit = |index: usize| emits(primitive.triangle_radiance(index, material.radiance));
     if !(0..primitive.triangles.len()).any(lit) {
@@ -179,12 +195,12 @@ fn emissive_of(data: &SceneData, pose: &Pose, node: usize, primitive: &Primitive
     let lit = triangles.filter(|&(index, _)| lit(index));
     lit.map(|(index, &[a, b, c])| {
         let corners = if mirrored { [a, c, b] } else { [a, b, c] };
-        EmissiveTriangle {
+        L::from(EmissiveTriangle {
             p: corners.map(|vertex| rounded(points[vertex as usize])),
             radiance: primitive.triangle_radiance(index, material.radiance),
             mesh: 0,
             flags,
-        }
+        })
     })
     .collect()
 }

@@ -15,6 +15,7 @@
 //! its counter-clockwise side. All trigonometry goes through the `libm` crate and all hierarchies are multiplied in
 //! `f64`, so that a scene has the same words on every machine.
 
+mod analytic;
 mod animate;
 mod builder;
 mod camera;
@@ -27,11 +28,12 @@ mod framing;
 mod glb_out;
 mod gltf_in;
 mod instances;
+mod lamps;
 mod load;
 mod model;
 mod motion_bounds;
-mod punctual;
 mod random;
+mod scene_light;
 mod shapes;
 mod track;
 mod transform;
@@ -40,6 +42,7 @@ pub mod carousel;
 pub mod square;
 pub mod street;
 
+pub use analytic::{AnalyticKind, AnalyticLight};
 pub use check::MAX_TRIANGLES;
 pub use deform::{Influence, MorphChannel, Skin};
 pub use error::SceneError;
@@ -49,5 +52,5 @@ pub use load::BUILT_IN;
 pub use model::{
     Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
 };
-pub use punctual::{PunctualKind, PunctualLight};
+pub use scene_light::SceneLight;
 pub use transform::Transform;

@@ -6,10 +6,10 @@ use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
 
 use crate::render::View;
 
+use super::analytic::AnalyticLight;
 use super::deform::{Influence, MorphChannel, Skin};
 use super::error::SceneError;
 use super::frame::emits;
-use super::punctual::PunctualLight;
 use super::transform::Transform;
 
 /// A scene that passed every check of [`Scene::new`]: finite, in range, references whole.
@@ -38,8 +38,8 @@ pub struct SceneData {
     pub cameras: Vec<Camera>,
     /// Named by nodes.
     pub skins: Vec<Skin>,
-    /// Lights without area, which nothing samples yet.
-    pub punctual: Vec<PunctualLight>,
+    /// Lights by formula.
+    pub analytic: Vec<AnalyticLight>,
     /// Radiance of rays that leave the scene, W/(m² sr), linear RGB.
     pub background: [f32; 3],
     /// What the loader left out, one sentence each.
@@ -225,6 +225,7 @@ pub(super) struct Counts {
     pub triangles: usize,
     pub emissive: usize,
     pub mesh_lights: usize,
+    pub analytic: usize,
 }
 
 impl Primitive {
@@ -286,7 +287,12 @@ impl Scene {
         self.counts.mesh_lights
     }
 
-    /// For commands that sample lights.
+    /// Lights by formula that are sampled.
+    pub fn analytic_count(&self) -> usize {
+        self.counts.analytic
+    }
+
+    /// For commands that sample emissive triangles.
     ///
     /// # Errors
     /// [`SceneError::NoEmissive`] where no triangle emits.

@@ -53,6 +53,25 @@ pub static PATH_BVH: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `path_bvh_any`.
+pub static PATH_BVH_ANY: Kernel = Kernel {
+    name: "path_bvh_any",
+    bytes: include_bytes!("../spirv/path_bvh_any.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "triangles", access: Read, stride: 68 },
+        Binding { binding: 4, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 5, name: "camera", access: Read, stride: 48 },
+        Binding { binding: 6, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 7, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 8, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 88,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `path_bvh_eq4`.
 pub static PATH_BVH_EQ4: Kernel = Kernel {
     name: "path_bvh_eq4",
@@ -90,6 +109,24 @@ pub static PATH_POWER: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `path_power_any`.
+pub static PATH_POWER_ANY: Kernel = Kernel {
+    name: "path_power_any",
+    bytes: include_bytes!("../spirv/path_power_any.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "triangles", access: Read, stride: 68 },
+        Binding { binding: 4, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 5, name: "camera", access: Read, stride: 48 },
+        Binding { binding: 6, name: "thresholds", access: Read, stride: 4 },
+        Binding { binding: 7, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 88,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `path_uniform`.
 pub static PATH_UNIFORM: Kernel = Kernel {
     name: "path_uniform",
@@ -99,6 +136,23 @@ pub static PATH_UNIFORM: Kernel = Kernel {
         Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
+        Binding { binding: 4, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 5, name: "camera", access: Read, stride: 48 },
+        Binding { binding: 6, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 88,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `path_uniform_any`.
+pub static PATH_UNIFORM_ANY: Kernel = Kernel {
+    name: "path_uniform_any",
+    bytes: include_bytes!("../spirv/path_uniform_any.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "triangles", access: Read, stride: 68 },
         Binding { binding: 4, name: "instances", access: Read, stride: 136 },
         Binding { binding: 5, name: "camera", access: Read, stride: 48 },
         Binding { binding: 6, name: "results", access: Write, stride: 12 },
@@ -308,6 +362,25 @@ pub static RENDER_BVH: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `render_bvh_any`.
+pub static RENDER_BVH_ANY: Kernel = Kernel {
+    name: "render_bvh_any",
+    bytes: include_bytes!("../spirv/render_bvh_any.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "triangles", access: Read, stride: 68 },
+        Binding { binding: 4, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 5, name: "camera", access: Read, stride: 48 },
+        Binding { binding: 6, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 7, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 8, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 84,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `render_bvh_eq4`.
 pub static RENDER_BVH_EQ4: Kernel = Kernel {
     name: "render_bvh_eq4",
@@ -345,6 +418,24 @@ pub static RENDER_POWER: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `render_power_any`.
+pub static RENDER_POWER_ANY: Kernel = Kernel {
+    name: "render_power_any",
+    bytes: include_bytes!("../spirv/render_power_any.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "triangles", access: Read, stride: 68 },
+        Binding { binding: 4, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 5, name: "camera", access: Read, stride: 48 },
+        Binding { binding: 6, name: "thresholds", access: Read, stride: 4 },
+        Binding { binding: 7, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 84,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `render_uniform`.
 pub static RENDER_UNIFORM: Kernel = Kernel {
     name: "render_uniform",
@@ -362,6 +453,23 @@ pub static RENDER_UNIFORM: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `render_uniform_any`.
+pub static RENDER_UNIFORM_ANY: Kernel = Kernel {
+    name: "render_uniform_any",
+    bytes: include_bytes!("../spirv/render_uniform_any.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "triangles", access: Read, stride: 68 },
+        Binding { binding: 4, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 5, name: "camera", access: Read, stride: 48 },
+        Binding { binding: 6, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 84,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `restir_initial_bvh`.
 pub static RESTIR_INITIAL_BVH: Kernel = Kernel {
     name: "restir_initial_bvh",
@@ -371,6 +479,26 @@ pub static RESTIR_INITIAL_BVH: Kernel = Kernel {
         Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
+        Binding { binding: 4, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 5, name: "camera", access: Read, stride: 48 },
+        Binding { binding: 6, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 7, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 8, name: "gbuffer", access: Write, stride: 56 },
+        Binding { binding: 9, name: "reservoirs", access: Write, stride: 28 },
+    ],
+    push_constants: 84,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `restir_initial_bvh_any`.
+pub static RESTIR_INITIAL_BVH_ANY: Kernel = Kernel {
+    name: "restir_initial_bvh_any",
+    bytes: include_bytes!("../spirv/restir_initial_bvh_any.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "triangles", access: Read, stride: 68 },
         Binding { binding: 4, name: "instances", access: Read, stride: 136 },
         Binding { binding: 5, name: "camera", access: Read, stride: 48 },
         Binding { binding: 6, name: "nodes", access: Read, stride: 192 },
@@ -421,6 +549,25 @@ pub static RESTIR_INITIAL_POWER: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `restir_initial_power_any`.
+pub static RESTIR_INITIAL_POWER_ANY: Kernel = Kernel {
+    name: "restir_initial_power_any",
+    bytes: include_bytes!("../spirv/restir_initial_power_any.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "triangles", access: Read, stride: 68 },
+        Binding { binding: 4, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 5, name: "camera", access: Read, stride: 48 },
+        Binding { binding: 6, name: "thresholds", access: Read, stride: 4 },
+        Binding { binding: 7, name: "gbuffer", access: Write, stride: 56 },
+        Binding { binding: 8, name: "reservoirs", access: Write, stride: 28 },
+    ],
+    push_constants: 84,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `restir_shade`.
 pub static RESTIR_SHADE: Kernel = Kernel {
     name: "restir_shade",
@@ -430,6 +577,24 @@ pub static RESTIR_SHADE: Kernel = Kernel {
         Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
+        Binding { binding: 4, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 5, name: "gbuffer", access: Read, stride: 56 },
+        Binding { binding: 6, name: "reservoirs", access: ReadWrite, stride: 28 },
+        Binding { binding: 7, name: "results", access: Write, stride: 16 },
+    ],
+    push_constants: 84,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `restir_shade_any`.
+pub static RESTIR_SHADE_ANY: Kernel = Kernel {
+    name: "restir_shade_any",
+    bytes: include_bytes!("../spirv/restir_shade_any.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "triangles", access: Read, stride: 68 },
         Binding { binding: 4, name: "instances", access: Read, stride: 136 },
         Binding { binding: 5, name: "gbuffer", access: Read, stride: 56 },
         Binding { binding: 6, name: "reservoirs", access: ReadWrite, stride: 28 },
@@ -455,6 +620,22 @@ pub static RESTIR_SPATIAL_BIASED: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `restir_spatial_biased_any`.
+pub static RESTIR_SPATIAL_BIASED_ANY: Kernel = Kernel {
+    name: "restir_spatial_biased_any",
+    bytes: include_bytes!("../spirv/restir_spatial_biased_any.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 1, name: "triangles", access: Read, stride: 68 },
+        Binding { binding: 2, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 3, name: "gbuffer", access: Read, stride: 56 },
+        Binding { binding: 4, name: "reservoirs", access: Read, stride: 28 },
+        Binding { binding: 5, name: "results", access: Write, stride: 28 },
+    ],
+    push_constants: 84,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `restir_spatial_unbiased`.
 pub static RESTIR_SPATIAL_UNBIASED: Kernel = Kernel {
     name: "restir_spatial_unbiased",
@@ -464,6 +645,24 @@ pub static RESTIR_SPATIAL_UNBIASED: Kernel = Kernel {
         Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
         Binding { binding: 2, name: "materials", access: Read, stride: 20 },
         Binding { binding: 3, name: "triangles", access: Read, stride: 56 },
+        Binding { binding: 4, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 5, name: "gbuffer", access: Read, stride: 56 },
+        Binding { binding: 6, name: "reservoirs", access: Read, stride: 28 },
+        Binding { binding: 7, name: "results", access: Write, stride: 28 },
+    ],
+    push_constants: 84,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `restir_spatial_unbiased_any`.
+pub static RESTIR_SPATIAL_UNBIASED_ANY: Kernel = Kernel {
+    name: "restir_spatial_unbiased_any",
+    bytes: include_bytes!("../spirv/restir_spatial_unbiased_any.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "ray_nodes", access: Read, stride: 224 },
+        Binding { binding: 1, name: "surfaces", access: Read, stride: 192 },
+        Binding { binding: 2, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 3, name: "triangles", access: Read, stride: 68 },
         Binding { binding: 4, name: "instances", access: Read, stride: 136 },
         Binding { binding: 5, name: "gbuffer", access: Read, stride: 56 },
         Binding { binding: 6, name: "reservoirs", access: Read, stride: 28 },
@@ -492,6 +691,25 @@ pub static RESTIR_TEMPORAL_BIASED: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `restir_temporal_biased_any`.
+pub static RESTIR_TEMPORAL_BIASED_ANY: Kernel = Kernel {
+    name: "restir_temporal_biased_any",
+    bytes: include_bytes!("../spirv/restir_temporal_biased_any.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 1, name: "triangles", access: Read, stride: 68 },
+        Binding { binding: 2, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 3, name: "before_camera", access: Read, stride: 48 },
+        Binding { binding: 4, name: "before_gbuffer", access: Read, stride: 56 },
+        Binding { binding: 5, name: "before_reservoirs", access: Read, stride: 28 },
+        Binding { binding: 6, name: "to_current", access: Read, stride: 8 },
+        Binding { binding: 7, name: "gbuffer", access: Read, stride: 56 },
+        Binding { binding: 8, name: "reservoirs", access: ReadWrite, stride: 28 },
+    ],
+    push_constants: 84,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `restir_temporal_unbiased`.
 pub static RESTIR_TEMPORAL_UNBIASED: Kernel = Kernel {
     name: "restir_temporal_unbiased",
@@ -504,6 +722,30 @@ pub static RESTIR_TEMPORAL_UNBIASED: Kernel = Kernel {
         Binding { binding: 4, name: "to_previous", access: Read, stride: 8 },
         Binding { binding: 5, name: "materials", access: Read, stride: 20 },
         Binding { binding: 6, name: "triangles", access: Read, stride: 56 },
+        Binding { binding: 7, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 8, name: "before_camera", access: Read, stride: 48 },
+        Binding { binding: 9, name: "before_gbuffer", access: Read, stride: 56 },
+        Binding { binding: 10, name: "before_reservoirs", access: Read, stride: 28 },
+        Binding { binding: 11, name: "to_current", access: Read, stride: 8 },
+        Binding { binding: 12, name: "gbuffer", access: Read, stride: 56 },
+        Binding { binding: 13, name: "reservoirs", access: ReadWrite, stride: 28 },
+    ],
+    push_constants: 84,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `restir_temporal_unbiased_any`.
+pub static RESTIR_TEMPORAL_UNBIASED_ANY: Kernel = Kernel {
+    name: "restir_temporal_unbiased_any",
+    bytes: include_bytes!("../spirv/restir_temporal_unbiased_any.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "before_ray_nodes", access: Read, stride: 224 },
+        Binding { binding: 1, name: "before_surfaces", access: Read, stride: 192 },
+        Binding { binding: 2, name: "before_triangles", access: Read, stride: 68 },
+        Binding { binding: 3, name: "before_instances", access: Read, stride: 136 },
+        Binding { binding: 4, name: "to_previous", access: Read, stride: 8 },
+        Binding { binding: 5, name: "materials", access: Read, stride: 20 },
+        Binding { binding: 6, name: "triangles", access: Read, stride: 68 },
         Binding { binding: 7, name: "instances", access: Read, stride: 136 },
         Binding { binding: 8, name: "before_camera", access: Read, stride: 48 },
         Binding { binding: 9, name: "before_gbuffer", access: Read, stride: 56 },
@@ -608,9 +850,12 @@ pub static KERNELS: &[&Kernel] = &[
     &LIGHT_POINTS,
     &LIGHT_POINTS_ANY,
     &PATH_BVH,
+    &PATH_BVH_ANY,
     &PATH_BVH_EQ4,
     &PATH_POWER,
+    &PATH_POWER_ANY,
     &PATH_UNIFORM,
+    &PATH_UNIFORM_ANY,
     &PMF,
     &PMF_EQ4,
     &PMF_NARROW,
@@ -625,17 +870,27 @@ pub static KERNELS: &[&Kernel] = &[
     &REFIT_TOP_ANY,
     &REFIT_TOP_EQ4,
     &RENDER_BVH,
+    &RENDER_BVH_ANY,
     &RENDER_BVH_EQ4,
     &RENDER_POWER,
+    &RENDER_POWER_ANY,
     &RENDER_UNIFORM,
+    &RENDER_UNIFORM_ANY,
     &RESTIR_INITIAL_BVH,
+    &RESTIR_INITIAL_BVH_ANY,
     &RESTIR_INITIAL_BVH_EQ4,
     &RESTIR_INITIAL_POWER,
+    &RESTIR_INITIAL_POWER_ANY,
     &RESTIR_SHADE,
+    &RESTIR_SHADE_ANY,
     &RESTIR_SPATIAL_BIASED,
+    &RESTIR_SPATIAL_BIASED_ANY,
     &RESTIR_SPATIAL_UNBIASED,
+    &RESTIR_SPATIAL_UNBIASED_ANY,
     &RESTIR_TEMPORAL_BIASED,
+    &RESTIR_TEMPORAL_BIASED_ANY,
     &RESTIR_TEMPORAL_UNBIASED,
+    &RESTIR_TEMPORAL_UNBIASED_ANY,
     &SAMPLE,
     &SAMPLE_EQ4,
     &SAMPLE_NARROW,

@@ -14,10 +14,10 @@ use super::material::Material;
 /// A point computed on a triangle is off its plane by some units of 2^-24 times the coordinates it was computed from,
 /// and the ray test by as much again, so 2^-18 leaves a margin of several. The price is a bias: what lies nearer to the
 /// surface than that (0.04 mm where coordinates reach 10 m) casts no shadow.
-const OFFSET: f32 = pow2(-18);
+pub(super) const OFFSET: f32 = pow2(-18);
 
 /// Receivers nearer to the light's point than 2^-30 m get nothing: the estimate has a pole there.
-const NEAREST_SQUARED: f32 = pow2(-60);
+pub(super) const NEAREST_SQUARED: f32 = pow2(-60);
 
 /// Densities over solid angle are cut to this: only their ratios count, and those of a light seen under so small an angle
 /// are decided.
@@ -42,7 +42,7 @@ pub fn offset_distance(p0: Vec3, p1: Vec3, p2: Vec3) -> f32 {
 }
 
 #[inline]
-fn largest_component(v: Vec3) -> f32 {
+pub(super) fn largest_component(v: Vec3) -> f32 {
     max(max(abs(v.x), abs(v.y)), abs(v.z))
 }
 

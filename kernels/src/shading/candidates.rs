@@ -1,12 +1,12 @@
 //! One light out of several candidates, in proportion to what each would contribute if nothing were between: resampled importance
 //! sampling (J. Talbot, D. Cline, P. Egbert, "Importance Resampling for Global Illumination", 2005; ReSTIR Algorithm 3).
 
-use lightbvh::EmissiveTriangle;
-use lightbvh::exact::{clamp, hash, max, min, rsqrt, unit_f32};
+use lightbvh::exact::{hash, max, min, rsqrt, unit_f32};
 use lightbvh::reservoir::{LightSample, MAX_WEIGHT, MIN_PMF, Resampling, Reservoir};
 use lightbvh::vector::length_squared;
 
-use super::grid::{STEP, bounded_quotient, flush_vector, snap_point};
+use super::emitter::Emitter;
+use super::grid::{STEP, bounded_quotient, flush_vector};
 use super::pick::PickLight;
 use super::picks::Picks;
 use super::pixel::{Scene, load_material};
@@ -43,8 +43,8 @@ pub struct Candidates {
 /// another surface lies in the light's plane or just before it, only [`Chosen::arrives`] can tell.
 #[inline]
 #[must_use]
-pub fn resampled<P: PickLight>(
-    scene: &Scene<'_>,
+pub fn resampled<L: Emitter, P: PickLight>(
+    scene: &Scene<'_, L>,
     picker: &P,
     surface: &Surface,
     picks: &mut Picks,
@@ -124,7 +124,7 @@ impl Chosen {
     /// lies in its plane hides nothing. Directions then leave out what the balance heuristic left to them, so the pick takes all.
     #[inline]
     #[must_use]
-    pub fn arrives(&self, scene: &Scene<'_>, surface: &Surface, arriving: &Lit) -> f32 {
+    pub fn arrives<L: Emitter>(&self, scene: &Scene<'_, L>, surface: &Surface, arriving: &Lit) -> f32 {
         let light = self.reservoir.sample.light;
         let mut factor = 1.0;
         if self.unfound > 0.0 {
@@ -158,7 +158,12 @@ struct Found {
 
 /// The light in a direction that `surface` would reflect into, chosen by `numbers` and the two after it.
 #[inline]
-fn mirrored<P: PickLight>(scene: &Scene<'_>, picker: &P, surface: &Surface, numbers: u32) -> Found {
+fn mirrored<L: Emitter, P: PickLight>(
+    scene: &Scene<'_, L>,
+    picker: &P,
+    surface: &Surface,
+    numbers: u32,
+) -> Found {
     let mut found = Found {
         sample: LightSample::NONE,
         pmf: 0.0,
@@ -174,12 +179,18 @@ fn mirrored<P: PickLight>(scene: &Scene<'_>, picker: &P, surface: &Surface, numb
     let ray = Ray::new(surface.point.position(), material.sample(n, surface.wo(), u), FAR);
     let Met { light, instance } = along(scene, &ray);
     if light != NONE {
-        let uv = coordinates(&ray, &scene.emitters.light(light, instance));
-        found = Found {
-            sample: LightSample { light, instance, uv },
-            pmf: picker.pmf(&surface.point, light, instance),
-            counts: true,
-        };
+        let own = scene.emitters.light(light, instance);
+        if own.is_met() {
+            found = Found {
+                sample: LightSample {
+                    light,
+                    instance,
+                    uv: own.coordinates(&ray),
+                },
+                pmf: picker.pmf(&surface.point, light, instance),
+                counts: true,
+            };
+        }
     }
     found
 }
@@ -191,7 +202,7 @@ struct Met {
 }
 
 #[inline]
-fn along(scene: &Scene<'_>, ray: &Ray) -> Met {
+fn along<L>(scene: &Scene<'_, L>, ray: &Ray) -> Met {
     let hit = closest_hit(&scene.surfaces, ray);
     let blocks = scene.surfaces.blocks;
     let mut met = Met {
@@ -208,18 +219,6 @@ fn along(scene: &Scene<'_>, ray: &Ray) -> Met {
 
 /// Numbers from one direction's to the next; beyond what draws among the candidates.
 const DIRECTIONS: u32 = 1 << 10;
-
-/// The numbers that choose the point of `light` which the ray hits.
-#[inline]
-fn coordinates(ray: &Ray, light: &EmissiveTriangle) -> [f32; 2] {
-    // As the ray BVH has them.
-    let p0 = snap_point(light.vertex(0));
-    let e1 = snap_point(light.vertex(1)) - p0;
-    let e2 = snap_point(light.vertex(2)) - p0;
-    let [a, b] = ray.barycentric(p0, e1, e2);
-    let a = clamp(a, 0.0, 1.0);
-    [a, clamp(b, 0.0, 1.0 - a)]
-}
 
 #[inline]
 fn draw(number: u32) -> f32 {

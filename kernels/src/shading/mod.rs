@@ -7,6 +7,7 @@
 //! | [`ray`], [`trace`] | a ray against a box and a triangle; the walk through the ray BVH |
 //! | [`camera`], [`material`] | where rays start; how surfaces reflect |
 //! | [`emitters`] | the lights, read through their instances |
+//! | [`emitter`] | a light as the renderer shows it, of triangles alone or of any kind |
 //! | [`area`] | a point on the chosen light, and what it contributes |
 //! | [`pick`] | the choice of a light: the trait, uniform and by power |
 //! | [`picks`] | the lights of a pixel's samples |
@@ -24,6 +25,7 @@
 pub mod area;
 pub mod camera;
 pub mod candidates;
+pub mod emitter;
 pub mod emitters;
 pub mod grid;
 pub mod lobe;

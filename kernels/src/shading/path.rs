@@ -6,7 +6,7 @@ use lightbvh::exact::{div, floor_u32, flush, hash, max, min, unit_f32};
 use lightbvh::vector::{dot, length_squared};
 use lightbvh::{Random64, ShadingPoint};
 
-use super::area::{connect, light_density};
+use super::emitter::Emitter;
 use super::grid::{STEP, TINY, bounded_product, flush_vector};
 use super::mis::power_heuristic;
 use super::pick::PickLight;
@@ -34,8 +34,8 @@ const RANDOM_END: u32 = 6;
 /// sampled towards it.
 #[inline]
 #[must_use]
-pub fn path_radiance<P: PickLight>(
-    scene: &Scene<'_>,
+pub fn path_radiance<L: Emitter, P: PickLight>(
+    scene: &Scene<'_, L>,
     ray: &Ray,
     background: Vec3,
     picker: &P,
@@ -67,7 +67,11 @@ pub fn path_radiance<P: PickLight>(
         if met.light != NONE && density > 0.0 {
             let light = scene.emitters.light(met.light, met.instance);
             let pmf = picker.pmf(&from, met.light, met.instance);
-            weight = power_heuristic(density, light_density(ray.direction * met.distance, &light, pmf));
+            weight = if light.is_met() {
+                power_heuristic(density, light.density(ray.direction * met.distance, pmf))
+            } else {
+                0.0
+            };
         }
         radiance += bounded(throughput, seen.direct * weight);
 
@@ -82,7 +86,7 @@ pub fn path_radiance<P: PickLight>(
             if picked.pmf > 0.0 {
                 let light = scene.emitters.light(picked.light, picked.instance);
                 let uv = [draw(random, RANDOM_LIGHT + 1), draw(random, RANDOM_LIGHT + 2)];
-                let connection = connect(&seen.point, seen.wo, &material, &light, picked.pmf, uv);
+                let connection = light.connect(&seen.point, seen.wo, &material, picked.pmf, uv);
                 if connection.contribution.x + connection.contribution.y + connection.contribution.z > 0.0 {
                     let origin = seen.point.position();
                     let shadow = Ray::new(origin, connection.target - origin, 1.0);

@@ -6,8 +6,9 @@ use lightbvh::reservoir::{MAX_WEIGHT, Reservoir};
 use lightbvh::vector::{cross, dot, length_squared};
 use lightbvh::{EmissiveTriangle, Instance, ShadingPoint};
 
-use super::area::{connect, offset_distance};
+use super::area::offset_distance;
 use super::candidates::{Candidates, resampled};
+use super::emitter::Emitter;
 use super::emitters::Emitters;
 use super::grid::{TINY, TINY_AREA, flush_vector};
 use super::material::Material;
@@ -24,16 +25,16 @@ pub const MAX_CANDIDATES: u32 = 1 << 8;
 
 /// Everything that light meets.
 #[derive(Clone, Copy)]
-pub struct Scene<'a> {
+pub struct Scene<'a, L = EmissiveTriangle> {
     /// What rays hit.
     pub surfaces: Surfaces<'a>,
     /// How it reflects; indexed by the triangles.
     pub materials: &'a [Material],
     /// What of it emits.
-    pub emitters: Emitters<'a>,
+    pub emitters: Emitters<'a, L>,
 }
 
-impl<'a> Scene<'a> {
+impl<'a, L> Scene<'a, L> {
     /// The scene that a kernel's buffers hold.
     #[inline]
     #[must_use]
@@ -41,7 +42,7 @@ impl<'a> Scene<'a> {
         nodes: &'a [RayNode],
         blocks: &'a [TriangleBlock],
         materials: &'a [Material],
-        triangles: &'a [EmissiveTriangle],
+        triangles: &'a [L],
         instances: &'a [Instance],
     ) -> Self {
         Self {
@@ -82,14 +83,14 @@ pub struct Encounter {
 /// Follows `ray` to the first surface.
 #[inline]
 #[must_use]
-pub fn see(scene: &Scene<'_>, ray: &Ray, background: Vec3) -> Seen {
+pub fn see<L: Emitter>(scene: &Scene<'_, L>, ray: &Ray, background: Vec3) -> Seen {
     encounter(scene, ray, background).seen
 }
 
 /// [`see`], and what a path needs to know besides.
 #[inline]
 #[must_use]
-pub fn encounter(scene: &Scene<'_>, ray: &Ray, background: Vec3) -> Encounter {
+pub fn encounter<L: Emitter>(scene: &Scene<'_, L>, ray: &Ray, background: Vec3) -> Encounter {
     let blocks = scene.surfaces.blocks;
     let hit = closest_hit(&scene.surfaces, ray);
     let mut seen = Seen {
@@ -146,13 +147,10 @@ fn hit_point(ray: &Ray, p0: Vec3, e1: Vec3, e2: Vec3) -> Vec3 {
 
 /// The radiance of a light seen from its front or back; none where there is no such light.
 #[inline]
-fn emitted(emitters: &Emitters<'_>, light: u32, instance: u32, front: bool) -> Vec3 {
+fn emitted<L: Emitter>(emitters: &Emitters<'_, L>, light: u32, instance: u32, front: bool) -> Vec3 {
     let mut radiance = Vec3::ZERO;
     if light != NONE {
-        let light = emitters.light(light, instance);
-        if front || light.is_two_sided() {
-            radiance = Vec3::new(light.radiance[0], light.radiance[1], light.radiance[2]);
-        }
+        radiance = emitters.light(light, instance).emitted(front);
     }
     radiance
 }
@@ -194,8 +192,8 @@ impl Samples {
 /// candidate each is one out of so many ([`resampled`]). `seed` chooses the random numbers.
 #[inline]
 #[must_use]
-pub fn reflected<P: PickLight>(
-    scene: &Scene<'_>,
+pub fn reflected<L: Emitter, P: PickLight>(
+    scene: &Scene<'_, L>,
     seen: &Seen,
     picker: &P,
     samples: Samples,
@@ -218,7 +216,13 @@ fn numbers(seed: u32, samples: Samples, lights: u32) -> Numbers {
 
 /// The sum of samples that are lights as picked.
 #[inline]
-fn one_by_one<P: PickLight>(scene: &Scene<'_>, seen: &Seen, picker: &P, samples: Samples, seed: u32) -> Vec3 {
+fn one_by_one<L: Emitter, P: PickLight>(
+    scene: &Scene<'_, L>,
+    seen: &Seen,
+    picker: &P,
+    samples: Samples,
+    seed: u32,
+) -> Vec3 {
     let n = seen.point.normal();
     let mut sum = Vec3::ZERO;
     if length_squared(n) > 0.0 && seen.material < scene.materials.len() as u32 {
@@ -234,7 +238,7 @@ fn one_by_one<P: PickLight>(scene: &Scene<'_>, seen: &Seen, picker: &P, samples:
             if picked.pmf > 0.0 {
                 let light = scene.emitters.light(picked.light, picked.instance);
                 let uv = picks.uv(sample);
-                let connection = connect(&seen.point, seen.wo, &material, &light, picked.pmf, uv);
+                let connection = light.connect(&seen.point, seen.wo, &material, picked.pmf, uv);
                 if connection.contribution.x + connection.contribution.y + connection.contribution.z > 0.0 {
                     let origin = seen.point.position();
                     let ray = Ray::new(origin, connection.target - origin, 1.0);
@@ -250,8 +254,8 @@ fn one_by_one<P: PickLight>(scene: &Scene<'_>, seen: &Seen, picker: &P, samples:
 
 /// The sum of samples that are each one of several candidates.
 #[inline]
-fn one_of_many<P: PickLight>(
-    scene: &Scene<'_>,
+fn one_of_many<L: Emitter, P: PickLight>(
+    scene: &Scene<'_, L>,
     seen: &Seen,
     picker: &P,
     samples: Samples,

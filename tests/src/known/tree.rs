@@ -6,7 +6,7 @@ use lightbvh::node::kind;
 use lightbvh::refit::{self, BlasRoot};
 use lightbvh::{EmissiveTriangle, INVALID, Instance, LightNode, SampledLight, sweep};
 use lightbvh_host::vulkan::{Device, Pass};
-use lightbvh_kernels::bvh::{Choice, TreeOf};
+use lightbvh_kernels::bvh::{Choice, TreeOf, TriangleChoice};
 use lightbvh_kernels::query::{Query, QueryPush, pmf_query, sample_query};
 use lightbvh_kernels::refit::RefitPush;
 
@@ -167,7 +167,7 @@ impl<N: LightNode<W>, const W: usize> Tree<N, W> {
 
 /// The answers of the CPU.
 #[must_use]
-pub fn answer<C: Choice<W>, const W: usize>(file: &File) -> Vec<Answer> {
+pub fn answer<C: TriangleChoice<W>, const W: usize>(file: &File) -> Vec<Answer> {
     let tree = Tree::<C::Node, W>::read(file);
     let (nodes, roots) = tree.refitted();
     let (sampled, pmfs) = tree.queried::<C>(&nodes);
@@ -193,7 +193,7 @@ fn answers<N: LightNode<W>, const W: usize>(
 /// # Panics
 /// If the device fails.
 #[must_use]
-pub fn answer_on<C: Choice<W>, const W: usize>(device: &Device, file: &File) -> Vec<Answer> {
+pub fn answer_on<C: TriangleChoice<W>, const W: usize>(device: &Device, file: &File) -> Vec<Answer> {
     let tree = Tree::<C::Node, W>::read(file);
     let nodes = device.upload(&tree.nodes).expect("an upload");
     let roots = device.upload(&tree.roots).expect("an upload");

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lightbvh::{EmissiveTriangle, Instance};
+use lightbvh::Instance;
 use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::emitters::Emitters;
 use lightbvh_kernels::shading::pick::PickLight;
@@ -16,18 +16,20 @@ use lightbvh_kernels::shading::restir::temporal::{Before, temporal};
 use lightbvh_kernels::shading::restir::{PixelReservoir, RestirParams};
 use rayon::prelude::*;
 
+use crate::scene::SceneLight;
+
 use super::{Combination, History, Last, LightRemap, Restir, RestirFrame, params};
 
 /// What a frame leaves on the CPU.
-pub(super) struct Left {
+pub(super) struct Left<L> {
     gbuffer: Vec<Surface>,
     reservoirs: Vec<PixelReservoir>,
     /// The lights as they were.
-    triangles: Vec<EmissiveTriangle>,
+    triangles: Vec<L>,
     instances: Vec<Instance>,
 }
 
-impl Left {
+impl<L> Left<L> {
     /// G-buffer and reservoirs.
     pub fn state(&self) -> History {
         (self.gbuffer.clone(), self.reservoirs.clone())
@@ -35,10 +37,10 @@ impl Left {
 }
 
 /// The next frame, of `view`, with candidates from `picker`.
-pub(in crate::backend) fn resample<P: PickLight + Sync>(
-    restir: &mut Restir,
-    frame: &RestirFrame<'_>,
-    view: &Scene<'_>,
+pub(in crate::backend) fn resample<L: SceneLight, P: PickLight + Sync>(
+    restir: &mut Restir<L>,
+    frame: &RestirFrame<'_, L>,
+    view: &Scene<'_, L>,
     picker: &P,
 ) -> Vec<[f32; 3]> {
     let options = restir.options;
@@ -103,8 +105,8 @@ pub(in crate::backend) fn resample<P: PickLight + Sync>(
 }
 
 /// Pass 1.
-fn initial<P: PickLight + Sync>(
-    view: &Scene<'_>,
+fn initial<L: SceneLight, P: PickLight + Sync>(
+    view: &Scene<'_, L>,
     camera: &Camera,
     params: &RestirParams,
     picker: &P,
@@ -120,19 +122,19 @@ fn initial<P: PickLight + Sync>(
 }
 
 /// What passes 2 and 3 have in common.
-struct Reuse<'a> {
-    view: &'a Scene<'a>,
+struct Reuse<'a, L> {
+    view: &'a Scene<'a, L>,
     params: &'a RestirParams,
     gbuffer: &'a [Surface],
 }
 
-impl Reuse<'_> {
+impl<L: SceneLight> Reuse<'_, L> {
     /// Pass 2.
     fn over_time<C: Combine + Sync>(
         &self,
         combine: &C,
-        last: &Last,
-        left: &Left,
+        last: &Last<L>,
+        left: &Left<L>,
         remap: &LightRemap,
         reservoirs: &[PixelReservoir],
     ) -> Vec<PixelReservoir> {

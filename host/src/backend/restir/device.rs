@@ -7,6 +7,7 @@ use bytemuck::bytes_of;
 use lightbvh::TreeWords;
 use lightbvh_kernels::bvh::Choice;
 use lightbvh_kernels::restir::RestirPush;
+use lightbvh_kernels::shading::emitter::Emitter;
 use lightbvh_kernels::shading::restir::shade::Shaded;
 use lightbvh_kernels::shading::restir::surface::Surface;
 use lightbvh_kernels::shading::restir::{PixelReservoir, RestirParams};
@@ -14,20 +15,21 @@ use lightbvh_kernels::shading::restir::{PixelReservoir, RestirParams};
 use super::{Combination, History, Restir, RestirFrame, params};
 use crate::backend::device_arrays::{DeviceScene, HeldScene, device_time, kernel_name};
 use crate::backend::{BackendError, DeviceBackend, Timed};
+use crate::scene::SceneLight;
 use crate::vulkan::{Binding, Buffer, Device, Pass, Submission};
 
 /// Candidates or neighbours per submission: keeps one well below the seconds after which a driver gives up on it.
 const WORK_PER_PASS: usize = 1 << 21;
 
 /// What a frame leaves on a device.
-pub(super) struct Left {
+pub(super) struct Left<L> {
     /// The scene as it was, its lights too: where they changed since, the light BVH has copies of its own.
-    scene: DeviceScene,
+    scene: DeviceScene<L>,
     gbuffer: Buffer<Surface>,
     reservoirs: Buffer<PixelReservoir>,
 }
 
-impl Left {
+impl<L> Left<L> {
     /// G-buffer and reservoirs.
     pub fn state(&self) -> Result<History, BackendError> {
         Ok((self.gbuffer.read()?, self.reservoirs.read()?))
@@ -36,9 +38,9 @@ impl Left {
 
 /// The next frame, with candidates from `backend`'s light BVH where the options say so. What was followed, what of the scene changed and
 /// the passes are one submission, where they are few enough, and the host waits for nothing but the pixels.
-pub(in crate::backend) fn resample<C: Choice<W>, const W: usize>(
-    restir: &mut Restir,
-    frame: &RestirFrame<'_>,
+pub(in crate::backend) fn resample<C: Choice<W, Light: SceneLight>, const W: usize>(
+    restir: &mut Restir<C::Light>,
+    frame: &RestirFrame<'_, C::Light>,
     backend: &mut DeviceBackend<'_, C, W>,
 ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
     let image = render(restir, frame, backend);
@@ -49,9 +51,9 @@ pub(in crate::backend) fn resample<C: Choice<W>, const W: usize>(
     image
 }
 
-fn render<C: Choice<W>, const W: usize>(
-    restir: &mut Restir,
-    frame: &RestirFrame<'_>,
+fn render<C: Choice<W, Light: SceneLight>, const W: usize>(
+    restir: &mut Restir<C::Light>,
+    frame: &RestirFrame<'_, C::Light>,
     backend: &mut DeviceBackend<'_, C, W>,
 ) -> Result<Timed<Vec<[f32; 3]>>, BackendError> {
     let (device, options) = (backend.device, restir.options);
@@ -79,6 +81,7 @@ fn render<C: Choice<W>, const W: usize>(
     passes.run(backend, &kernel, &bindings, &params, tree, options.candidates)?;
 
     let none = TreeWords::default();
+    let of_lights = |kernel: &str| format!("{kernel}{}", C::Light::SUFFIX);
     if let Some(last) = restir.history(frame)
         && let super::Left::Device(left) = &last.left
         && left.gbuffer.is_on(device)
@@ -109,7 +112,7 @@ fn render<C: Choice<W>, const W: usize>(
             ),
             Combination::Biased => ("restir_temporal_biased", common.to_vec()),
         };
-        passes.run(backend, kernel, &bindings, &params, none, 4)?;
+        passes.run(backend, &of_lights(kernel), &bindings, &params, none, 4)?;
     }
     for spatial_pass in 0..options.spatial_passes {
         params.spatial_pass = spatial_pass;
@@ -123,14 +126,14 @@ fn render<C: Choice<W>, const W: usize>(
             Combination::Biased => ("restir_spatial_biased", &all[2..]),
         };
         let work = options.neighbors.saturating_add(1).saturating_mul(2);
-        passes.run(backend, kernel, bindings, &params, none, work)?;
+        passes.run(backend, &of_lights(kernel), bindings, &params, none, work)?;
         reservoirs = merged;
     }
     let output = device.buffer::<Shaded>(pixels, 0)?;
     passes.pass.clear(&output);
     let pixel_buffers = [gbuffer.bind(), reservoirs.bind(), output.bind()];
     let bindings = [scene.view().as_slice(), &pixel_buffers].concat();
-    passes.run(backend, "restir_shade", &bindings, &params, none, 2)?;
+    passes.run(backend, &of_lights("restir_shade"), &bindings, &params, none, 2)?;
     let submitted = passes.end(backend)?;
     let shaded = output.read()?;
     let mut time = Duration::ZERO;

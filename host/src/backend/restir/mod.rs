@@ -10,10 +10,12 @@ pub use remap::LightRemap;
 
 use std::sync::Arc;
 
+use lightbvh::EmissiveTriangle;
 use lightbvh_kernels::shading::restir::surface::Surface;
 use lightbvh_kernels::shading::restir::{PixelReservoir, RestirParams};
 
 use super::{BackendError, Sampler, SceneArrays};
+use crate::scene::SceneLight;
 use crate::words::{Field, Record};
 
 /// How reservoirs are combined.
@@ -94,10 +96,9 @@ impl RestirOptions {
 }
 
 /// One frame to render.
-#[derive(Clone, Copy)]
-pub struct RestirFrame<'a> {
+pub struct RestirFrame<'a, L = EmissiveTriangle> {
     /// The scene; kept until the next frame, which asks what it hid from whom.
-    pub scene: &'a Arc<SceneArrays>,
+    pub scene: &'a Arc<SceneArrays<L>>,
     /// Columns.
     pub width: u32,
     /// Rows.
@@ -121,29 +122,63 @@ pub struct RestirFrame<'a> {
 /// lights keep their numbers.
 ///
 /// A clone goes on from the same frame by itself.
-#[derive(Clone)]
-pub struct Restir {
+pub struct Restir<L = EmissiveTriangle> {
     options: RestirOptions,
-    last: Option<Last>,
+    last: Option<Last<L>>,
     shadow_rays: u64,
 }
 
 /// The frame before.
-#[derive(Clone)]
-struct Last {
-    scene: Arc<SceneArrays>,
+struct Last<L> {
+    scene: Arc<SceneArrays<L>>,
     size: (u32, u32),
-    left: Left,
+    left: Left<L>,
 }
 
 /// What a frame left where it was rendered.
-#[derive(Clone)]
-enum Left {
-    Cpu(Arc<cpu::Left>),
-    Device(Arc<device::Left>),
+enum Left<L> {
+    Cpu(Arc<cpu::Left<L>>),
+    Device(Arc<device::Left<L>>),
 }
 
-impl Restir {
+impl<L> Clone for RestirFrame<'_, L> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<L> Copy for RestirFrame<'_, L> {}
+
+impl<L> Clone for Restir<L> {
+    fn clone(&self) -> Self {
+        Self {
+            options: self.options,
+            last: self.last.clone(),
+            shadow_rays: self.shadow_rays,
+        }
+    }
+}
+
+impl<L> Clone for Last<L> {
+    fn clone(&self) -> Self {
+        Self {
+            scene: Arc::clone(&self.scene),
+            size: self.size,
+            left: self.left.clone(),
+        }
+    }
+}
+
+impl<L> Clone for Left<L> {
+    fn clone(&self) -> Self {
+        match self {
+            Self::Cpu(left) => Self::Cpu(Arc::clone(left)),
+            Self::Device(left) => Self::Device(Arc::clone(left)),
+        }
+    }
+}
+
+impl<L: SceneLight> Restir<L> {
     /// Before the first frame.
     pub fn new(options: RestirOptions) -> Self {
         Self {
@@ -181,9 +216,9 @@ impl Restir {
     }
 
     /// The frame before, where `frame` may use it.
-    fn history(&self, frame: &RestirFrame<'_>) -> Option<&Last> {
+    fn history(&self, frame: &RestirFrame<'_, L>) -> Option<&Last<L>> {
         self.last.as_ref().filter(|last| {
-            let count = |scene: &SceneArrays| scene.lights.triangles().len();
+            let count = |scene: &SceneArrays<L>| scene.lights.triangles().len();
             let (then, now) = (count(&last.scene), count(frame.scene));
             let lights_known = match frame.remap {
                 _ if self.options.source == Sampler::TwoLevel => true,
@@ -198,7 +233,7 @@ impl Restir {
     }
 
     /// Keeps what `frame` left, which traced `shadow_rays`.
-    fn keep(&mut self, frame: &RestirFrame<'_>, left: Left, shadow_rays: u64) {
+    fn keep(&mut self, frame: &RestirFrame<'_, L>, left: Left<L>, shadow_rays: u64) {
         self.shadow_rays = shadow_rays;
         self.last = Some(Last {
             scene: Arc::clone(frame.scene),
@@ -238,7 +273,7 @@ pub const RESERVOIR_RECORD: Record = Record {
 pub type History = (Vec<Surface>, Vec<PixelReservoir>);
 
 /// Parameters of the passes.
-fn params(options: &RestirOptions, frame: &RestirFrame<'_>) -> RestirParams {
+fn params<L>(options: &RestirOptions, frame: &RestirFrame<'_, L>) -> RestirParams {
     RestirParams {
         width: frame.width,
         height: frame.height,

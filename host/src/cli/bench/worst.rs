@@ -7,7 +7,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use lightbvh::{BuildParams, INVALID, ImportanceModel, LightNode, LightTree, Random64, ShadingPoint};
-use lightbvh_kernels::bvh::{Choice, Paper, Standard};
+use lightbvh_kernels::bvh::{Paper, Standard, TriangleChoice};
 use serde::Serialize;
 use serde_json::json;
 
@@ -74,7 +74,7 @@ pub(super) fn run(context: &Context) -> Result<Outcome, HostError> {
     Ok(Outcome::good_if(bounded))
 }
 
-fn measure<C: Choice<W>, const W: usize>(scene: &Scene) -> Vec<Case> {
+fn measure<C: TriangleChoice<W>, const W: usize>(scene: &Scene) -> Vec<Case> {
     let mut bvh = Bvh::<C, W>::single_level(&scene.lights, &BuildParams::default());
     if scene.hostile {
         hostile(&mut bvh);

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use lightbvh::BuildParams;
 use lightbvh::SampledLight;
 use lightbvh_gpu::contractible;
-use lightbvh_kernels::bvh::{Choice, Native, Standard, WIDTH};
+use lightbvh_kernels::bvh::{Native, Standard, TriangleChoice, WIDTH};
 use lightbvh_kernels::query::Query;
 use serde::Serialize;
 
@@ -145,7 +145,7 @@ pub(super) fn measure(
         .collect())
 }
 
-fn on_cpu<'a, C: Choice<WIDTH>>(operations: Operations, bvh: &Bvh<C, WIDTH>) -> Side<'a> {
+fn on_cpu<'a, C: TriangleChoice<WIDTH>>(operations: Operations, bvh: &Bvh<C, WIDTH>) -> Side<'a> {
     let [mut sampler, mut asker] = [bvh, bvh].map(|bvh| CpuBackend::<C, WIDTH>::new(bvh.clone()));
     Side {
         device: "cpu".to_owned(),

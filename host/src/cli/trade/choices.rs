@@ -4,6 +4,7 @@
 use std::marker::PhantomData;
 use std::time::{Duration, Instant};
 
+use lightbvh::EmissiveTriangle;
 use lightbvh::exact::hash;
 use lightbvh::importance::{DefaultImportance, NativeMath};
 use lightbvh::node::{FullMomentNode, LeanMomentNode};
@@ -82,6 +83,7 @@ where
     N: LightNode<W> + std::fmt::Debug + 'static,
     I: ImportanceModel<N, W> + Clone + std::fmt::Debug + Send + Sync + 'static,
 {
+    type Light = EmissiveTriangle;
     type Node = N;
     type Importance = I;
     const NAME: &'static str = N::NAME;

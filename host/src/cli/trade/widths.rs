@@ -1,7 +1,7 @@
 //! What the children of a node cost a device: an invocation keeps the weights of all of them, where a CPU has vectors.
 
 use lightbvh::{BuildParams, SampledLight};
-use lightbvh_kernels::bvh::{Choice, Narrow, Standard, WIDTH, Wide};
+use lightbvh_kernels::bvh::{Narrow, Standard, TriangleChoice, WIDTH, Wide};
 use lightbvh_kernels::query::Query;
 use serde::Serialize;
 
@@ -100,7 +100,7 @@ pub(super) fn measure(
     Ok(())
 }
 
-fn side<'a, C: Choice<W>, const W: usize>(
+fn side<'a, C: TriangleChoice<W>, const W: usize>(
     opened: &'a Opened,
     bvh: &Bvh<C, W>,
     asked: &[Query],

@@ -2,7 +2,7 @@
 
 use indicatif::ProgressBar;
 use lightbvh::Lights;
-use lightbvh_kernels::bvh::{Choice, Paper, Standard, WIDTH};
+use lightbvh_kernels::bvh::{Paper, Standard, TriangleChoice, WIDTH};
 
 use super::side::Side;
 use super::tally::{Kind, Tallies};
@@ -13,7 +13,7 @@ use crate::scene::Scene;
 use crate::workload::{build, lights_at};
 
 /// A structure on the CPU, then on each device.
-fn structure<'d, C: Choice<W>, const W: usize>(
+fn structure<'d, C: TriangleChoice<W>, const W: usize>(
     importance: Importance,
     lights: &Lights,
     sampler: Sampler,

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lightbvh::exact::hash;
-use lightbvh_kernels::bvh::Choice;
+use lightbvh_kernels::bvh::TriangleChoice;
 
 use super::subject::Subject;
 use super::tally::Tallies;
@@ -18,7 +18,7 @@ use crate::workload::{RenderSettings, arrays_at, build};
 const FRAMES: u32 = 3;
 
 /// Compares both combinations, with candidates from the light BVH or, once per scene, by power.
-pub(super) fn compare<C: Choice<W>, const W: usize>(
+pub(super) fn compare<C: TriangleChoice<W>, const W: usize>(
     subject: &Subject<'_>,
     settings: &RenderSettings,
     opened: &[Opened],

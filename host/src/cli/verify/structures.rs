@@ -2,7 +2,7 @@
 
 use indicatif::ProgressBar;
 use lightbvh::exact::hash;
-use lightbvh_kernels::bvh::Choice;
+use lightbvh_kernels::bvh::TriangleChoice;
 
 use super::side::Side;
 use super::subject::Subject;
@@ -23,7 +23,7 @@ const REFIT_FRAMES: [u32; 2] = [40, 110];
 const BOUNCES: u32 = 5;
 
 /// Compares everything about one structure over one scene.
-pub(super) fn compare<C: Choice<W>, const W: usize>(
+pub(super) fn compare<C: TriangleChoice<W>, const W: usize>(
     subject: &Subject<'_>,
     opened: &[Opened],
     (count, seed): (u64, u32),

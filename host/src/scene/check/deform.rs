@@ -1,9 +1,9 @@
 //! Checks of what bends: targets, influences, skins, and keys of weights; and of lights without area.
 
+use super::super::analytic::{AnalyticKind, AnalyticLight};
 use super::super::deform::{MorphChannel, is_skinned};
 use super::super::error::SceneError;
 use super::super::model::{Primitive, SceneData};
-use super::super::punctual::{PunctualKind, PunctualLight};
 use super::Check;
 
 use lightbvh::light::{MAX_COORDINATE, MAX_RADIANCE};
@@ -105,10 +105,10 @@ impl Check<'_> {
         self.finite(|| format!("a value of {name}"), &channel.values)
     }
 
-    pub(super) fn punctual(
+    pub(super) fn analytic(
         &self,
         index: usize,
-        light: &PunctualLight,
+        light: &AnalyticLight,
         nodes: usize,
     ) -> Result<(), SceneError> {
         let name = |what: &str| format!("{what} of light {index} `{}`", light.name);
@@ -123,12 +123,28 @@ impl Check<'_> {
         {
             return Err(self.out_of_range(name("range"), range, "metres above 0"));
         }
-        if let PunctualKind::Spot { inner, outer } = light.kind
+        if let AnalyticKind::Spot { inner, outer } = light.kind
             && !(inner >= 0.0 && inner < outer && outer <= std::f32::consts::FRAC_PI_2)
         {
             let element = name("outer angle");
             return Err(self.out_of_range(element, outer, "radians above the inner angle, up to pi / 2"));
         }
-        Ok(())
+        let sizes: &[f32] = match &light.kind {
+            AnalyticKind::Sphere { radius } => std::slice::from_ref(radius),
+            AnalyticKind::Rectangle { half } | AnalyticKind::Disc { half } => half,
+            AnalyticKind::Box { half } => half,
+            _ => &[],
+        };
+        if let Some(&size) = sizes.iter().find(|size| !(1e-9..=1e9).contains(*size)) {
+            return Err(self.out_of_range(
+                name("size"),
+                size,
+                "metres from 1e-9 to 1e9; leave the light out, or scale the scene",
+            ));
+        }
+        self.color(
+            || name("emission"),
+            light.color.map(|channel| channel * light.intensity),
+        )
     }
 }

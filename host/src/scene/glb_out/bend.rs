@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::{UNSIGNED_SHORT, Writer, interpolation};
-use crate::scene::{Influence, MorphChannel, Primitive, PunctualKind, PunctualLight, Skin};
+use crate::scene::{AnalyticKind, AnalyticLight, Influence, MorphChannel, Primitive, Skin};
 
 impl Writer {
     /// Targets and influences of a primitive, whose vertices are written in this order.
@@ -56,18 +56,20 @@ impl Writer {
     }
 }
 
-pub(super) fn light(light: &PunctualLight) -> Value {
+/// A light by formula; `None` for kinds that glTF has no word for.
+pub(super) fn light(light: &AnalyticLight) -> Option<Value> {
     let mut out = json!({ "name": light.name, "color": light.color, "intensity": light.intensity });
     if let Some(range) = light.range {
         out["range"] = range.into();
     }
     out["type"] = match light.kind {
-        PunctualKind::Directional => "directional".into(),
-        PunctualKind::Point => "point".into(),
-        PunctualKind::Spot { inner, outer } => {
+        AnalyticKind::Directional => "directional".into(),
+        AnalyticKind::Point => "point".into(),
+        AnalyticKind::Spot { inner, outer } => {
             out["spot"] = json!({ "innerConeAngle": inner, "outerConeAngle": outer });
             "spot".into()
         }
+        _ => return None,
     };
-    out
+    Some(out)
 }

@@ -1,11 +1,11 @@
-//! Lights without area (`KHR_lights_punctual`): read and checked; how many there are, which nothing samples yet, is noted.
+//! Lights without area (`KHR_lights_punctual`): read and checked.
 
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
+use super::super::analytic::{AnalyticKind, AnalyticLight};
 use super::super::error::SceneError;
 use super::super::model::SceneData;
-use super::super::punctual::{PunctualKind, PunctualLight};
 use super::Document;
 
 const NAME: &str = "KHR_lights_punctual";
@@ -85,24 +85,34 @@ pub(super) fn read(
         };
         let found = lights.and_then(|lights| lights.get(named.light));
         match found.map_or(Err(String::from("it is not there")), |value| light(value, node)) {
-            Ok(light) => data.punctual.push(light),
+            Ok(light) => data.analytic.push(light),
             Err(problem) => document.warn(format!(
                 "light {} of {element} is left out: {problem}",
                 named.light
             )),
         }
     }
-    if !data.punctual.is_empty() {
+    let suns = data
+        .analytic
+        .iter()
+        .filter(|light| light.light().is_none())
+        .count();
+    if suns > 0 {
         document.warn(format!(
-            "lights without area ({NAME}) light nothing yet: {} left out",
-            data.punctual.len()
+            "directional lights ({NAME}) light nothing yet: {suns} left out"
+        ));
+    }
+    let bounded = data.analytic.iter().filter(|light| light.range.is_some()).count();
+    if bounded > 0 {
+        document.warn(format!(
+            "{bounded} lights ({NAME}) have a range, which is not looked at: they light what lies beyond too"
         ));
     }
     Ok(())
 }
 
 /// One light, with what is wrong with it.
-fn light(value: &Value, node: u32) -> Result<PunctualLight, String> {
+fn light(value: &Value, node: u32) -> Result<AnalyticLight, String> {
     let light = Light::deserialize(value).map_err(|error| error.to_string())?;
     let Light {
         name,
@@ -122,8 +132,8 @@ fn light(value: &Value, node: u32) -> Result<PunctualLight, String> {
         return Err(String::from("its range is not above 0 metres"));
     }
     let kind = match light.kind {
-        Kind::Directional => PunctualKind::Directional,
-        Kind::Point => PunctualKind::Point,
+        Kind::Directional => AnalyticKind::Directional,
+        Kind::Point => AnalyticKind::Point,
         Kind::Spot => {
             let Cone {
                 inner_cone_angle: inner,
@@ -134,10 +144,10 @@ fn light(value: &Value, node: u32) -> Result<PunctualLight, String> {
                     "its cone, from {inner} to {outer} radians, is not from 0 up to pi / 2"
                 ));
             }
-            PunctualKind::Spot { inner, outer }
+            AnalyticKind::Spot { inner, outer }
         }
     };
-    Ok(PunctualLight {
+    Ok(AnalyticLight {
         name,
         node,
         kind,

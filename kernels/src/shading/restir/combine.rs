@@ -1,7 +1,9 @@
 //! The two ways to count the reservoirs that a sample was chosen among.
 
+use lightbvh::EmissiveTriangle;
 use lightbvh::reservoir::{LightSample, Resampling, Reservoir};
 
+use super::super::emitter::Emitter;
 use super::super::emitters::Emitters;
 use super::super::material::Material;
 use super::super::trace::Surfaces;
@@ -38,18 +40,18 @@ pub struct Answer {
 
 /// Algorithm 6 with the weights of ReSTIR section 4.3: no bias; a shadow ray for each other receiver.
 #[derive(Clone, Copy)]
-pub struct Unbiased<'a> {
+pub struct Unbiased<'a, L = EmissiveTriangle> {
     /// What shadow rays met in the receivers' frame.
     pub surfaces: Surfaces<'a>,
     /// The lights of the receivers' frame.
-    pub emitters: Emitters<'a>,
+    pub emitters: Emitters<'a, L>,
 }
 
 /// Algorithm 4, 1 / M: **biased**, darker where receivers do not see the same lights; no ray.
 #[derive(Clone, Copy, Debug)]
 pub struct Biased;
 
-impl Combine for Unbiased<'_> {
+impl<L: Emitter> Combine for Unbiased<'_, L> {
     const UNBIASED: bool = true;
 
     #[inline]

@@ -7,6 +7,7 @@ use lightbvh::reservoir::Reservoir;
 
 use super::super::camera::Camera;
 use super::super::candidates::{Candidates, resampled};
+use super::super::emitter::Emitter;
 use super::super::numbers::Numbers;
 use super::super::pick::PickLight;
 use super::super::picks::Picks;
@@ -18,7 +19,12 @@ use super::{INITIAL, PixelReservoir, RestirParams, step_seed};
 /// What pixel `index` sees: the same point for every seed.
 #[inline]
 #[must_use]
-pub fn first_surface(scene: &Scene<'_>, camera: &Camera, params: &RestirParams, index: u32) -> Surface {
+pub fn first_surface<L: Emitter>(
+    scene: &Scene<'_, L>,
+    camera: &Camera,
+    params: &RestirParams,
+    index: u32,
+) -> Surface {
     let width = if params.width == 0 { 1 } else { params.width };
     let y = index / width;
     let x = index - y * width;
@@ -32,8 +38,8 @@ pub fn first_surface(scene: &Scene<'_>, camera: &Camera, params: &RestirParams, 
 /// One sample for `surface` out of [`RestirParams::candidates`] that `picker` draws.
 #[inline]
 #[must_use]
-pub fn first_reservoir<P: PickLight>(
-    scene: &Scene<'_>,
+pub fn first_reservoir<L: Emitter, P: PickLight>(
+    scene: &Scene<'_, L>,
     params: &RestirParams,
     picker: &P,
     surface: &Surface,

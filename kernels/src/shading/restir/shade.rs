@@ -3,6 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
+use super::super::emitter::Emitter;
 use super::super::pixel::Scene;
 use super::surface::Surface;
 use super::target::{lit, visible, weighted};
@@ -24,8 +25,8 @@ const _: () = assert!(size_of::<Shaded>() == 16);
 /// if its sample is occluded.
 #[inline]
 #[must_use]
-pub fn shade(
-    scene: &Scene<'_>,
+pub fn shade<L: Emitter>(
+    scene: &Scene<'_, L>,
     params: &RestirParams,
     surface: &Surface,
     last: &PixelReservoir,

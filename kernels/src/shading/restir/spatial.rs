@@ -3,6 +3,7 @@
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::reservoir::Resampling;
 
+use super::super::emitter::Emitter;
 use super::super::emitters::Emitters;
 use super::super::material::Material;
 use super::super::trace::NONE;
@@ -63,10 +64,10 @@ fn rounded(x: f32) -> i32 {
 /// frame.
 #[inline]
 #[must_use]
-pub fn spatial<C: Combine>(
+pub fn spatial<L: Emitter, C: Combine>(
     combine: &C,
     materials: &[Material],
-    emitters: &Emitters<'_>,
+    emitters: &Emitters<'_, L>,
     gbuffer: &[Surface],
     reservoirs: &[PixelReservoir],
     params: &RestirParams,

@@ -4,7 +4,8 @@ use glam::Vec3;
 use lightbvh::exact::{flush, min, pow2};
 use lightbvh::reservoir::{LightSample, target};
 
-use super::super::area::{Connection, connect, luminance};
+use super::super::area::{Connection, luminance};
+use super::super::emitter::Emitter;
 use super::super::emitters::Emitters;
 use super::super::grid::{TINY, bounded_quotient};
 use super::super::material::Material;
@@ -37,7 +38,12 @@ pub struct Lit {
 /// The light of `sample` at `surface`; nothing for a light or material that is not there.
 #[inline]
 #[must_use]
-pub fn lit(materials: &[Material], emitters: &Emitters<'_>, surface: &Surface, sample: &LightSample) -> Lit {
+pub fn lit<L: Emitter>(
+    materials: &[Material],
+    emitters: &Emitters<'_, L>,
+    surface: &Surface,
+    sample: &LightSample,
+) -> Lit {
     let mut lit = Lit {
         contribution: Vec3::ZERO,
         target: 0.0,
@@ -48,11 +54,10 @@ pub fn lit(materials: &[Material], emitters: &Emitters<'_>, surface: &Surface, s
     if sample.light != NONE && surface.material < materials.len() as u32 && surface.is_lit() {
         let material = load_material(materials, surface.material);
         let light = emitters.light(sample.light, sample.instance);
-        let connection = connect(
+        let connection = light.connect(
             &surface.point,
             surface.wo(),
             &material,
-            &light,
             1.0,
             [sample.uv[0], sample.uv[1]],
         );

@@ -6,6 +6,7 @@ use lightbvh::reservoir::{LightSample, Resampling};
 use lightbvh::vector::{dot, length_squared};
 
 use super::super::camera::Camera;
+use super::super::emitter::Emitter;
 use super::super::emitters::Emitters;
 use super::super::grid::{STEP, TINY, flush_vector};
 use super::super::material::Material;
@@ -95,10 +96,10 @@ fn cell(x: f32, count: u32) -> u32 {
 /// its number and instance then or [`NONE`]; the biased way does not look at it.
 #[inline]
 #[must_use]
-pub fn temporal<C: Combine>(
+pub fn temporal<L: Emitter, C: Combine>(
     combine: &C,
     materials: &[Material],
-    emitters: &Emitters<'_>,
+    emitters: &Emitters<'_, L>,
     before: &Before<'_>,
     to_previous: &[[u32; 2]],
     params: &RestirParams,

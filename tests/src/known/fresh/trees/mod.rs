@@ -9,7 +9,7 @@ mod passes;
 mod queries;
 
 use lightbvh::{LightNode, exact};
-use lightbvh_kernels::bvh::{Choice, Paper, Standard, WIDTH};
+use lightbvh_kernels::bvh::{Paper, Standard, TriangleChoice, WIDTH};
 
 use super::super::Table;
 use super::super::tree::{Step, Tree};
@@ -54,7 +54,7 @@ pub fn tree(name: &str) -> (&'static str, Vec<Table>) {
     }
 }
 
-fn asked<C: Choice<W>, const W: usize>(
+fn asked<C: TriangleChoice<W>, const W: usize>(
     note: &'static str,
     mut tree: Tree<C::Node, W>,
     random: &mut Random,

@@ -1,7 +1,7 @@
 //! What is asked of a tree: points, random numbers, lights.
 
 use lightbvh::{INVALID, Node, Random64, ShadingPoint, Summary, exact};
-use lightbvh_kernels::bvh::Choice;
+use lightbvh_kernels::bvh::TriangleChoice;
 use lightbvh_kernels::query::Query;
 
 use crate::generate::{Random, log_uniform};
@@ -23,7 +23,7 @@ const ENDS: [u32; 8] = [
 ];
 
 /// Points around the lights and at the ends of the domain; of each the numbers that choose lights, and lights to evaluate.
-pub(super) fn ask<C: Choice<W>, const W: usize>(tree: &mut Tree<C::Node, W>, random: &mut Random) {
+pub(super) fn ask<C: TriangleChoice<W>, const W: usize>(tree: &mut Tree<C::Node, W>, random: &mut Random) {
     let (nodes, _) = tree.refitted();
     let all = nodes[tree.push.root as usize].merged().bounds();
     let size = (all.max - all.min)

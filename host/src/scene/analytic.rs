@@ -1,0 +1,119 @@
+//! Lights by formula: points, spots and suns (`KHR_lights_punctual`), spheres, rectangles, discs and boxes.
+
+use lightbvh::light::{AnyLight, BoxLight, DiscLight, PointLight, RectangleLight, SphereLight, SpotLight};
+
+/// A light on a node, shining along the node's -Z where it has a direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AnalyticLight {
+    /// For messages.
+    pub name: String,
+    /// Index into [`SceneData::nodes`](super::SceneData::nodes).
+    pub node: u32,
+    /// What kind of light.
+    pub kind: AnalyticKind,
+    /// Linear RGB, not negative.
+    pub color: [f32; 3],
+    /// Factor on the colour, not negative. Of points and spots radiant intensity, W/sr (glTF: candela), of suns irradiance (glTF: lux), of
+    /// spheres, rectangles and discs radiance, W/(m² sr), of boxes what a metre adds to it, W/(m³ sr).
+    pub intensity: f32,
+    /// Metres beyond which nothing should be lit, above zero; not looked at.
+    pub range: Option<f32>,
+}
+
+/// Kinds of lights by formula.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AnalyticKind {
+    /// The same light from everywhere, in one direction. Nothing samples it yet.
+    Directional,
+    /// From one point, in all directions.
+    Point,
+    /// From one point, within a cone.
+    Spot {
+        /// Angle from the axis up to which the light is whole, radians, from 0.
+        inner: f32,
+        /// Angle from the axis beyond which there is none, radians, above `inner`, at most a right angle.
+        outer: f32,
+    },
+    /// From the surface of a sphere, outward.
+    Sphere {
+        /// Metres.
+        radius: f32,
+    },
+    /// From one side of a rectangle in the node's plane z = 0.
+    Rectangle {
+        /// Half its size along x and y, metres.
+        half: [f32; 2],
+    },
+    /// From one side of an ellipse there.
+    Disc {
+        /// Half its size along x and y, metres.
+        half: [f32; 2],
+    },
+    /// From all of a box, in every direction. Rays pass it and do not see it.
+    Box {
+        /// Half its size, metres.
+        half: [f32; 3],
+    },
+}
+
+impl AnalyticLight {
+    /// The light in the space of its node, where one is sampled for it: none for suns.
+    pub fn light(&self) -> Option<AnyLight> {
+        let emission = self.color.map(|channel| channel * self.intensity);
+        let (p, mesh) = ([0.0; 3], 0);
+        // The front of what has one is the node's -Z.
+        let flat = |[x, y]: [f32; 2]| [[0.0, y, 0.0], [x, 0.0, 0.0]];
+        Some(match self.kind {
+            AnalyticKind::Directional => return None,
+            AnalyticKind::Point => PointLight {
+                p,
+                intensity: emission,
+                mesh,
+            }
+            .into(),
+            AnalyticKind::Spot { inner, outer } => SpotLight {
+                p,
+                intensity: emission,
+                axis: [0.0, 0.0, -1.0],
+                cos_inner: cosine(inner),
+                cos_outer: cosine(outer).min(1.0 - 2.0_f32.powi(-20)),
+                mesh,
+            }
+            .into(),
+            AnalyticKind::Sphere { radius } => SphereLight {
+                p,
+                radius,
+                radiance: emission,
+                mesh,
+            }
+            .into(),
+            AnalyticKind::Rectangle { half } => RectangleLight {
+                p,
+                half: flat(half),
+                radiance: emission,
+                mesh,
+                flags: 0,
+            }
+            .into(),
+            AnalyticKind::Disc { half } => DiscLight {
+                p,
+                half: flat(half),
+                radiance: emission,
+                mesh,
+                flags: 0,
+            }
+            .into(),
+            AnalyticKind::Box { half: [x, y, z] } => BoxLight {
+                p,
+                half: [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]],
+                radiance: emission,
+                mesh,
+            }
+            .into(),
+        })
+    }
+}
+
+fn cosine(angle: f32) -> f32 {
+    libm::cos(f64::from(angle)) as f32
+}

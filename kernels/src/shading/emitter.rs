@@ -1,0 +1,244 @@
+//! A light as the renderer shows it. Each pass is compiled for one type of light: triangles alone, or any kind, so that a scene of
+//! triangles pays for no other.
+
+use glam::Vec3;
+use lightbvh::exact::{abs, clamp, div, flush, max, min, pow2, rsqrt, sqrt};
+use lightbvh::light::{AnyLight, Light};
+use lightbvh::vector::{dot, length_squared};
+use lightbvh::{EmissiveTriangle, LightPoint, ShadingPoint};
+
+use super::area::{Connection, NEAREST_SQUARED, OFFSET, connect, largest_component, light_density};
+use super::grid::{STEP, TINY, TINY_AREA, bounded_product, bounded_quotient, flush_vector, snap_point};
+use super::material::Material;
+use super::ray::Ray;
+
+/// A light that points are lit by, and that rays may meet.
+pub trait Emitter: Light {
+    /// What the names of passes over such lights end in.
+    const SUFFIX: &'static str;
+
+    /// Connects `point` with the point of this light that `uv` chooses, where the light was chosen with probability `pmf`.
+    fn connect(
+        &self,
+        point: &ShadingPoint,
+        wo: Vec3,
+        material: &Material,
+        pmf: f32,
+        uv: [f32; 2],
+    ) -> Connection;
+
+    /// Whether rays that leave a surface find its light too. What they do not find, [`connect`](Self::connect) alone brings, and where
+    /// they meet it, it counts only if the camera sees it.
+    fn is_met(&self) -> bool;
+
+    /// The density over solid angle with which [`connect`](Self::connect) finds what is seen of it at `d` from a point, when it is chosen
+    /// there with probability `pmf`, 1/sr. Of lights that [are met](Self::is_met).
+    fn density(&self, d: Vec3, pmf: f32) -> f32;
+
+    /// The radiance of its surface, seen from its front or back.
+    fn emitted(&self, front: bool) -> Vec3;
+
+    /// The numbers that choose the point which the ray meets. Of lights that [are met](Self::is_met).
+    fn coordinates(&self, ray: &Ray) -> [f32; 2];
+}
+
+impl Emitter for EmissiveTriangle {
+    const SUFFIX: &'static str = "";
+
+    #[inline]
+    fn connect(
+        &self,
+        point: &ShadingPoint,
+        wo: Vec3,
+        material: &Material,
+        pmf: f32,
+        uv: [f32; 2],
+    ) -> Connection {
+        connect(point, wo, material, self, pmf, uv)
+    }
+
+    #[inline]
+    fn is_met(&self) -> bool {
+        true
+    }
+
+    #[inline]
+    fn density(&self, d: Vec3, pmf: f32) -> f32 {
+        light_density(d, self, pmf)
+    }
+
+    #[inline]
+    fn emitted(&self, front: bool) -> Vec3 {
+        shown(self.radiance, front || self.is_two_sided())
+    }
+
+    #[inline]
+    fn coordinates(&self, ray: &Ray) -> [f32; 2] {
+        // As the ray BVH has them.
+        let p0 = snap_point(self.vertex(0));
+        let e1 = snap_point(self.vertex(1)) - p0;
+        let e2 = snap_point(self.vertex(2)) - p0;
+        let [a, b] = ray.barycentric(p0, e1, e2);
+        let a = clamp(a, 0.0, 1.0);
+        [a, clamp(b, 0.0, 1.0 - a)]
+    }
+}
+
+#[inline]
+fn shown(radiance: [f32; 3], is_seen: bool) -> Vec3 {
+    let mut seen = Vec3::ZERO;
+    if is_seen {
+        seen = Vec3::new(radiance[0], radiance[1], radiance[2]);
+    }
+    seen
+}
+
+/// Triangles and rectangles are met. A sphere and a disc are seen as facets within them, which hold some of their points and not others, so
+/// no ray but the camera's counts; points, spots and boxes are not seen.
+impl Emitter for AnyLight {
+    const SUFFIX: &'static str = "_any";
+
+    #[inline]
+    fn connect(
+        &self,
+        point: &ShadingPoint,
+        wo: Vec3,
+        material: &Material,
+        pmf: f32,
+        uv: [f32; 2],
+    ) -> Connection {
+        connect_any(*self, *point, wo, *material, pmf, uv)
+    }
+
+    #[inline]
+    fn is_met(&self) -> bool {
+        let kind = self.kind();
+        kind == Self::TRIANGLE || kind == Self::RECTANGLE
+    }
+
+    #[inline]
+    fn density(&self, d: Vec3, pmf: f32) -> f32 {
+        // Both kinds are flat: all their points have one normal and one density.
+        let at = self.point_for(Vec3::ZERO, [0.0; 2]);
+        let (squared, facing) = facing(flush_vector(d, STEP), &at);
+        density(squared, facing, at.density, pmf)
+    }
+
+    #[inline]
+    fn emitted(&self, front: bool) -> Vec3 {
+        shown(self.emission(), front || self.is_two_sided())
+    }
+
+    #[inline]
+    fn coordinates(&self, ray: &Ray) -> [f32; 2] {
+        let corner = |uv| snap_point(place(&self.point_for(Vec3::ZERO, uv)));
+        let p0 = corner([0.0, 0.0]);
+        let [a, b] = ray.barycentric(p0, corner([1.0, 0.0]) - p0, corner([0.0, 1.0]) - p0);
+        let a = clamp(a, 0.0, 1.0);
+        let most = if self.kind() == Self::TRIANGLE {
+            1.0 - a
+        } else {
+            1.0
+        };
+        [a, clamp(b, 0.0, most)]
+    }
+}
+
+/// What [`Emitter::connect`] says. A function of its own on devices: passes connect in several places, and it is long.
+#[cfg_attr(target_arch = "spirv", inline(never))]
+#[cfg_attr(not(target_arch = "spirv"), inline)]
+fn connect_any(
+    light: AnyLight,
+    point: ShadingPoint,
+    wo: Vec3,
+    material: Material,
+    pmf: f32,
+    uv: [f32; 2],
+) -> Connection {
+    let at = light.point_for(point.position(), uv);
+    connect_point(&point, wo, &material, &at, pmf, light.is_met())
+}
+
+/// Densities over solid angle are cut to this, as in [`area`](super::area).
+const MAX_DENSITY: f32 = pow2(100);
+
+#[inline]
+fn place(at: &LightPoint) -> Vec3 {
+    Vec3::new(at.p[0], at.p[1], at.p[2])
+}
+
+/// Squared distance of a point from `at` along `d`, and the distance times the cosine at the light, which is 1 where it has no surface.
+/// Zero where it faces away, or is too near or edge-on to count.
+#[inline]
+fn facing(d: Vec3, at: &LightPoint) -> (f32, f32) {
+    let squared = length_squared(d);
+    let own = flush_vector(Vec3::new(at.normal[0], at.normal[1], at.normal[2]), STEP);
+    let front = -dot(own, d);
+    let has_surface = at.flags & (LightPoint::IS_POINT | LightPoint::IS_VOLUME) == 0;
+    let is_two_sided = at.flags & EmissiveTriangle::TWO_SIDED != 0;
+    let emitting = if has_surface {
+        if is_two_sided { abs(front) } else { front }
+    } else {
+        sqrt(squared)
+    };
+    let counts = emitting > TINY_AREA && squared > NEAREST_SQUARED && at.density > 0.0;
+    (squared, if counts { emitting } else { 0.0 })
+}
+
+/// Density over solid angle of what [`facing`] tells of: `pmf per_area |d|³ / facing`, 0 below 2^-100.
+#[inline]
+fn density(squared: f32, facing: f32, per_area: f32, pmf: f32) -> f32 {
+    let mut density = 0.0;
+    if facing > 0.0 {
+        let cosine = max(facing * rsqrt(squared), TINY_AREA);
+        let per_area = bounded_product(min(div(squared, cosine), MAX_DENSITY), per_area);
+        density = flush(pmf * per_area, TINY);
+    }
+    density
+}
+
+/// Connects `point` with `at`, a point of a light that was chosen with probability `pmf`, with `d` from one to the other:
+/// `f L (n . d) (-m . d) / (|d|⁴ density pmf)` for the light's unit normal `m`, and `|d|` in the place of `-m . d` where it has none.
+#[inline]
+#[must_use]
+pub fn connect_point(
+    point: &ShadingPoint,
+    wo: Vec3,
+    material: &Material,
+    at: &LightPoint,
+    pmf: f32,
+    is_met: bool,
+) -> Connection {
+    let y = place(at);
+    let n = flush_vector(point.normal(), STEP);
+    let d = flush_vector(y - point.position(), STEP);
+    let receiving = dot(n, d);
+    let (squared, facing) = facing(d, at);
+
+    let mut contribution = Vec3::ZERO;
+    let mut scattering_density = 0.0;
+    if receiving > 0.0 && facing > 0.0 && pmf > 0.0 {
+        let weight = flush(div(receiving, squared) * div(facing, squared), TINY);
+        let scale = bounded_quotient(bounded_quotient(weight, at.density), pmf);
+        let scattering = material.scatter(n, d * rsqrt(squared), wo);
+        let f = scattering.reflectance;
+        contribution = Vec3::new(
+            bounded_product(bounded_product(f.x, scale), at.radiance[0]),
+            bounded_product(bounded_product(f.y, scale), at.radiance[1]),
+            bounded_product(bounded_product(f.z, scale), at.radiance[2]),
+        );
+        scattering_density = if is_met { scattering.density } else { 0.0 };
+    }
+
+    // Off the light's plane, towards the receiver.
+    let own = flush_vector(Vec3::new(at.normal[0], at.normal[1], at.normal[2]), STEP);
+    let offset = max(largest_component(y), OFFSET) * OFFSET;
+    let towards = if dot(own, d) > 0.0 { -offset } else { offset };
+    Connection {
+        contribution,
+        target: y + own * towards,
+        on: y,
+        density: density(squared, facing, at.density, pmf),
+        scattering_density,
+    }
+}
