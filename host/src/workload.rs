@@ -51,6 +51,14 @@ impl RenderSettings {
 /// # Errors
 /// [`HostError`] when there is none, or one is outside the domain.
 pub fn lights_at(scene: &Scene, frame: u32) -> Result<Lights, HostError> {
+    lights_of(scene, frame)
+}
+
+/// The lights of `scene` at `frame` that type `L` holds.
+///
+/// # Errors
+/// As [`lights_at`].
+pub fn lights_of<L: SceneLight>(scene: &Scene, frame: u32) -> Result<Lights<L>, HostError> {
     listed(scene, frame, scene.frame(frame).lights())
 }
 
@@ -117,7 +125,7 @@ pub fn instance_of<N: LightNode<W>, I, const W: usize>(
 
 /// `count` queries numbered from `first`: most on surfaces of the scene, some in volumes, some anywhere in and around
 /// it, a few where arithmetic is hard: on a light, at the origin, far away.
-pub fn queries(scene: &SceneArrays, seed: u32, first: u32, count: u32) -> Vec<Query> {
+pub fn queries<L: SceneLight>(scene: &SceneArrays<L>, seed: u32, first: u32, count: u32) -> Vec<Query> {
     let surfaces: Vec<Corners> = scene.rays.triangles().map(|(_, triangle)| triangle.p).collect();
     let bounds = bounding_box(&surfaces);
     (first..first.wrapping_add(count))
@@ -128,7 +136,12 @@ pub fn queries(scene: &SceneArrays, seed: u32, first: u32, count: u32) -> Vec<Qu
 /// Of a triangle.
 type Corners = [[f32; 3]; 3];
 
-fn query(scene: &SceneArrays, surfaces: &[Corners], bounds: &([f32; 3], [f32; 3]), random: u32) -> Query {
+fn query<L: SceneLight>(
+    scene: &SceneArrays<L>,
+    surfaces: &[Corners],
+    bounds: &([f32; 3], [f32; 3]),
+    random: u32,
+) -> Query {
     let draw = |k: u32| unit_f32(hash(random.wrapping_add(k)));
     let pick = |k: u32, n: usize| ((draw(k) * n as f32) as usize).min(n - 1);
     let kind = draw(0);
@@ -137,7 +150,7 @@ fn query(scene: &SceneArrays, surfaces: &[Corners], bounds: &([f32; 3], [f32; 3]
         let corners = if kind < 0.75 {
             surfaces[pick(1, surfaces.len())]
         } else {
-            lights[pick(1, lights.len())].p
+            lights[pick(1, lights.len())].corners()
         };
         on_triangle(&corners, draw(2), draw(3), draw(4) < 0.5)
     } else {

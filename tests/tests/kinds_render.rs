@@ -359,7 +359,8 @@ fn samplers_agree_on_every_kind() {
                 "{} {integrator:?}: {difference} ± {error} of {power}",
                 sampler.name()
             );
-            assert!(error < 0.02 * power, "too noisy to tell: {error} of {power}");
+            // Points and boxes near surfaces have heavy tails.
+            assert!(error < 0.06 * power, "too noisy to tell: {error} of {power}");
         }
     }
 }

@@ -12,14 +12,16 @@ pub(super) mod tally;
 use std::ops::Range;
 
 use indicatif::ProgressBar;
-use lightbvh_kernels::bvh::{Paper, Standard, WIDTH};
+use lightbvh::EmissiveTriangle;
+use lightbvh::light::AnyLight;
+use lightbvh_kernels::bvh::{Kinds, Paper, Standard, WIDTH};
 use serde::Serialize;
 
 use super::{Context, Outcome, devices, progress, table};
 use crate::backend::Sampler;
 use crate::cli::table::say;
 use crate::error::HostError;
-use crate::method::{Importance, Target};
+use crate::method::{Importance, MethodLight, Target};
 use crate::scene::{BUILT_IN, Scene};
 use subject::Subject;
 use tally::{Tallies, Tally};
@@ -116,7 +118,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let shares = scenes.len() as u64 * 2 * importances.len() as u64;
     let asked = (args.queries.div_ceil(shares), args.seed);
     for scene in &scenes {
-        for &importance in importances {
+        let has_kinds = scene.analytic_count() > 0;
+        for &importance in importances_of(scene, importances) {
             for sampler in [Sampler::SingleLevel, Sampler::TwoLevel] {
                 let subject = Subject {
                     scene,
@@ -126,6 +129,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
                     treeless: importance == importances[0] && sampler == Sampler::SingleLevel,
                 };
                 let compare = match importance {
+                    Importance::Moments if has_kinds => structures::compare::<Kinds, WIDTH>,
                     Importance::Moments => structures::compare::<Standard, WIDTH>,
                     Importance::Eq4 => structures::compare::<Paper, 4>,
                 };
@@ -144,7 +148,11 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let targets: Vec<_> = opened.iter().map(|o| Target::Device(&o.device)).collect();
     let bar = progress((args.frames.len() * scenes.len()) as u64, "frames", context.json);
     for scene in &scenes {
-        frames::compare(scene, &plan, &targets, &mut tallies, &bar)?;
+        let compare = match scene.analytic_count() {
+            0 => frames::compare::<EmissiveTriangle>,
+            _ => frames::compare::<AnyLight>,
+        };
+        compare(scene, &plan, &targets, &mut tallies, &bar)?;
     }
     bar.finish_and_clear();
     if args.refits > 0 {
@@ -154,7 +162,21 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             context.json,
         );
         for scene in &scenes {
-            refits::compare(scene, importances, args.refits, &targets, &mut tallies, &bar)?;
+            let known = importances_of(scene, importances);
+            if scene.analytic_count() == 0 {
+                let made = |importance, lights: &_, sampler| match importance {
+                    Importance::Moments => {
+                        refits::structure::<Standard, WIDTH>(importance, lights, sampler, &targets)
+                    }
+                    Importance::Eq4 => refits::structure::<Paper, 4>(importance, lights, sampler, &targets),
+                };
+                refits::compare(scene, known, made, args.refits, &mut tallies, &bar)?;
+            } else {
+                let made = |importance, lights: &_, sampler| {
+                    refits::structure::<Kinds, WIDTH>(importance, lights, sampler, &targets)
+                };
+                refits::compare(scene, known, made, args.refits, &mut tallies, &bar)?;
+            }
         }
         bar.finish_and_clear();
     }
@@ -186,6 +208,15 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     devices::close(opened)?;
     print(context, &report, tallies.cpu.first_difference.as_deref())?;
     Ok(Outcome::good_if(report.different == 0))
+}
+
+/// The importances that choose among the lights of a scene; of other kinds than triangles, the default alone.
+fn importances_of(scene: &Scene, asked: &'static [Importance]) -> &'static [Importance] {
+    match scene.analytic_count() {
+        0 => asked,
+        _ if asked.contains(&Importance::Moments) => AnyLight::IMPORTANCES,
+        _ => &[],
+    }
 }
 
 fn progress(length: u64, of: &str, hidden: bool) -> ProgressBar {

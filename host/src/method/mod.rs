@@ -230,6 +230,9 @@ impl Recipe {
 
 /// Lights that methods are compiled for.
 pub trait MethodLight: SceneLight {
+    /// What they may be chosen by.
+    const IMPORTANCES: &'static [Importance];
+
     /// Builds what `recipe` needs at its first frame.
     ///
     /// # Errors
@@ -242,6 +245,8 @@ pub trait MethodLight: SceneLight {
 }
 
 impl MethodLight for EmissiveTriangle {
+    const IMPORTANCES: &'static [Importance] = &Importance::ALL;
+
     fn runner<'d>(
         recipe: &Recipe,
         first: &Step<'_, Self>,
@@ -255,6 +260,8 @@ impl MethodLight for EmissiveTriangle {
 }
 
 impl MethodLight for AnyLight {
+    const IMPORTANCES: &'static [Importance] = &[Importance::Moments];
+
     fn runner<'d>(
         recipe: &Recipe,
         first: &Step<'_, Self>,

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::analytic::AnalyticLight;
 use super::error::SceneError;
 use super::model::{
     Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
@@ -102,6 +103,11 @@ impl SceneBuilder {
     /// A node that is only moved.
     pub fn put(&mut self, name: &str, parent: Option<u32>, at: [f64; 3], mesh: u32) -> u32 {
         self.node(name, parent, at, STILL, Some(mesh))
+    }
+
+    /// A light by formula.
+    pub fn analytic(&mut self, light: AnalyticLight) {
+        self.data.analytic.push(light);
     }
 
     /// Swings about `axis` like a pendulum, `amplitude` in radians, `phase` in turns.

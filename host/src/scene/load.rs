@@ -4,10 +4,13 @@ use std::path::Path;
 
 use super::error::SceneError;
 use super::model::Scene;
-use super::{carousel, square, street};
+use super::{carousel, square, stage, street};
 
-/// Names of the built-in scenes.
+/// Names of the built-in scenes that commands take by default.
 pub const BUILT_IN: [&str; 3] = ["street", "square", "carousel"];
+
+/// Name of a further one, which has lights of every kind. Those stand for the paper's, of triangles alone.
+pub const STAGE: &str = "stage";
 
 impl Scene {
     /// Opens a built-in scene by name, or a `.gltf` or `.glb` file by path.
@@ -19,6 +22,7 @@ impl Scene {
             "street" => return street::street(),
             "square" => return square::square(),
             "carousel" => return carousel::carousel(),
+            STAGE => return stage::stage(),
             _ => {}
         }
         let path = Path::new(spec);
@@ -31,7 +35,7 @@ impl Scene {
         }
         Err(SceneError::UnknownScene {
             name: spec.to_owned(),
-            built_in: BUILT_IN.join(", "),
+            built_in: format!("{}, {STAGE}", BUILT_IN.join(", ")),
         })
     }
 }

@@ -40,6 +40,7 @@ mod transform;
 
 pub mod carousel;
 pub mod square;
+pub mod stage;
 pub mod street;
 
 pub use analytic::{AnalyticKind, AnalyticLight};
@@ -48,7 +49,7 @@ pub use deform::{Influence, MorphChannel, Skin};
 pub use error::SceneError;
 pub use frame::{FRAMES_PER_SECOND, Frame, MeshRange};
 pub use instances::Instances;
-pub use load::BUILT_IN;
+pub use load::{BUILT_IN, STAGE};
 pub use model::{
     Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
 };

@@ -272,6 +272,14 @@ impl Scene {
         &self.data.warnings
     }
 
+    /// What a command that knows emissive triangles alone leaves out.
+    pub fn unknown_lights(&self) -> Option<String> {
+        let count = self.counts.analytic;
+        (count > 0).then(|| {
+            format!("{count} lights of other kinds than triangles are left out here; `lightbvh render` and `verify` know them")
+        })
+    }
+
     /// Triangles of every frame.
     pub fn triangle_count(&self) -> usize {
         self.counts.triangles

@@ -11,6 +11,9 @@ pub trait SceneLight: Emitter + From<EmissiveTriangle> {
     /// A light by formula, where the type holds such.
     fn of_kind(light: AnyLight) -> Option<Self>;
 
+    /// Vertices of the light where it is a triangle; of another, three times the place it is at.
+    fn corners(&self) -> [[f32; 3]; 3];
+
     /// Luminous part of the flux, W; of boxes, a factor that is the same for all.
     fn flux(&self) -> f64;
 }
@@ -18,6 +21,10 @@ pub trait SceneLight: Emitter + From<EmissiveTriangle> {
 impl SceneLight for EmissiveTriangle {
     fn of_kind(_: AnyLight) -> Option<Self> {
         None
+    }
+
+    fn corners(&self) -> [[f32; 3]; 3] {
+        self.p
     }
 
     fn flux(&self) -> f64 {
@@ -28,6 +35,10 @@ impl SceneLight for EmissiveTriangle {
 impl SceneLight for AnyLight {
     fn of_kind(light: AnyLight) -> Option<Self> {
         Some(light)
+    }
+
+    fn corners(&self) -> [[f32; 3]; 3] {
+        EmissiveTriangle::try_from(*self).map_or([self.centroid(); 3], |triangle| triangle.p)
     }
 
     fn flux(&self) -> f64 {

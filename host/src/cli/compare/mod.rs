@@ -44,7 +44,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         .collect::<Result<Vec<_>, _>>()?;
     for scene in &scenes {
         scene.require_lights()?;
-        for warning in scene.warnings() {
+        for warning in scene.warnings().iter().chain(&scene.unknown_lights()) {
             news!("{}: {warning}", scene.name());
         }
     }

@@ -34,7 +34,7 @@ const MOST_PROBABILITIES: usize = 1 << 25;
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     let scene = Scene::open(&args.scene)?;
-    for warning in scene.warnings() {
+    for warning in scene.warnings().iter().chain(&scene.unknown_lights()) {
         news!("{}: {warning}", scene.name());
     }
     scene.require_lights()?;

@@ -42,7 +42,7 @@ pub(super) fn prepare(
     in_frame: &mut InFrame<'_>,
 ) -> Result<Prepared, HostError> {
     let scene = Scene::open(name)?;
-    for warning in scene.warnings() {
+    for warning in scene.warnings().iter().chain(&scene.unknown_lights()) {
         news!("{name}: {warning}");
     }
     let (_, points) = points::of(name, 0, args.frame, budget.points)?;

@@ -12,9 +12,9 @@ use super::side::Side;
 use super::tally::{Kind, Tallies};
 use crate::backend::{Sampler, SceneArrays};
 use crate::error::HostError;
-use crate::method::{Importance, Method, Recipe, Runner, SequenceId, Step, Target};
-use crate::scene::Scene;
-use crate::workload::{RenderSettings, arrays_at, queries};
+use crate::method::{Importance, Method, MethodLight, Recipe, Runner, SequenceId, Step, Target};
+use crate::scene::{Scene, SceneLight};
+use crate::workload::{RenderSettings, arrays_lit_by, queries};
 
 /// Images are small: an animation has thousands of them, and SwiftShader takes a millisecond for a pixel of some.
 const SIZE: (u32, u32) = (16, 9);
@@ -32,14 +32,14 @@ pub(super) struct Plan {
 }
 
 /// A method on the CPU and on each device.
-struct Lane<'d> {
+struct Lane<'d, L: SceneLight> {
     recipe: Recipe,
-    cpu: Box<dyn Runner + 'd>,
-    devices: Vec<Box<dyn Runner + 'd>>,
+    cpu: Box<dyn Runner<L> + 'd>,
+    devices: Vec<Box<dyn Runner<L> + 'd>>,
 }
 
 /// Compares all methods over the frames of `scene` with `targets`, which `tallies` are of.
-pub(super) fn compare(
+pub(super) fn compare<L: MethodLight>(
     scene: &Scene,
     plan: &Plan,
     targets: &[Target<'_>],
@@ -48,7 +48,7 @@ pub(super) fn compare(
 ) -> Result<(), HostError> {
     let mut lanes = Vec::new();
     for frame in plan.frames.clone() {
-        let arrays = Arc::new(arrays_at(scene, frame, SIZE.0, SIZE.1)?);
+        let arrays = Arc::new(arrays_lit_by::<L>(scene, frame, SIZE.0, SIZE.1)?);
         let step = Step {
             scene,
             frame,
@@ -72,15 +72,16 @@ pub(super) fn compare(
 }
 
 /// All methods at the first frame; those that choose by power only where there is a table for it.
-fn start<'d>(
+fn start<'d, L: MethodLight>(
     plan: &Plan,
-    step: &Step<'_>,
-    arrays: &SceneArrays,
+    step: &Step<'_, L>,
+    arrays: &SceneArrays<L>,
     targets: &[Target<'d>],
-) -> Result<Vec<Lane<'d>>, HostError> {
+) -> Result<Vec<Lane<'d, L>>, HostError> {
     let mut lanes = Vec::new();
     for recipe in Method::ALL.iter().map(|method| method.recipe()) {
-        let wanted = !recipe.lights.needs_bvh() || plan.importances.contains(&recipe.importance);
+        let known = L::IMPORTANCES.contains(&recipe.importance);
+        let wanted = known && (!recipe.lights.needs_bvh() || plan.importances.contains(&recipe.importance));
         if wanted && (recipe.lights != Sampler::Power || !arrays.thresholds.is_empty()) {
             lanes.push(Lane {
                 recipe,
@@ -95,8 +96,8 @@ fn start<'d>(
     Ok(lanes)
 }
 
-impl Lane<'_> {
-    fn advance(&mut self, step: &Step<'_>) -> Result<(), HostError> {
+impl<L: MethodLight> Lane<'_, L> {
+    fn advance(&mut self, step: &Step<'_, L>) -> Result<(), HostError> {
         self.cpu.advance(step)?;
         for device in &mut self.devices {
             device.advance(step)?;
@@ -107,8 +108,8 @@ impl Lane<'_> {
     /// Everything that the method has at the frame last advanced to.
     fn compare(
         &mut self,
-        step: &Step<'_>,
-        arrays: &Arc<SceneArrays>,
+        step: &Step<'_, L>,
+        arrays: &Arc<SceneArrays<L>>,
         asked: &[Query],
         seed: u32,
         tallies: &mut Tallies,

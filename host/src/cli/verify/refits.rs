@@ -2,25 +2,28 @@
 
 use indicatif::ProgressBar;
 use lightbvh::Lights;
-use lightbvh_kernels::bvh::{Paper, Standard, TriangleChoice, WIDTH};
+use lightbvh_kernels::bvh::Choice;
 
 use super::side::Side;
 use super::tally::{Kind, Tallies};
 use crate::backend::{Backend, Bvh, Sampler};
 use crate::error::HostError;
 use crate::method::{Importance, Target};
-use crate::scene::Scene;
-use crate::workload::{build, lights_at};
+use crate::scene::{Scene, SceneLight};
+use crate::workload::{build, lights_of};
 
-/// A structure on the CPU, then on each device.
-fn structure<'d, C: TriangleChoice<W>, const W: usize>(
+/// A structure over lights `L` on the CPU, then on each device.
+pub(super) type Made<'d, L> = Result<Vec<Box<dyn Backend<L> + 'd>>, HostError>;
+
+/// Makes that of a choice.
+pub(super) fn structure<'d, C: Choice<W, Light: SceneLight>, const W: usize>(
     importance: Importance,
-    lights: &Lights,
+    lights: &Lights<C::Light>,
     sampler: Sampler,
     targets: &[Target<'d>],
-) -> Result<Vec<Box<dyn Backend + 'd>>, HostError> {
+) -> Made<'d, C::Light> {
     let bvh: Bvh<C, W> = build(lights, sampler, &importance.builder().params());
-    let mut backends: Vec<Box<dyn Backend + 'd>> = Vec::new();
+    let mut backends: Vec<Box<dyn Backend<C::Light> + 'd>> = Vec::new();
     for target in [Target::Cpu].iter().chain(targets) {
         backends.push(target.backend::<C, W>(bvh.clone())?);
     }
@@ -29,32 +32,29 @@ fn structure<'d, C: TriangleChoice<W>, const W: usize>(
 
 /// Refits `count` times per structure, to the frames after the one that the trees are built at; the CPU computes every
 /// frame too.
-pub(super) fn compare(
+pub(super) fn compare<'d, L: SceneLight>(
     scene: &Scene,
     importances: &[Importance],
+    made: impl Fn(Importance, &Lights<L>, Sampler) -> Made<'d, L>,
     count: u32,
-    targets: &[Target<'_>],
     tallies: &mut Tallies,
     progress: &ProgressBar,
 ) -> Result<(), HostError> {
-    let mut lights = lights_at(scene, 0)?;
+    let mut lights = lights_of(scene, 0)?;
     let mut structures = Vec::new();
     for &importance in importances {
         for sampler in [Sampler::SingleLevel, Sampler::TwoLevel] {
-            let backends = match importance {
-                Importance::Moments => structure::<Standard, WIDTH>(importance, &lights, sampler, targets)?,
-                Importance::Eq4 => structure::<Paper, 4>(importance, &lights, sampler, targets)?,
-            };
+            let backends = made(importance, &lights, sampler)?;
             let name = format!("{} {} {}", scene.name(), sampler.name(), importance.name());
             structures.push((name, backends));
         }
     }
     for frame in 1..=count {
-        lights = lights_at(scene, frame)?;
+        lights = lights_of(scene, frame)?;
         for (name, backends) in &mut structures {
             let mut backends = backends
                 .iter_mut()
-                .map(|backend| &mut **backend as &mut dyn Backend);
+                .map(|backend| &mut **backend as &mut dyn Backend<L>);
             let Some(cpu) = backends.next() else { continue };
             let record = cpu.node_record();
             let mut side = Side {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lightbvh::exact::hash;
-use lightbvh_kernels::bvh::TriangleChoice;
+use lightbvh_kernels::bvh::Choice;
 
 use super::subject::Subject;
 use super::tally::Tallies;
@@ -12,13 +12,14 @@ use crate::backend::{
 };
 use crate::cli::devices::Opened;
 use crate::error::HostError;
-use crate::workload::{RenderSettings, arrays_at, build};
+use crate::scene::SceneLight;
+use crate::workload::{RenderSettings, arrays_lit_by, build};
 
 /// Frames in a row: the first has no history, the second a short one, the third one that was merged itself.
 const FRAMES: u32 = 3;
 
 /// Compares both combinations, with candidates from the light BVH or, once per scene, by power.
-pub(super) fn compare<C: TriangleChoice<W>, const W: usize>(
+pub(super) fn compare<C: Choice<W, Light: SceneLight>, const W: usize>(
     subject: &Subject<'_>,
     settings: &RenderSettings,
     opened: &[Opened],
@@ -27,7 +28,7 @@ pub(super) fn compare<C: TriangleChoice<W>, const W: usize>(
     let scene = subject.scene;
     let frames = (settings.frame..settings.frame + FRAMES)
         .map(|n| {
-            let arrays = arrays_at(scene, n, settings.width, settings.height)?;
+            let arrays = arrays_lit_by::<C::Light>(scene, n, settings.width, settings.height)?;
             let bvh: Bvh<C, W> = build(&arrays.lights, subject.sampler, &subject.params);
             Ok((Arc::new(arrays), bvh))
         })

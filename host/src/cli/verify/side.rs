@@ -1,22 +1,23 @@
 //! A backend on the CPU, and the devices that are compared with it.
 
 use bytemuck::{NoUninit, cast_slice};
+use lightbvh::INVALID;
 use lightbvh::exact::hash;
-use lightbvh::{EmissiveTriangle, INVALID};
 use lightbvh_kernels::query::Query;
 
 use super::tally::{Kind, Tallies};
 use crate::backend::{Backend, BackendError, PMF_RECORD, SAMPLED_RECORD};
 use crate::error::HostError;
+use crate::scene::SceneLight;
 use crate::words::Record;
 
 /// One backend on the CPU and on each device.
-pub(super) struct Side<'a> {
-    pub cpu: &'a mut dyn Backend,
-    pub devices: Vec<&'a mut dyn Backend>,
+pub(super) struct Side<'a, L: SceneLight> {
+    pub cpu: &'a mut dyn Backend<L>,
+    pub devices: Vec<&'a mut dyn Backend<L>>,
 }
 
-impl Side<'_> {
+impl<L: SceneLight> Side<'_, L> {
     /// Compares what `work` gives on each device with what it gives on the CPU, which is returned.
     pub fn compare<T: NoUninit>(
         &mut self,
@@ -24,7 +25,7 @@ impl Side<'_> {
         kind: Kind,
         what: &str,
         record: &Record,
-        work: impl Fn(&mut dyn Backend) -> Result<Vec<T>, BackendError>,
+        work: impl Fn(&mut dyn Backend<L>) -> Result<Vec<T>, BackendError>,
     ) -> Result<Vec<T>, HostError> {
         let expected = work(self.cpu)?;
         for (device, tally) in self.devices.iter_mut().zip(&mut tallies.devices) {
@@ -41,7 +42,7 @@ impl Side<'_> {
         tallies: &mut Tallies,
         what: &dyn Fn(&str) -> String,
         mut asked: Vec<Query>,
-        (lights, single): (&[EmissiveTriangle], bool),
+        (lights, single): (&[L], bool),
     ) -> Result<(), HostError> {
         let sampled = self.compare(
             tallies,
@@ -53,7 +54,7 @@ impl Side<'_> {
         for (i, (query, sampled)) in asked.iter_mut().zip(&sampled).enumerate() {
             query.words = if i % 8 == 7 && !lights.is_empty() {
                 let light = hash(i as u32) % lights.len() as u32;
-                let mesh = lights[light as usize].mesh;
+                let mesh = lights[light as usize].mesh();
                 [light, if single { INVALID } else { mesh }]
             } else {
                 [sampled.light, sampled.instance]

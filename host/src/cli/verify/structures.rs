@@ -2,7 +2,7 @@
 
 use indicatif::ProgressBar;
 use lightbvh::exact::hash;
-use lightbvh_kernels::bvh::TriangleChoice;
+use lightbvh_kernels::bvh::Choice;
 
 use super::side::Side;
 use super::subject::Subject;
@@ -12,7 +12,8 @@ use crate::backend::{
 };
 use crate::cli::devices::Opened;
 use crate::error::HostError;
-use crate::workload::{RenderSettings, arrays_at, build, lights_at, queries};
+use crate::scene::SceneLight;
+use crate::workload::{RenderSettings, arrays_lit_by, build, lights_of, queries};
 
 /// Queries answered at a time.
 const BATCH: u32 = 1 << 19;
@@ -23,7 +24,7 @@ const REFIT_FRAMES: [u32; 2] = [40, 110];
 const BOUNCES: u32 = 5;
 
 /// Compares everything about one structure over one scene.
-pub(super) fn compare<C: TriangleChoice<W>, const W: usize>(
+pub(super) fn compare<C: Choice<W, Light: SceneLight>, const W: usize>(
     subject: &Subject<'_>,
     opened: &[Opened],
     (count, seed): (u64, u32),
@@ -32,7 +33,7 @@ pub(super) fn compare<C: TriangleChoice<W>, const W: usize>(
 ) -> Result<(), HostError> {
     let scene = subject.scene;
     let what = |kernel: &str| subject.says(kernel);
-    let lights = lights_at(scene, BUILD_FRAME)?;
+    let lights = lights_of::<C::Light>(scene, BUILD_FRAME)?;
     let bvh: Bvh<C, W> = build(&lights, subject.sampler, &subject.params);
     let mut cpu = CpuBackend::<C, W>::new(bvh.clone());
     let mut devices = opened
@@ -46,7 +47,7 @@ pub(super) fn compare<C: TriangleChoice<W>, const W: usize>(
     };
 
     for frame in REFIT_FRAMES {
-        let lights = lights_at(scene, frame)?;
+        let lights = lights_of::<C::Light>(scene, frame)?;
         let what = what(&format!("frame {frame} refit"));
         side.compare(tallies, Kind::Nodes, &what, &record, |backend| {
             Ok(backend.refit(&lights)?.value)
@@ -60,7 +61,7 @@ pub(super) fn compare<C: TriangleChoice<W>, const W: usize>(
         samples: 2,
         seed,
     };
-    let arrays = arrays_at(scene, settings.frame, settings.width, settings.height)?;
+    let arrays = arrays_lit_by::<C::Light>(scene, settings.frame, settings.width, settings.height)?;
     let lights = (arrays.lights.triangles(), bvh.is_single_level());
     let mut first = 0;
     while first < count {
@@ -75,11 +76,11 @@ pub(super) fn compare<C: TriangleChoice<W>, const W: usize>(
 }
 
 /// Small images, of light reflected once and of paths; those of the samplers without a tree once per scene only.
-fn images(
+fn images<L: SceneLight>(
     subject: &Subject<'_>,
-    arrays: &SceneArrays,
+    arrays: &SceneArrays<L>,
     settings: &RenderSettings,
-    side: &mut Side<'_>,
+    side: &mut Side<'_, L>,
     tallies: &mut Tallies,
 ) -> Result<(), HostError> {
     let scene = subject.scene;

@@ -11,6 +11,7 @@ use crate::backend::{
 use crate::cli::verify::tally::Tally;
 use crate::method::{UpdateTimes, runner};
 use crate::words::Record;
+use crate::workload::arrays_at;
 use crate::workload::build;
 
 /// A method whose results are right at its first frame, and then but for one bit of the middle word of what is `wrong`.
