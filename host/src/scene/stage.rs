@@ -19,7 +19,7 @@ const DOWN: f64 = -std::f64::consts::FRAC_PI_2;
 /// # Errors
 /// None in practice: the scene passes the same checks as one from a file.
 pub fn stage() -> Result<Scene, SceneError> {
-    let mut b = SceneBuilder::new("stage", [0.004, 0.004, 0.008]);
+    let mut b = SceneBuilder::new("stage", [0.002, 0.002, 0.004]);
     room(&mut b);
     spots(&mut b);
     soft(&mut b);
@@ -37,7 +37,7 @@ pub fn stage() -> Result<Scene, SceneError> {
         },
         [0.10, 0.16, 0.30],
     );
-    b.camera([0.0, 2.4, 11.5], [0.0, 2.3, -2.0], 46.0);
+    b.camera([0.0, 2.3, 9.6], [0.0, 2.35, -2.0], 46.0);
     b.finish()
 }
 
@@ -125,10 +125,10 @@ fn room(b: &mut SceneBuilder) {
 /// Two rows of coloured spots that swing.
 fn spots(b: &mut SceneBuilder) {
     let colors = [
-        [60.0, 20.0, 14.0],
-        [18.0, 44.0, 60.0],
-        [56.0, 50.0, 34.0],
-        [40.0, 14.0, 56.0],
+        [190.0, 60.0, 40.0],
+        [50.0, 130.0, 190.0],
+        [170.0, 150.0, 100.0],
+        [120.0, 40.0, 170.0],
     ];
     for row in 0..2 {
         for k in 0..8 {
@@ -188,7 +188,7 @@ fn lanterns(b: &mut SceneBuilder) {
             kind: AnalyticKind::Sphere {
                 radius: 0.16 + 0.03 * (k % 2) as f32,
             },
-            color: [5.5, 3.4 - 0.15 * k as f32, 1.2 + 0.2 * k as f32],
+            color: [7.5, 4.6 - 0.2 * k as f32, 1.6 + 0.3 * k as f32],
             intensity: 1.0,
             range: None,
         });
@@ -215,14 +215,14 @@ fn footlights(b: &mut SceneBuilder) {
 fn bulbs(b: &mut SceneBuilder) {
     for k in 0..25 {
         let [x, y] = on_circle(0.5 * f64::from(k) / 24.0);
-        let at = [3.2 * x, 1.2 + 2.6 * y, -4.8];
-        light(b, "bulb", at, STILL, AnalyticKind::Point, [0.55, 0.40, 0.22]);
+        let at = [3.2 * x, 1.2 + 2.6 * y, -4.7];
+        light(b, "bulb", at, STILL, AnalyticKind::Point, [0.10, 0.07, 0.035]);
     }
 }
 
 /// A ring of glowing tube, of triangles.
 fn sign(b: &mut SceneBuilder) {
-    let glow = b.glow("neon", [3.0, 0.5, 2.2]);
+    let glow = b.glow("neon", [14.0, 2.0, 9.0]);
     let mut ring = Shape::new();
     ring.torus([0.0; 3], 0.75, 0.05, 24, 6);
     let mesh = b.mesh("sign", &[(&ring, glow)]);
