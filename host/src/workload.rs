@@ -63,7 +63,7 @@ pub fn lights_of<L: SceneLight>(scene: &Scene, frame: u32) -> Result<Lights<L>, 
 }
 
 fn listed<L: SceneLight>(scene: &Scene, frame: u32, lights: Vec<L>) -> Result<Lights<L>, HostError> {
-    if lights.is_empty() {
+    if lights.is_empty() && !(L::IS_ANY && scene.has_kinds()) {
         scene.require_lights()?;
     }
     Lights::new(lights).map_err(|error| HostError::in_frame(scene.name(), frame, error))
@@ -91,12 +91,7 @@ pub fn arrays_lit_by<L: SceneLight>(
     let lights = listed(scene, frame, data.lights())?;
     let rays =
         RayBvh::build(&data.triangles).map_err(|error| HostError::in_frame(scene.name(), frame, error))?;
-    Ok(SceneArrays::new(
-        rays,
-        data.materials,
-        lights,
-        camera(&data.camera, width, height),
-    ))
+    Ok(SceneArrays::new(rays, data.materials, lights, camera(&data.camera, width, height)).under(data.sky))
 }
 
 /// The light BVH that `sampler` walks; the other samplers walk none and get the two-level one.

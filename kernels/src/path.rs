@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{UVec3, Vec3};
 use lightbvh::exact::{div, hash};
 use lightbvh::light::AnyLight;
+use lightbvh::light::infinite::DistantLight;
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
@@ -17,6 +18,7 @@ use crate::shading::material::Material;
 use crate::shading::path::path_radiance;
 use crate::shading::pick::{PickLight, Power, Uniform};
 use crate::shading::pixel::Scene;
+use crate::shading::sky::{NoSky, SkyView};
 use crate::shading::trace::{RayNode, TriangleBlock};
 use lightbvh::TreeWords;
 
@@ -74,7 +76,7 @@ pub struct PathPush {
 
 /// Pass `path_bvh` for one choice.
 macro_rules! path_pass {
-    ($choice:ty, $light:ty, $pass:ident, $name:tt) => {
+    ($choice:ty, $light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr) => {
         /// Paths with lights chosen from a light BVH of one or two levels.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -89,10 +91,11 @@ macro_rules! path_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] nodes: &[NodeOf<$choice>],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] trails: &[u32],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] results: &mut [[f32; 3]],
+            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $at)] $own: &[$word],)*
         ) {
             let i = invocation(id);
             if i < push.count {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky);
                 let picker: TreeOf<'_, $choice, _> = push.tree.tree(nodes, instances, trails);
                 results[i as usize] = path_pixel(
                     &scene,
@@ -107,13 +110,13 @@ macro_rules! path_pass {
     };
 }
 
-path_pass!(Standard, EmissiveTriangle, path_bvh, "path_bvh");
-path_pass!(Paper, EmissiveTriangle, path_bvh_eq4, "path_bvh_eq4");
-path_pass!(Kinds, AnyLight, path_bvh_any, "path_bvh_any");
+path_pass!(Standard, EmissiveTriangle, path_bvh, "path_bvh", [], NoSky);
+path_pass!(Paper, EmissiveTriangle, path_bvh_eq4, "path_bvh_eq4", [], NoSky);
+path_pass!(Kinds, AnyLight, path_bvh_any, "path_bvh_any", [9 suns: DistantLight, 10 sky_counts: u32, 11 sky_radiance: [f32; 3]], SkyView { suns, counts: sky_counts, radiance: sky_radiance });
 
 /// Pass `path_power` for one type of light.
 macro_rules! path_power_pass {
-    ($light:ty, $pass:ident, $name:tt) => {
+    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr) => {
         /// Paths with lights chosen in proportion to their power. `thresholds` is [`Power`]'s table.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -127,10 +130,11 @@ macro_rules! path_power_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] thresholds: &[u32],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] results: &mut [[f32; 3]],
+            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $at)] $own: &[$word],)*
         ) {
             let i = invocation(id);
             if i < push.count {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky);
                 let picker = Power { thresholds };
                 results[i as usize] = path_pixel(
                     &scene,
@@ -145,12 +149,12 @@ macro_rules! path_power_pass {
     };
 }
 
-path_power_pass!(EmissiveTriangle, path_power, "path_power");
-path_power_pass!(AnyLight, path_power_any, "path_power_any");
+path_power_pass!(EmissiveTriangle, path_power, "path_power", [], NoSky);
+path_power_pass!(AnyLight, path_power_any, "path_power_any", [8 suns: DistantLight, 9 sky_counts: u32, 10 sky_radiance: [f32; 3]], SkyView { suns, counts: sky_counts, radiance: sky_radiance });
 
 /// Pass `path_uniform` for one type of light.
 macro_rules! path_uniform_pass {
-    ($light:ty, $pass:ident, $name:tt) => {
+    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr) => {
         /// Paths with lights chosen uniformly.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -163,10 +167,11 @@ macro_rules! path_uniform_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] results: &mut [[f32; 3]],
+            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $at)] $own: &[$word],)*
         ) {
             let i = invocation(id);
             if i < push.count {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky);
                 let picker = Uniform {
                     count: triangles.len() as u32,
                 };
@@ -183,5 +188,5 @@ macro_rules! path_uniform_pass {
     };
 }
 
-path_uniform_pass!(EmissiveTriangle, path_uniform, "path_uniform");
-path_uniform_pass!(AnyLight, path_uniform_any, "path_uniform_any");
+path_uniform_pass!(EmissiveTriangle, path_uniform, "path_uniform", [], NoSky);
+path_uniform_pass!(AnyLight, path_uniform_any, "path_uniform_any", [7 suns: DistantLight, 8 sky_counts: u32, 9 sky_radiance: [f32; 3]], SkyView { suns, counts: sky_counts, radiance: sky_radiance });

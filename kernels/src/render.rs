@@ -5,6 +5,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{UVec3, Vec3};
 use lightbvh::exact::hash;
 use lightbvh::light::AnyLight;
+use lightbvh::light::infinite::DistantLight;
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
@@ -16,6 +17,7 @@ use crate::shading::material::Material;
 use crate::shading::numbers::Part;
 use crate::shading::pick::{PickLight, Power, Uniform};
 use crate::shading::pixel::{Samples, Scene, reflected, see};
+use crate::shading::sky::{NoSky, SkyView};
 use crate::shading::trace::{RayNode, TriangleBlock};
 use lightbvh::TreeWords;
 
@@ -109,7 +111,7 @@ pub struct RenderPush {
 
 /// Pass `render_bvh` for one choice.
 macro_rules! render_pass {
-    ($choice:ty, $light:ty, $pass:ident, $name:tt) => {
+    ($choice:ty, $light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr) => {
         /// Direct lighting by lights chosen from a light BVH of one or two levels.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -124,10 +126,11 @@ macro_rules! render_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] nodes: &[NodeOf<$choice>],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] trails: &[u32],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] results: &mut [[f32; 3]],
+            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $at)] $own: &[$word],)*
         ) {
             let i = invocation(id);
             if i < push.count {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky);
                 let picker: TreeOf<'_, $choice, _> = push.tree.tree(nodes, instances, trails);
                 results[i as usize] = render_pixel(
                     &scene,
@@ -141,13 +144,20 @@ macro_rules! render_pass {
     };
 }
 
-render_pass!(Standard, EmissiveTriangle, render_bvh, "render_bvh");
-render_pass!(Paper, EmissiveTriangle, render_bvh_eq4, "render_bvh_eq4");
-render_pass!(Kinds, AnyLight, render_bvh_any, "render_bvh_any");
+render_pass!(Standard, EmissiveTriangle, render_bvh, "render_bvh", [], NoSky);
+render_pass!(
+    Paper,
+    EmissiveTriangle,
+    render_bvh_eq4,
+    "render_bvh_eq4",
+    [],
+    NoSky
+);
+render_pass!(Kinds, AnyLight, render_bvh_any, "render_bvh_any", [9 suns: DistantLight, 10 sky_counts: u32, 11 sky_radiance: [f32; 3]], SkyView { suns, counts: sky_counts, radiance: sky_radiance });
 
 /// Pass `render_power` for one type of light.
 macro_rules! render_power_pass {
-    ($light:ty, $pass:ident, $name:tt) => {
+    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr) => {
         /// Direct lighting by lights chosen in proportion to their power. `thresholds` is [`Power`]'s table.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -161,10 +171,11 @@ macro_rules! render_power_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] thresholds: &[u32],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] results: &mut [[f32; 3]],
+            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $at)] $own: &[$word],)*
         ) {
             let i = invocation(id);
             if i < push.count {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky);
                 let picker = Power { thresholds };
                 results[i as usize] = render_pixel(
                     &scene,
@@ -178,12 +189,12 @@ macro_rules! render_power_pass {
     };
 }
 
-render_power_pass!(EmissiveTriangle, render_power, "render_power");
-render_power_pass!(AnyLight, render_power_any, "render_power_any");
+render_power_pass!(EmissiveTriangle, render_power, "render_power", [], NoSky);
+render_power_pass!(AnyLight, render_power_any, "render_power_any", [8 suns: DistantLight, 9 sky_counts: u32, 10 sky_radiance: [f32; 3]], SkyView { suns, counts: sky_counts, radiance: sky_radiance });
 
 /// Pass `render_uniform` for one type of light.
 macro_rules! render_uniform_pass {
-    ($light:ty, $pass:ident, $name:tt) => {
+    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr) => {
         /// Direct lighting by lights chosen uniformly.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -196,10 +207,11 @@ macro_rules! render_uniform_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] instances: &[Instance],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] camera: &[Camera],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] results: &mut [[f32; 3]],
+            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $at)] $own: &[$word],)*
         ) {
             let i = invocation(id);
             if i < push.count {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky);
                 let picker = Uniform {
                     count: triangles.len() as u32,
                 };
@@ -215,5 +227,5 @@ macro_rules! render_uniform_pass {
     };
 }
 
-render_uniform_pass!(EmissiveTriangle, render_uniform, "render_uniform");
-render_uniform_pass!(AnyLight, render_uniform_any, "render_uniform_any");
+render_uniform_pass!(EmissiveTriangle, render_uniform, "render_uniform", [], NoSky);
+render_uniform_pass!(AnyLight, render_uniform_any, "render_uniform_any", [7 suns: DistantLight, 8 sky_counts: u32, 9 sky_radiance: [f32; 3]], SkyView { suns, counts: sky_counts, radiance: sky_radiance });

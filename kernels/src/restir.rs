@@ -14,6 +14,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::UVec3;
 use lightbvh::light::AnyLight;
+use lightbvh::light::infinite::DistantLight;
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
@@ -31,6 +32,7 @@ use crate::shading::restir::spatial::spatial;
 use crate::shading::restir::surface::Surface;
 use crate::shading::restir::temporal::{Before, temporal};
 use crate::shading::restir::{PixelReservoir, RestirParams};
+use crate::shading::sky::{NoSky, SkyView};
 use crate::shading::trace::{RayNode, Surfaces, TriangleBlock};
 use lightbvh::TreeWords;
 
@@ -52,7 +54,7 @@ const _: () = assert!(size_of::<RestirPush>() == 84);
 
 /// Pass `restir_initial_power` for one type of light.
 macro_rules! initial_power_pass {
-    ($light:ty, $pass:ident, $name:tt) => {
+    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr) => {
         /// Pass 1 with candidates in proportion to power. `thresholds` is [`Power`]'s table.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -67,11 +69,12 @@ macro_rules! initial_power_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] thresholds: &[u32],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] gbuffer: &mut [Surface],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] reservoirs: &mut [PixelReservoir],
+            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $at)] $own: &[$word],)*
         ) {
             let i = invocation(id);
             let pixel = push.first.wrapping_add(i);
             if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky);
                 let surface = first_surface(&scene, &camera[0], &push.params, pixel);
                 let picker = Power { thresholds };
                 gbuffer[pixel as usize] = surface;
@@ -81,12 +84,18 @@ macro_rules! initial_power_pass {
     };
 }
 
-initial_power_pass!(EmissiveTriangle, restir_initial_power, "restir_initial_power");
-initial_power_pass!(AnyLight, restir_initial_power_any, "restir_initial_power_any");
+initial_power_pass!(
+    EmissiveTriangle,
+    restir_initial_power,
+    "restir_initial_power",
+    [],
+    NoSky
+);
+initial_power_pass!(AnyLight, restir_initial_power_any, "restir_initial_power_any", [9 suns: DistantLight, 10 sky_counts: u32, 11 sky_radiance: [f32; 3]], SkyView { suns, counts: sky_counts, radiance: sky_radiance });
 
 /// Pass `restir_initial_bvh` for one choice.
 macro_rules! initial_pass {
-    ($choice:ty, $light:ty, $pass:ident, $name:tt) => {
+    ($choice:ty, $light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr) => {
         /// Pass 1 with candidates from the light BVH.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -102,11 +111,12 @@ macro_rules! initial_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] trails: &[u32],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 8)] gbuffer: &mut [Surface],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 9)] reservoirs: &mut [PixelReservoir],
+            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $at)] $own: &[$word],)*
         ) {
             let i = invocation(id);
             let pixel = push.first.wrapping_add(i);
             if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky);
                 let surface = first_surface(&scene, &camera[0], &push.params, pixel);
                 let picker: TreeOf<'_, $choice, _> = push.tree.tree(nodes, instances, trails);
                 gbuffer[pixel as usize] = surface;
@@ -120,15 +130,19 @@ initial_pass!(
     Standard,
     EmissiveTriangle,
     restir_initial_bvh,
-    "restir_initial_bvh"
+    "restir_initial_bvh",
+    [],
+    NoSky
 );
 initial_pass!(
     Paper,
     EmissiveTriangle,
     restir_initial_bvh_eq4,
-    "restir_initial_bvh_eq4"
+    "restir_initial_bvh_eq4",
+    [],
+    NoSky
 );
-initial_pass!(Kinds, AnyLight, restir_initial_bvh_any, "restir_initial_bvh_any");
+initial_pass!(Kinds, AnyLight, restir_initial_bvh_any, "restir_initial_bvh_any", [10 suns: DistantLight, 11 sky_counts: u32, 12 sky_radiance: [f32; 3]], SkyView { suns, counts: sky_counts, radiance: sky_radiance });
 
 /// Pass `restir_temporal_unbiased` for one type of light.
 macro_rules! temporal_unbiased_pass {
@@ -354,7 +368,7 @@ spatial_biased_pass!(AnyLight, restir_spatial_biased_any, "restir_spatial_biased
 
 /// Pass `restir_shade` for one type of light.
 macro_rules! shade_pass {
-    ($light:ty, $pass:ident, $name:tt) => {
+    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr) => {
         /// Pass 4.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -368,14 +382,15 @@ macro_rules! shade_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] gbuffer: &[Surface],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] reservoirs: &mut [PixelReservoir],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] results: &mut [Shaded],
+            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $at)] $own: &[$word],)*
         ) {
             let i = invocation(id);
             let pixel = push.first.wrapping_add(i);
             if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky);
                 let surface = gbuffer[pixel as usize];
                 let last = reservoirs[pixel as usize];
-                let (shaded, kept) = shade(&scene, &push.params, &surface, &last);
+                let (shaded, kept) = shade(&scene, &push.params, &surface, &last, pixel);
                 results[pixel as usize] = shaded;
                 reservoirs[pixel as usize] = kept;
             }
@@ -383,5 +398,5 @@ macro_rules! shade_pass {
     };
 }
 
-shade_pass!(EmissiveTriangle, restir_shade, "restir_shade");
-shade_pass!(AnyLight, restir_shade_any, "restir_shade_any");
+shade_pass!(EmissiveTriangle, restir_shade, "restir_shade", [], NoSky);
+shade_pass!(AnyLight, restir_shade_any, "restir_shade_any", [8 suns: DistantLight, 9 sky_counts: u32, 10 sky_radiance: [f32; 3]], SkyView { suns, counts: sky_counts, radiance: sky_radiance });

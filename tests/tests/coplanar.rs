@@ -6,6 +6,7 @@ use lightbvh_host::render::RayBvh;
 use lightbvh_kernels::shading::emitters::{Emitters, listed};
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pixel::{Samples, Scene, Seen, reflected};
+use lightbvh_kernels::shading::sky::NoSky;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 use lightbvh_tests::statistics::{Mean, normal_quantile};
 
@@ -49,6 +50,7 @@ fn agree(what: &str, lamps: &[Corners], dark: &[Corners]) {
     let tree = LightBvh::single_level(&lights, &BuildParams::default());
     for (exponent_log2, specular) in [(0, 0.0), (5, 0.8)] {
         let scene = Scene {
+            sky: NoSky,
             surfaces: bvh.surfaces(),
             materials: &[Material {
                 albedo: [0.5; 3],

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use bytemuck::cast_slice;
 use lightbvh::BuildParams;
 use lightbvh::light::AnyLight;
+use lightbvh::light::infinite::Environment;
 use lightbvh_host::backend::{
     Backend, Bvh, Combination, CpuBackend, DeviceBackend, Integrator, PIXEL_RECORD, Restir, RestirFrame,
     RestirOptions, Sampler, SceneArrays,
@@ -184,7 +185,7 @@ fn known(kind: AnalyticKind, h: f64, x: f64) -> f64 {
             }
             sum
         }
-        AnalyticKind::Directional => unreachable!("it is not sampled"),
+        AnalyticKind::Directional => unreachable!("it does not hang"),
     }
 }
 
@@ -322,10 +323,37 @@ fn room() -> Scene {
     Scene::new(data).expect("a sound scene")
 }
 
+/// The room under a map and two suns.
+fn open_room() -> Scene {
+    let mut data = room().into_data();
+    let colors = |[x, y, z]: [f32; 3]| [0.1 + 0.1 * x * x, 0.1 + 0.2 * y.max(0.0), 0.2 + 0.1 * z * z];
+    data.environment = Some(Arc::new(Environment::from_fn(8, colors).expect("a map")));
+    for (k, lean) in [0.3_f32, -0.6].into_iter().enumerate() {
+        let (sine, cosine) = (0.5 * (lean - std::f32::consts::FRAC_PI_2)).sin_cos();
+        data.nodes.push(node(
+            Transform::Trs {
+                translation: [0.0; 3],
+                rotation: [sine, 0.0, 0.0, cosine],
+                scale: [1.0; 3],
+            },
+            None,
+        ));
+        data.analytic.push(AnalyticLight {
+            name: format!("sun {k}"),
+            node: data.nodes.len() as u32 - 1,
+            kind: AnalyticKind::Directional,
+            color: [1.0, 0.9, 0.7],
+            intensity: 0.8,
+            range: None,
+        });
+    }
+    Scene::new(data).expect("a sound scene")
+}
+
 /// The images of all samplers agree, of direct light and of paths.
 #[test]
 fn samplers_agree_on_every_kind() {
-    let scene = room();
+    let scene = open_room();
     let settings = RenderSettings {
         width: 48,
         height: 36,
@@ -459,7 +487,7 @@ fn instances_stand_where_the_frame_has_its_lamps() {
 
 #[test]
 fn every_kind_has_the_same_words_on_every_device() {
-    let scene = room();
+    let scene = open_room();
     let settings = RenderSettings {
         width: 40,
         height: 25,
@@ -526,6 +554,66 @@ fn every_kind_has_the_same_words_on_every_device() {
             }
         }
     });
+}
+
+/// The sky of a uniform map lights an open floor as theory says, and as a background does by paths; a sun does by its cosine.
+#[test]
+fn skies_have_the_known_irradiance() {
+    let sun = AnalyticKind::Directional;
+    for angle in [0.0_f32, 0.9] {
+        // Turned from straight down about x.
+        let (sine, cosine) = (0.5 * (angle - std::f32::consts::FRAC_PI_2)).sin_cos();
+        let transform = Transform::Trs {
+            translation: [0.0; 3],
+            rotation: [sine, 0.0, 0.0, cosine],
+            scale: [1.0; 3],
+        };
+        let scene = floor(0.0, vec![(transform, sun, 2.0)]);
+        let e = 2.0 * f64::from(angle).cos();
+        known_light(&scene, e);
+    }
+    let mut data = floor(0.0, Vec::new()).into_data();
+    data.environment = Some(Arc::new(Environment::from_fn(4, |_| [1.5; 3]).expect("a map")));
+    known_light(&Scene::new(data).expect("sound"), 1.5 * PI);
+    // A small bright patch, which both ways find: weights share it.
+    let mut data = floor(0.0, Vec::new()).into_data();
+    let patch = |[x, y, z]: [f32; 3]| {
+        let is_bright = x > 0.2 && x < 0.4 && y > 0.7 && z.abs() < 0.1;
+        [if is_bright { 200.0 } else { 0.1 }; 3]
+    };
+    let map = Environment::from_fn(64, patch).expect("a map");
+    let mut e = 0.0;
+    let n = 2000;
+    for i in 0..n {
+        for j in 0..4 * n {
+            // Even over the hemisphere's cosine: E = π times the mean radiance.
+            let (u, v) = (
+                (i as f64 + 0.5) / f64::from(n),
+                (j as f64 + 0.5) / f64::from(4 * n),
+            );
+            let (r, angle) = (u.sqrt(), 2.0 * PI * v);
+            let d = [r * angle.cos(), (1.0 - u).sqrt(), r * angle.sin()].map(|x| x as f32);
+            e += f64::from(map.radiance(d)[1]) * PI / (f64::from(n) * f64::from(4 * n));
+        }
+    }
+    data.environment = Some(Arc::new(map));
+    known_light(&Scene::new(data).expect("sound"), e);
+}
+
+/// That the floor reflects irradiance `e`, by every sampler, directly and by paths.
+fn known_light(scene: &Scene, e: f64) {
+    let (low, high) = (diffuse(e), diffuse(e) + gloss(e));
+    for sampler in Sampler::ALL {
+        for integrator in [Integrator::Direct, Integrator::Path { bounces: 1 }] {
+            let (found, error) = rendered(scene, sampler, integrator);
+            let slack = 5.0 * error + 2e-3 * high;
+            assert!(
+                found > low - slack && found < high + slack,
+                "by {}, {integrator:?}: {found} ± {error}, expected {low} to {high}",
+                sampler.name()
+            );
+        }
+    }
 }
 
 fn same(expected: &[[f32; 3]], found: &[[f32; 3]], what: &str) {

@@ -10,6 +10,7 @@ use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::numbers::Part;
 use lightbvh_kernels::shading::pick::PickLight;
 use lightbvh_kernels::shading::pixel::{Samples, Scene, Seen, reflected};
+use lightbvh_kernels::shading::sky::NoSky;
 use lightbvh_kernels::shading::trace::SurfaceTriangle;
 
 /// Picks the only light, and remembers by which numbers.
@@ -52,6 +53,7 @@ fn samples_of_all_images_have_a_stratum_each() {
     };
     let instances = listed(1);
     let scene = Scene {
+        sky: NoSky,
         surfaces: rays.surfaces(),
         materials: &[white],
         emitters: Emitters {

@@ -11,6 +11,7 @@ use lightbvh_kernels::shading::emitters::{Emitters, listed};
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pick::Power;
 use lightbvh_kernels::shading::pixel::Scene;
+use lightbvh_kernels::shading::sky::NoSky;
 use lightbvh_tests::generate::Random;
 use lightbvh_tests::soup::{in_cube, soup};
 use proptest::prelude::*;
@@ -89,7 +90,7 @@ proptest! {
         };
         let instances = listed(lights.len() as u32);
         let emitters = Emitters { triangles: &lights, instances: &instances };
-        let scene = Scene { surfaces: bvh.surfaces(), materials: &[material], emitters };
+        let scene = Scene { sky: NoSky, surfaces: bvh.surfaces(), materials: &[material], emitters };
         let view = View {
             eye: [0.0, 0.0, 2.0 * size], right: [1.0, 0.0, 0.0], up: [0.0, 1.0, 0.0], forward: [0.0, 0.0, -1.0], yfov: 1.0,
         };

@@ -10,6 +10,7 @@ use lightbvh_kernels::shading::emitters::{Emitters, listed};
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pick::{Power, Uniform};
 use lightbvh_kernels::shading::pixel::{Samples, Scene, reflected, see};
+use lightbvh_kernels::shading::sky::NoSky;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 use lightbvh_tests::generate::Random;
 use lightbvh_tests::soup::in_cube;
@@ -178,6 +179,7 @@ impl Room {
 
     fn scene(&self) -> Scene<'_> {
         Scene {
+            sky: NoSky,
             surfaces: self.bvh.surfaces(),
             materials: &[WHITE],
             emitters: Emitters {
@@ -284,6 +286,7 @@ fn walls_shadow_and_lights_do_not_shadow_themselves() {
     let lit = render(&room.scene(), &camera, &params(4096), &Uniform { count: 2 });
     let nothing = RayBvh::default();
     let alone = Scene {
+        sky: NoSky,
         surfaces: nothing.surfaces(),
         ..room.scene()
     };
@@ -338,6 +341,7 @@ fn surfaces_do_not_shadow_themselves() {
         }])
         .unwrap();
         let scene: Scene<'_> = Scene {
+            sky: NoSky,
             surfaces: bvh.surfaces(),
             materials: &[WHITE],
             emitters: Emitters {

@@ -443,7 +443,7 @@ fn hostile_words_end_in_bounded_steps() {
                 index,
             );
             for last in [merged, spread] {
-                let (_, kept) = shade(&view, &params, &surface, &last);
+                let (_, kept) = shade(&view, &params, &surface, &last, index);
                 assert_eq!(kept.reservoir.sample.light, last.reservoir.sample.light);
             }
         }

@@ -11,6 +11,7 @@ use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::numbers::Part;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use lightbvh_kernels::shading::pixel::{Samples, Scene, Seen, reflected};
+use lightbvh_kernels::shading::sky::NoSky;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 use lightbvh_tests::direct::{arriving, brute_force};
 use lightbvh_tests::generate::Random;
@@ -161,6 +162,7 @@ fn surfaces_converge(seed: u32, walls: bool) {
     let surfaces = surfaces(&lights, &occluders);
     let bvh = RayBvh::build(&surfaces).expect("a ray BVH");
     let scene = Scene {
+        sky: NoSky,
         surfaces: bvh.surfaces(),
         materials: &[WHITE],
         emitters: Emitters {
@@ -243,6 +245,7 @@ fn scattered_candidates_agree_with_lights_as_picked() {
             exponent_log2,
         };
         let scene = Scene {
+            sky: NoSky,
             surfaces: bvh.surfaces(),
             materials: &[material],
             emitters: Emitters {

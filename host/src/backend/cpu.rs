@@ -121,14 +121,14 @@ fn power<L>(scene: &SceneArrays<L>) -> Power<'_> {
 }
 
 /// An image, but for how its lights are chosen.
-struct Image<'a, L> {
-    scene: &'a Scene<'a, L>,
+struct Image<'a, 's, L: SceneLight> {
+    scene: &'a Scene<'s, L>,
     camera: &'a Camera,
     params: &'a RenderParams,
     integrator: Integrator,
 }
 
-impl<L: SceneLight> Image<'_, L> {
+impl<L: SceneLight> Image<'_, '_, L> {
     /// The image with lights from `picker`.
     fn by<P: PickLight + Sync>(&self, picker: &P) -> Vec<[f32; 3]> {
         match self.integrator {

@@ -7,6 +7,7 @@ use bytemuck::Pod;
 use lightbvh::Instance;
 use lightbvh::TreeWords;
 use lightbvh::light::AnyLight;
+use lightbvh::light::infinite::DistantLight;
 use lightbvh_kernels::bvh::{Choice, TreeOf};
 use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::emitter::Emitter;
@@ -34,6 +35,8 @@ pub(super) struct DeviceScene<L> {
     pub camera: Arc<Buffer<Camera>>,
     /// Where lights are chosen by power.
     thresholds: Option<Arc<Buffer<u32>>>,
+    /// What is beyond all surfaces, for kernels that know of it.
+    sky: Option<(Arc<Buffer<DistantLight>>, Arc<Buffer<u32>>, Arc<Buffer<[f32; 3]>>)>,
 }
 
 /// The arrays of the scene that was rendered last.
@@ -45,6 +48,9 @@ pub(super) struct HeldScene<L> {
     instances: Held<Instance>,
     camera: Held<Camera>,
     thresholds: Held<u32>,
+    suns: Held<DistantLight>,
+    sky_counts: Held<u32>,
+    sky_radiance: Held<[f32; 3]>,
 }
 
 impl<L> Clone for DeviceEmitters<L> {
@@ -66,6 +72,9 @@ impl<L> Default for HeldScene<L> {
             instances: Held::default(),
             camera: Held::default(),
             thresholds: Held::default(),
+            suns: Held::default(),
+            sky_counts: Held::default(),
+            sky_radiance: Held::default(),
         }
     }
 }
@@ -100,11 +109,30 @@ impl<L: SceneLight> HeldScene<L> {
                 Sampler::Power => Some(self.thresholds.bring(device, &scene.thresholds, pass)?),
                 _ => None,
             },
+            sky: match L::IS_ANY {
+                true => {
+                    let sky = scene.sky.view();
+                    Some((
+                        self.suns.bring(device, sky.suns, pass)?,
+                        self.sky_counts.bring(device, sky.counts, pass)?,
+                        self.sky_radiance.bring(device, sky.radiance, pass)?,
+                    ))
+                }
+                false => None,
+            },
         })
     }
 }
 
 impl<L: SceneLight> DeviceScene<L> {
+    /// The last buffers of kernels that know what is beyond all surfaces.
+    pub fn sky(&self) -> Vec<Binding> {
+        let sky = self.sky.as_ref();
+        sky.map_or(Vec::new(), |(suns, counts, radiance)| {
+            vec![suns.bind(), counts.bind(), radiance.bind()]
+        })
+    }
+
     /// The buffers that a [`Scene`](lightbvh_kernels::shading::pixel::Scene) is made of.
     pub fn view(&self) -> [Binding; 5] {
         [

@@ -7,7 +7,7 @@ use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pixel::Scene as SceneView;
 
 use crate::render::{RayBvh, power_thresholds};
-use crate::scene::SceneLight;
+use crate::scene::{SceneLight, Sky};
 
 /// How the renderer chooses lights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, strum::IntoStaticStr, serde::Serialize)]
@@ -54,6 +54,8 @@ pub struct SceneArrays<L = EmissiveTriangle> {
     pub thresholds: Vec<u32>,
     /// Who looks.
     pub camera: Camera,
+    /// What is beyond all surfaces.
+    pub sky: Sky,
 }
 
 impl<L: SceneLight> SceneArrays<L> {
@@ -68,7 +70,14 @@ impl<L: SceneLight> SceneArrays<L> {
             identity,
             thresholds,
             camera,
+            sky: Sky::default(),
         }
+    }
+
+    /// With what is beyond all surfaces.
+    #[must_use]
+    pub fn under(self, sky: Sky) -> Self {
+        Self { sky, ..self }
     }
 
     /// The arrays as the kernels' functions take them, the lights as they are listed here.
@@ -82,6 +91,7 @@ impl<L: SceneLight> SceneArrays<L> {
             surfaces: self.rays.surfaces(),
             materials: &self.materials,
             emitters,
+            sky: L::sky(&self.sky),
         }
     }
 

@@ -20,7 +20,7 @@ use crate::method::{
     Builder, Importance, Method, MethodLight, Recipe, SampleBudget, SequenceId, Step, Target,
 };
 use crate::render::Film;
-use crate::scene::{Scene, SceneLight};
+use crate::scene::{Scene, SceneLight, read_environment};
 use crate::vulkan::{Device, VulkanError};
 use crate::workload::{RenderSettings, arrays_lit_by};
 
@@ -55,6 +55,12 @@ pub(super) struct Args {
     /// ReSTIR, 1].
     #[arg(long)]
     spp: Option<u32>,
+    /// An environment map that lights the scene: a .hdr or .exr picture by longitude and latitude.
+    #[arg(long, value_name = "FILE.hdr|FILE.exr")]
+    environment: Option<PathBuf>,
+    /// Factor on the environment map's radiance.
+    #[arg(long, default_value_t = 1.0, value_parser = exposure, requires = "environment")]
+    environment_scale: f32,
     /// How lights are chosen. ReSTIR runs through up to 8 earlier frames before the first one shown.
     #[arg(long, value_enum, default_value_t = Method::TwoLevelMoments)]
     sampler: Method,
@@ -201,7 +207,12 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         given("--candidates", recipe.candidates, 1..=MAX_CANDIDATES.into()),
         given("--scattered", args.scattered, 0..=MAX_SCATTERED.into()),
     ])?;
-    let scene = Scene::open(&args.scene)?;
+    let mut scene = Scene::open(&args.scene)?;
+    if let Some(path) = &args.environment {
+        let mut data = scene.into_data();
+        data.environment = Some(Arc::new(read_environment(path, args.environment_scale)?));
+        scene = Scene::new(data)?;
+    }
     for warning in scene.warnings() {
         news!("{}: {warning}", scene.name());
     }
@@ -277,7 +288,7 @@ struct Sequence<'a> {
 impl Sequence<'_> {
     /// Renders and writes all frames, by lights of the type that the scene needs; returns what the report says of each.
     fn render(&self, context: &Context, device: Option<&Device>) -> Result<Vec<Value>, HostError> {
-        if self.scene.analytic_count() > 0 {
+        if self.scene.has_kinds() {
             self.render_by::<AnyLight>(context, device)
         } else {
             self.render_by::<EmissiveTriangle>(context, device)

@@ -118,7 +118,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let shares = scenes.len() as u64 * 2 * importances.len() as u64;
     let asked = (args.queries.div_ceil(shares), args.seed);
     for scene in &scenes {
-        let has_kinds = scene.analytic_count() > 0;
+        let has_kinds = scene.has_kinds();
         for &importance in importances_of(scene, importances) {
             for sampler in [Sampler::SingleLevel, Sampler::TwoLevel] {
                 let subject = Subject {
@@ -148,9 +148,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let targets: Vec<_> = opened.iter().map(|o| Target::Device(&o.device)).collect();
     let bar = progress((args.frames.len() * scenes.len()) as u64, "frames", context.json);
     for scene in &scenes {
-        let compare = match scene.analytic_count() {
-            0 => frames::compare::<EmissiveTriangle>,
-            _ => frames::compare::<AnyLight>,
+        let compare = match scene.has_kinds() {
+            false => frames::compare::<EmissiveTriangle>,
+            true => frames::compare::<AnyLight>,
         };
         compare(scene, &plan, &targets, &mut tallies, &bar)?;
     }
@@ -163,7 +163,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         );
         for scene in &scenes {
             let known = importances_of(scene, importances);
-            if scene.analytic_count() == 0 {
+            if !scene.has_kinds() {
                 let made = |importance, lights: &_, sampler| match importance {
                     Importance::Moments => {
                         refits::structure::<Standard, WIDTH>(importance, lights, sampler, &targets)
@@ -212,10 +212,10 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
 
 /// The importances that choose among the lights of a scene; of other kinds than triangles, the default alone.
 fn importances_of(scene: &Scene, asked: &'static [Importance]) -> &'static [Importance] {
-    match scene.analytic_count() {
-        0 => asked,
-        _ if asked.contains(&Importance::Moments) => AnyLight::IMPORTANCES,
-        _ => &[],
+    match scene.has_kinds() {
+        false => asked,
+        true if asked.contains(&Importance::Moments) => AnyLight::IMPORTANCES,
+        true => &[],
     }
 }
 

@@ -23,7 +23,7 @@ pub struct AnalyticLight {
 /// Kinds of lights by formula.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AnalyticKind {
-    /// The same light from everywhere, in one direction. Nothing samples it yet.
+    /// The same light from everywhere, in one direction: a sun. It is in no tree.
     Directional,
     /// From one point, in all directions.
     Point,
@@ -57,9 +57,14 @@ pub enum AnalyticKind {
 }
 
 impl AnalyticLight {
-    /// The light in the space of its node, where one is sampled for it: none for suns.
+    /// Colour times intensity.
+    pub(super) fn emission(&self) -> [f32; 3] {
+        self.color.map(|channel| channel * self.intensity)
+    }
+
+    /// The light in the space of its node, where a tree has one for it: none for suns.
     pub fn light(&self) -> Option<AnyLight> {
-        let emission = self.color.map(|channel| channel * self.intensity);
+        let emission = self.emission();
         let (p, mesh) = ([0.0; 3], 0);
         // The front of what has one is the node's -Z.
         let flat = |[x, y]: [f32; 2]| [[0.0, y, 0.0], [x, 0.0, 0.0]];

@@ -3,7 +3,9 @@
 mod deform;
 
 use lightbvh::light::{MAX_COORDINATE, MAX_RADIANCE};
+use lightbvh_kernels::shading::sky::MAX_SUNS;
 
+use super::analytic::AnalyticKind;
 use super::error::SceneError;
 use super::flush::flush_tiny;
 use super::frame::emits;
@@ -297,8 +299,11 @@ impl Check<'_> {
         }
         for light in &data.analytic {
             total.triangles = total.triangles.saturating_add(light.facets());
-            total.analytic += usize::from(light.light().is_some());
+            let is_sun = light.kind == AnalyticKind::Directional;
+            total.analytic += usize::from(!is_sun);
+            total.suns += usize::from(is_sun);
         }
+        self.limit("suns", total.suns, MAX_SUNS as u64)?;
         self.limit("triangles over all instances", total.triangles, MAX_TRIANGLES)?;
         if total.triangles == 0 {
             return Err(SceneError::Empty { scene: self.scene() });

@@ -1,11 +1,13 @@
 //! One frame of a scene: world-space triangles and lights, in the same order every frame.
 
+use lightbvh::light::infinite::DistantLight;
 use lightbvh::light::{AnyLight, EmissiveTriangle, MIN_COORDINATE, TWO_SIDED};
 use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 
 use crate::render::View;
 
+use super::analytic::AnalyticKind;
 use super::animate::Pose;
 use super::camera::view_of_node;
 use super::deform::Placed;
@@ -14,6 +16,8 @@ use super::framing;
 use super::lamps;
 use super::model::{Scene, SceneData};
 use super::scene_light::SceneLight;
+use super::sky::Sky;
+use super::transform::unit_or;
 
 /// The paper animates its scenes at a simulated 25 frames per second (section 4.1).
 pub const FRAMES_PER_SECOND: u32 = 25;
@@ -40,6 +44,8 @@ pub struct Frame {
     pub mesh_lights: Vec<MeshRange>,
     /// Lights by formula, numbered after those, and each a mesh light of its own after [`mesh_lights`](Self::mesh_lights).
     pub others: Vec<AnyLight>,
+    /// What is beyond all surfaces, but for the background.
+    pub sky: Sky,
     /// By [`SurfaceTriangle::material`]; the last one of lights by formula, where there are any.
     pub materials: Vec<SurfaceMaterial>,
     /// Where the frame is seen from.
@@ -58,6 +64,7 @@ impl Scene {
             emissive: Vec::with_capacity(self.counts.emissive),
             mesh_lights: Vec::with_capacity(self.counts.mesh_lights),
             others: Vec::with_capacity(self.counts.analytic),
+            sky: Sky::new(data.environment.clone(), suns(data, &pose)),
             materials: data.materials.iter().map(super::Material::surface).collect(),
             camera: NOWHERE,
             background: data.background,
@@ -85,6 +92,19 @@ impl Frame {
             .chain(self.others.iter().filter_map(|&light| L::of_kind(light)))
             .collect()
     }
+}
+
+/// The suns of a scene, which shine along their nodes' -Z.
+fn suns(data: &SceneData, pose: &Pose) -> Vec<DistantLight> {
+    let suns = data
+        .analytic
+        .iter()
+        .filter(|light| light.kind == AnalyticKind::Directional);
+    suns.map(|sun| DistantLight {
+        direction: unit_or(pose.world[sun.node as usize].columns[2], [0.0, 1.0, 0.0]).map(|x| x as f32),
+        irradiance: sun.emission(),
+    })
+    .collect()
 }
 
 /// Until the frame's triangles are there to look at.

@@ -21,6 +21,7 @@ mod builder;
 mod camera;
 mod check;
 mod deform;
+mod environment;
 mod error;
 mod flush;
 mod frame;
@@ -35,6 +36,7 @@ mod motion_bounds;
 mod random;
 mod scene_light;
 mod shapes;
+mod sky;
 mod track;
 mod transform;
 
@@ -46,6 +48,7 @@ pub mod street;
 pub use analytic::{AnalyticKind, AnalyticLight};
 pub use check::MAX_TRIANGLES;
 pub use deform::{Influence, MorphChannel, Skin};
+pub use environment::read_environment;
 pub use error::SceneError;
 pub use frame::{FRAMES_PER_SECOND, Frame, MeshRange};
 pub use instances::Instances;
@@ -54,4 +57,5 @@ pub use model::{
     Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
 };
 pub use scene_light::SceneLight;
+pub use sky::Sky;
 pub use transform::Transform;

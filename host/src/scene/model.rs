@@ -1,7 +1,8 @@
 //! The scene model: a checked [`Scene`] around plain [`SceneData`].
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
+use lightbvh::light::infinite::Environment;
 use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
 
 use crate::render::View;
@@ -40,8 +41,10 @@ pub struct SceneData {
     pub skins: Vec<Skin>,
     /// Lights by formula.
     pub analytic: Vec<AnalyticLight>,
-    /// Radiance of rays that leave the scene, W/(m² sr), linear RGB.
+    /// Radiance of rays that leave the scene, W/(m² sr), linear RGB, where there is no environment map.
     pub background: [f32; 3],
+    /// Radiance from all directions: seen where nothing else is, and points are lit by it.
+    pub environment: Option<Arc<Environment>>,
     /// What the loader left out, one sentence each.
     pub warnings: Vec<String>,
 }
@@ -226,6 +229,7 @@ pub(super) struct Counts {
     pub emissive: usize,
     pub mesh_lights: usize,
     pub analytic: usize,
+    pub suns: usize,
 }
 
 impl Primitive {
@@ -274,9 +278,10 @@ impl Scene {
 
     /// What a command that knows emissive triangles alone leaves out.
     pub fn unknown_lights(&self) -> Option<String> {
-        let count = self.counts.analytic;
-        (count > 0).then(|| {
-            format!("{count} lights of other kinds than triangles are left out here; `lightbvh render` and `verify` know them")
+        self.has_kinds().then(|| {
+            let count = self.counts.analytic + self.counts.suns;
+            let map = if self.data.environment.is_some() { " and an environment map" } else { "" };
+            format!("{count} lights of other kinds than triangles{map} are left out here; `lightbvh render` and `verify` know them")
         })
     }
 
@@ -298,6 +303,11 @@ impl Scene {
     /// Lights by formula that are sampled.
     pub fn analytic_count(&self) -> usize {
         self.counts.analytic
+    }
+
+    /// Whether it has other light than that of emissive triangles: lights by formula, suns, an environment map.
+    pub fn has_kinds(&self) -> bool {
+        self.counts.analytic + self.counts.suns > 0 || self.data.environment.is_some()
     }
 
     /// For commands that sample emissive triangles.

@@ -3,13 +3,21 @@
 use lightbvh::EmissiveTriangle;
 use lightbvh::light::{AnyLight, Light};
 use lightbvh_kernels::shading::emitter::Emitter;
+use lightbvh_kernels::shading::sky::{NoSky, SkyView};
 
+use super::sky::Sky;
 use crate::render::triangle_flux;
 
 /// A type of lights of a scene.
 pub trait SceneLight: Emitter + From<EmissiveTriangle> {
+    /// Whether it holds lights of any kind.
+    const IS_ANY: bool;
+
     /// A light by formula, where the type holds such.
     fn of_kind(light: AnyLight) -> Option<Self>;
+
+    /// What is beyond all surfaces, where such scenes know of it.
+    fn sky(sky: &Sky) -> Self::Sky<'_>;
 
     /// Vertices of the light where it is a triangle; of another, three times the place it is at.
     fn corners(&self) -> [[f32; 3]; 3];
@@ -19,8 +27,14 @@ pub trait SceneLight: Emitter + From<EmissiveTriangle> {
 }
 
 impl SceneLight for EmissiveTriangle {
+    const IS_ANY: bool = false;
+
     fn of_kind(_: AnyLight) -> Option<Self> {
         None
+    }
+
+    fn sky(_: &Sky) -> NoSky {
+        NoSky
     }
 
     fn corners(&self) -> [[f32; 3]; 3] {
@@ -33,8 +47,14 @@ impl SceneLight for EmissiveTriangle {
 }
 
 impl SceneLight for AnyLight {
+    const IS_ANY: bool = true;
+
     fn of_kind(light: AnyLight) -> Option<Self> {
         Some(light)
+    }
+
+    fn sky(sky: &Sky) -> SkyView<'_> {
+        sky.view()
     }
 
     fn corners(&self) -> [[f32; 3]; 3] {

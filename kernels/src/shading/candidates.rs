@@ -202,7 +202,7 @@ struct Met {
 }
 
 #[inline]
-fn along<L>(scene: &Scene<'_, L>, ray: &Ray) -> Met {
+fn along<L: Emitter>(scene: &Scene<'_, L>, ray: &Ray) -> Met {
     let hit = closest_hit(&scene.surfaces, ray);
     let blocks = scene.surfaces.blocks;
     let mut met = Met {

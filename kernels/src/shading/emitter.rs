@@ -11,11 +11,15 @@ use super::area::{Connection, NEAREST_SQUARED, OFFSET, connect, largest_componen
 use super::grid::{STEP, TINY, TINY_AREA, bounded_product, bounded_quotient, flush_vector, snap_point};
 use super::material::Material;
 use super::ray::Ray;
+use super::sky::{NoSky, Sky, SkyView};
 
 /// A light that points are lit by, and that rays may meet.
 pub trait Emitter: Light {
     /// What the names of passes over such lights end in.
     const SUFFIX: &'static str;
+
+    /// What scenes lit by such lights have beyond all surfaces.
+    type Sky<'a>: Sky;
 
     /// Connects `point` with the point of this light that `uv` chooses, where the light was chosen with probability `pmf`.
     fn connect(
@@ -44,6 +48,7 @@ pub trait Emitter: Light {
 
 impl Emitter for EmissiveTriangle {
     const SUFFIX: &'static str = "";
+    type Sky<'a> = NoSky;
 
     #[inline]
     fn connect(
@@ -97,6 +102,7 @@ fn shown(radiance: [f32; 3], is_seen: bool) -> Vec3 {
 /// no ray but the camera's counts; points, spots and boxes are not seen.
 impl Emitter for AnyLight {
     const SUFFIX: &'static str = "_any";
+    type Sky<'a> = SkyView<'a>;
 
     #[inline]
     fn connect(

@@ -9,6 +9,7 @@
 //! | [`emitters`] | the lights, read through their instances |
 //! | [`emitter`] | a light as the renderer shows it, of triangles alone or of any kind |
 //! | [`area`] | a point on the chosen light, and what it contributes |
+//! | [`sky`] | light from without end: an environment map and suns |
 //! | [`pick`] | the choice of a light: the trait, uniform and by power |
 //! | [`picks`] | the lights of a pixel's samples |
 //! | [`candidates`] | one light out of several, by what they would contribute |
@@ -38,4 +39,5 @@ pub mod picks;
 pub mod pixel;
 pub mod ray;
 pub mod restir;
+pub mod sky;
 pub mod trace;

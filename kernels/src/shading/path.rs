@@ -12,6 +12,7 @@ use super::mis::power_heuristic;
 use super::pick::PickLight;
 use super::pixel::{Scene, encounter, load_material};
 use super::ray::{FAR, Ray};
+use super::sky::{Sky, hides, is_lit};
 use super::trace::{NONE, any_hit};
 
 /// Most surfaces that a path may be reflected by.
@@ -21,17 +22,18 @@ pub const MAX_BOUNCES: u32 = 64;
 /// Transport and Image Synthesis", 1990).
 const ROULETTE_FROM: u32 = 3;
 
-/// Random numbers at one surface: three for the light, three for the direction, one for the end.
+/// Random numbers at one surface: three for the light, three for the direction, one for the end, three for the sky.
 const RANDOM_LIGHT: u32 = 0;
 const RANDOM_DIRECTION: u32 = 3;
 const RANDOM_END: u32 = 6;
+const RANDOM_SKY: u32 = 7;
 
 /// Estimates the radiance that arrives along `ray` by one path of up to `bounces` reflections; `seed` chooses its random
 /// numbers. With one bounce that is the light seen, and the light reflected once: what direct lighting estimates, and
 /// the background's reflection besides.
 ///
 /// Light seen by the ray itself counts fully, and so does the background wherever a ray leaves the scene: no light is
-/// sampled towards it.
+/// sampled towards it. A map in its place is sampled, and shares what both find.
 #[inline]
 #[must_use]
 pub fn path_radiance<L: Emitter, P: PickLight>(
@@ -73,6 +75,9 @@ pub fn path_radiance<L: Emitter, P: PickLight>(
                 0.0
             };
         }
+        if <L::Sky<'_> as Sky>::IS_SAMPLED && met.is_open && density > 0.0 {
+            weight = power_heuristic(density, scene.sky.density(&from, ray.direction));
+        }
         radiance += bounded(throughput, seen.direct * weight);
 
         let n = flush_vector(seen.point.normal(), STEP);
@@ -94,6 +99,16 @@ pub fn path_radiance<L: Emitter, P: PickLight>(
                         let weight = power_heuristic(connection.density, connection.scattering_density);
                         radiance += bounded(throughput, connection.contribution * weight);
                     }
+                }
+            }
+
+            if <L::Sky<'_> as Sky>::IS_SAMPLED {
+                let uv = [draw(random, RANDOM_SKY + 1), draw(random, RANDOM_SKY + 2)];
+                let number = hash(random.wrapping_add(RANDOM_SKY));
+                let arriving = scene.sky.connect(&seen.point, seen.wo, &material, number, uv);
+                if is_lit(&arriving) && !hides(scene, &seen.point, arriving.direction) {
+                    let weight = power_heuristic(arriving.density, arriving.scattering_density);
+                    radiance += bounded(throughput, arriving.contribution * weight);
                 }
             }
 

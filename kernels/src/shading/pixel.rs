@@ -18,6 +18,7 @@ use super::picks::Picks;
 use super::ray::Ray;
 use super::restir::surface::Surface;
 use super::restir::target::{lit, weighted};
+use super::sky::{Sky, sky_sample};
 use super::trace::{LANES, NONE, RayNode, Surfaces, TriangleBlock, any_hit, closest_hit, vertex};
 
 /// Most candidates of a sample.
@@ -25,16 +26,18 @@ pub const MAX_CANDIDATES: u32 = 1 << 8;
 
 /// Everything that light meets.
 #[derive(Clone, Copy)]
-pub struct Scene<'a, L = EmissiveTriangle> {
+pub struct Scene<'a, L: Emitter = EmissiveTriangle> {
     /// What rays hit.
     pub surfaces: Surfaces<'a>,
     /// How it reflects; indexed by the triangles.
     pub materials: &'a [Material],
     /// What of it emits.
     pub emitters: Emitters<'a, L>,
+    /// What is beyond all surfaces.
+    pub sky: L::Sky<'a>,
 }
 
-impl<'a, L> Scene<'a, L> {
+impl<'a, L: Emitter> Scene<'a, L> {
     /// The scene that a kernel's buffers hold.
     #[inline]
     #[must_use]
@@ -44,11 +47,13 @@ impl<'a, L> Scene<'a, L> {
         materials: &'a [Material],
         triangles: &'a [L],
         instances: &'a [Instance],
+        sky: L::Sky<'a>,
     ) -> Self {
         Self {
             surfaces: Surfaces { nodes, blocks },
             materials,
             emitters: Emitters { triangles, instances },
+            sky,
         }
     }
 }
@@ -76,6 +81,8 @@ pub struct Encounter {
     pub light: u32,
     /// The instance of that light.
     pub instance: u32,
+    /// Whether it met nothing at all.
+    pub is_open: bool,
     /// Distance in multiples of the ray's direction; the ray's end if it met nothing.
     pub distance: f32,
 }
@@ -100,7 +107,7 @@ pub fn encounter<L: Emitter>(scene: &Scene<'_, L>, ray: &Ray, background: Vec3) 
         },
         wo: Vec3::ZERO,
         material: 0,
-        direct: background,
+        direct: scene.sky.seen(ray.direction, background),
     };
     let mut light = NONE;
     let mut instance = NONE;
@@ -133,6 +140,7 @@ pub fn encounter<L: Emitter>(scene: &Scene<'_, L>, ray: &Ray, background: Vec3) 
         seen,
         light,
         instance,
+        is_open: block >= blocks.len(),
         distance: hit.t,
     }
 }
@@ -247,6 +255,8 @@ fn one_by_one<L: Emitter, P: PickLight>(
                     }
                 }
             }
+            let number = samples.part.number(samples.first.wrapping_add(sample));
+            sum += sky_sample(scene, &seen.point, seen.wo, &material, seed, number);
         }
     }
     sum
@@ -283,10 +293,8 @@ fn one_of_many<L: Emitter, P: PickLight>(
                 count,
                 scattered: samples.scattered,
             };
-            let random = hash(
-                seed.wrapping_add(Numbers::USED)
-                    .wrapping_add(samples.part.number(samples.first.wrapping_add(sample))),
-            );
+            let number = samples.part.number(samples.first.wrapping_add(sample));
+            let random = hash(seed.wrapping_add(Numbers::USED).wrapping_add(number));
             let chosen = resampled(scene, picker, &surface, &mut picks, which, random);
             let Reservoir { sample, weight, .. } = chosen.reservoir;
             if weight > 0.0 {
@@ -295,6 +303,10 @@ fn one_of_many<L: Emitter, P: PickLight>(
                 if factor > 0.0 {
                     sum += weighted(arriving.contribution, min(weight * factor, MAX_WEIGHT));
                 }
+            }
+            if <L::Sky<'_> as Sky>::IS_SAMPLED {
+                let material = load_material(scene.materials, surface.material);
+                sum += sky_sample(scene, &surface.point, seen.wo, &material, seed, number);
             }
         }
     }

@@ -11,6 +11,7 @@ use lightbvh_kernels::shading::path::path_radiance;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use lightbvh_kernels::shading::pixel::Scene;
 use lightbvh_kernels::shading::ray::Ray;
+use lightbvh_kernels::shading::sky::NoSky;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 use lightbvh_tests::statistics::{Mean, normal_quantile};
 
@@ -89,6 +90,7 @@ impl World {
 
     pub fn scene(&self) -> Scene<'_> {
         Scene {
+            sky: NoSky,
             surfaces: self.bvh.surfaces(),
             materials: &self.materials,
             emitters: Emitters {

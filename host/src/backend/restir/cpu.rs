@@ -91,7 +91,8 @@ pub(in crate::backend) fn resample<L: SceneLight, P: PickLight + Sync>(
     let (shaded, kept): (Vec<_>, Vec<_>) = gbuffer
         .par_iter()
         .zip(&reservoirs)
-        .map(|(surface, last)| shade(view, &params, surface, last))
+        .enumerate()
+        .map(|(pixel, (surface, last))| shade(view, &params, surface, last, pixel as u32))
         .unzip();
     let left = Left {
         gbuffer,
@@ -122,13 +123,13 @@ fn initial<L: SceneLight, P: PickLight + Sync>(
 }
 
 /// What passes 2 and 3 have in common.
-struct Reuse<'a, L> {
-    view: &'a Scene<'a, L>,
+struct Reuse<'a, 's, L: SceneLight> {
+    view: &'a Scene<'s, L>,
     params: &'a RestirParams,
     gbuffer: &'a [Surface],
 }
 
-impl<L: SceneLight> Reuse<'_, L> {
+impl<L: SceneLight> Reuse<'_, '_, L> {
     /// Pass 2.
     fn over_time<C: Combine + Sync>(
         &self,

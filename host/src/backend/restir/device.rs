@@ -76,7 +76,8 @@ fn render<C: Choice<W, Light: SceneLight>, const W: usize>(
     };
 
     let inputs = scene.with_lights(options.source, &backend.tree);
-    let bindings = [inputs.as_slice(), &[gbuffer.bind(), reservoirs.bind()]].concat();
+    let sky = scene.sky();
+    let bindings = [inputs.as_slice(), &[gbuffer.bind(), reservoirs.bind()], &sky].concat();
     let kernel = kernel_name::<C, W>("restir_initial", options.source);
     passes.run(backend, &kernel, &bindings, &params, tree, options.candidates)?;
 
@@ -132,7 +133,7 @@ fn render<C: Choice<W, Light: SceneLight>, const W: usize>(
     let output = device.buffer::<Shaded>(pixels, 0)?;
     passes.pass.clear(&output);
     let pixel_buffers = [gbuffer.bind(), reservoirs.bind(), output.bind()];
-    let bindings = [scene.view().as_slice(), &pixel_buffers].concat();
+    let bindings = [scene.view().as_slice(), &pixel_buffers, &sky].concat();
     passes.run(backend, &of_lights("restir_shade"), &bindings, &params, none, 2)?;
     let submitted = passes.end(backend)?;
     let shaded = output.read()?;

@@ -15,8 +15,7 @@
 //! - `KHR_materials_transmission` and blended alpha, as the share of light that goes through: surfaces with half or more of it are
 //!   left out unless they emit ([`super::Material::is_clear`]), as the reference renderer has no glass and lamps behind it burn;
 //! - `KHR_materials_unlit`: the colour is emitted, so that it is seen as it is, and nothing is reflected. It lights what is near;
-//! - `KHR_lights_punctual`: points and spots light; suns are kept with the scene, and counted in a note, as nothing samples them yet. Ranges
-//!   are not looked at.
+//! - `KHR_lights_punctual`: points and spots are lights of the tree, suns stand beside it. Ranges are not looked at.
 //!
 //! Radiance is taken as W/(m² sr) where glTF says nits; only the exposure differs. The rest is left out with a note in
 //! [`super::SceneData::warnings`], or refused by name where the file says that it is required; of required extensions that only refine

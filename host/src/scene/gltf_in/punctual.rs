@@ -92,16 +92,6 @@ pub(super) fn read(
             )),
         }
     }
-    let suns = data
-        .analytic
-        .iter()
-        .filter(|light| light.light().is_none())
-        .count();
-    if suns > 0 {
-        document.warn(format!(
-            "directional lights ({NAME}) light nothing yet: {suns} left out"
-        ));
-    }
     let bounded = data.analytic.iter().filter(|light| light.range.is_some()).count();
     if bounded > 0 {
         document.warn(format!(

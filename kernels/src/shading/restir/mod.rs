@@ -91,6 +91,7 @@ const _: () = assert!(size_of::<PixelReservoir>() == 28);
 const INITIAL: u32 = 0x1b56_c4e9;
 const TEMPORAL: u32 = 0x7d2d_59f3;
 const SPATIAL: u32 = 0x3c6e_f372;
+const SHADE: u32 = 0x2545_f491;
 
 /// Where the random numbers of a step begin for pixel `index`.
 #[inline]

@@ -4,10 +4,11 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::super::emitter::Emitter;
-use super::super::pixel::Scene;
+use super::super::pixel::{Scene, load_material};
+use super::super::sky::{Sky, sky_sample};
 use super::surface::Surface;
 use super::target::{lit, visible, weighted};
-use super::{PixelReservoir, RestirParams};
+use super::{PixelReservoir, RestirParams, SHADE, step_seed};
 
 /// A pixel of the image; 16 bytes.
 #[repr(C)]
@@ -30,6 +31,7 @@ pub fn shade<L: Emitter>(
     params: &RestirParams,
     surface: &Surface,
     last: &PixelReservoir,
+    pixel: u32,
 ) -> (Shaded, PixelReservoir) {
     let mut kept = *last;
     let mut reflected = Vec3::ZERO;
@@ -47,6 +49,14 @@ pub fn shade<L: Emitter>(
         if !seen && params.drops_occluded != 0 {
             kept.reservoir = last.reservoir.occluded();
         }
+    }
+    if <L::Sky<'_> as Sky>::IS_SAMPLED && surface.is_lit() && surface.material < scene.materials.len() as u32
+    {
+        // Reservoirs hold lights of the tree; what is without end is sampled anew.
+        let material = load_material(scene.materials, surface.material);
+        let seed = step_seed(params, pixel, SHADE);
+        reflected += sky_sample(scene, &surface.point, surface.wo(), &material, seed, 0);
+        kept.shadow_rays = kept.shadow_rays.wrapping_add(1);
     }
     let shaded = Shaded {
         radiance: [
