@@ -14,13 +14,14 @@ use crate::exact::{self, flush, pow2};
 use crate::light::INVALID;
 use crate::light::{EmissiveTriangle, Light, MAX_COORDINATE, MIN_COORDINATE};
 use crate::point::ShadingPoint;
-use crate::vector::{dot, flush3, greatest_exponent, length_squared};
+use crate::vector::{abs3, cross, dot, flush3, greatest_exponent, length_squared, max3};
 
 /// Lengths below this in a mesh's space count as zero, metres: 2^-60. Entries of the maps are zero or at least 2^-60, so no
 /// product with them is subnormal.
 const TINY: f32 = pow2(-60);
 /// Products below this count as zero, metres: what a device flushes is below it.
 const LEAST_PRODUCT: f32 = pow2(-120);
+const THIRD: f32 = 1.0 / 3.0;
 /// Greatest magnitude of a coordinate in a mesh's space, 2^60.
 const FAR: f32 = pow2(60);
 
@@ -236,11 +237,21 @@ impl Instance {
         )
     }
 
-    /// How much longer lengths are in the world, in the mean: the root of the factor on areas. Of meshes with surfaces alone.
+    /// How much longer lengths are in the world, in the mean: the root of the factor on areas, which is the root mean square over all directions.
     #[inline(always)]
     pub(crate) fn scale(&self) -> f32 {
-        let radiance = if self.radiance > 0.0 { self.radiance } else { 1.0 };
-        exact::sqrt(exact::div(self.flux, radiance))
+        let (a, b, c) = (self.column(0), self.column(1), self.column(2));
+        let e = greatest_exponent(max3(max3(abs3(a), abs3(b)), abs3(c)), -60);
+        let to_one = pow2(-e);
+        let (a, b, c) = (flushed(a * to_one), flushed(b * to_one), flushed(c * to_one));
+        let tiny = pow2(-50);
+        let (ab, bc, ca) = (
+            flush3(cross(a, b), tiny),
+            flush3(cross(b, c), tiny),
+            flush3(cross(c, a), tiny),
+        );
+        let squared = (length_squared(ab) + length_squared(bc)) + length_squared(ca);
+        exact::sqrt(exact::sqrt(squared * THIRD)) * pow2(e)
     }
 
     /// A vector of the mesh in the world, metres: within the domain of coordinates.

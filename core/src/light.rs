@@ -193,7 +193,7 @@ pub enum LightError {
         /// What was found.
         value: f32,
     },
-    /// The axis of a spot is not of length 1, up to [`NORMAL_TOLERANCE`](crate::error::NORMAL_TOLERANCE).
+    /// The axis of a spot, or the direction of a sun, is not of length 1, up to [`NORMAL_TOLERANCE`](crate::error::NORMAL_TOLERANCE).
     Axis {
         /// What was found.
         axis: [f32; 3],
@@ -252,7 +252,7 @@ impl core::fmt::Display for LightError {
             ),
             Self::Axis { axis: [x, y, z] } => write!(
                 f,
-                "the axis of a spot is ({x}, {y}, {z}), expected length 1; normalize it"
+                "the axis of a spot, or the direction of a sun, is ({x}, {y}, {z}), expected length 1; normalize it"
             ),
             Self::Cone { cos_inner, cos_outer } => write!(
                 f,

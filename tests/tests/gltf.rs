@@ -2,7 +2,7 @@
 
 use lightbvh::light::TWO_SIDED;
 use lightbvh_host::scene::{Frame, Scene};
-use lightbvh_tests::gltf_files::{base64, busy, changed, png_white_black, read, read_json, triangle};
+use lightbvh_tests::gltf_files::{base64, busy, changed, png_white_black, push, read, read_json, triangle};
 use serde_json::json;
 
 fn normal_z(frame: &Frame) -> f32 {
@@ -199,4 +199,53 @@ fn channels_that_name_no_node_are_left_out() {
     root["scene"] = json!("none");
     let error = read_json(&root).expect_err("broken").to_string();
     assert!(error.contains("JSON"), "{error}");
+}
+
+/// What the format allows and some files have: a scene without a list of nodes, a primitive without positions.
+#[test]
+fn what_may_be_missing_is_no_error() {
+    let mut root = triangle();
+    push(&mut root["scenes"], json!({ "name": "nothing" }));
+    push(
+        &mut root["meshes"][0]["primitives"],
+        json!({ "attributes": {}, "material": 0 }),
+    );
+    let scene = read_json(&root).expect("sound");
+    assert_eq!(scene.frame(0).emissive.len(), 1);
+    let said = |word: &str| scene.warnings().iter().any(|warning| warning.contains(word));
+    assert!(said("no positions"), "{:?}", scene.warnings());
+}
+
+/// What is no glTF 2.0 is called by its name.
+#[test]
+fn other_files_are_named() {
+    let pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n";
+    let error = read(pointer).expect_err("no model").to_string();
+    assert!(error.contains("git lfs pull"), "{error}");
+    let old = br#"{ "asset": { "version": "1.0" }, "meshes": {} }"#;
+    let error = read(old).expect_err("another format").to_string();
+    assert!(error.contains("glTF 1.0"), "{error}");
+}
+
+/// A warning about many elements is one line.
+#[test]
+fn warnings_of_one_kind_are_one() {
+    let mut root = triangle();
+    let own = root["meshes"][0]["primitives"][0].clone();
+    for _ in 0..6 {
+        let mut primitive = own.clone();
+        primitive["attributes"] = json!({});
+        push(&mut root["meshes"][0]["primitives"], primitive);
+    }
+    let scene = read_json(&root).expect("sound");
+    let lines: Vec<_> = scene
+        .warnings()
+        .iter()
+        .filter(|line| line.contains("no positions"))
+        .collect();
+    assert_eq!(lines.len(), 1, "{lines:?}");
+    assert!(
+        lines[0].contains("meshes[0].primitives[1]") && lines[0].contains("and 3 more"),
+        "{lines:?}"
+    );
 }

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::record::{Each, Light, checked_emission, checked_place, shining, towards};
+use super::record::{Each, Light, checked_emission, checked_place, shining, towards, unit};
 use super::{INVALID, LightError, LightPoint};
 use crate::bounds::LightBounds;
 use crate::cone::Cone;
@@ -12,7 +12,7 @@ use crate::exact::{self, exponent, pow2, significand};
 use crate::instance::Instance;
 use crate::moments::LightMoments;
 use crate::point::NORMAL_TOLERANCE;
-use crate::vector::{dot, length_squared};
+use crate::vector::{flush3, length_squared};
 
 /// A point that sends the same intensity in every direction. An instance that scales leaves it as it is.
 #[repr(C)]
@@ -27,7 +27,8 @@ pub struct PointLight {
 }
 
 /// A point that sends light into a cone: all its intensity up to an inner angle, none from an outer one on, between them the square of
-/// what is linear in the cosine (glTF 2.0, `KHR_lights_punctual`, "Inner and Outer Cone Angles"). An instance turns its axis, and leaves its cone as it is.
+/// what is linear in the cosine (glTF 2.0, `KHR_lights_punctual`, "Inner and Outer Cone Angles"). An instance turns its axis, and leaves its cone as it is. Trees choose narrow ones more
+/// often than their flux says: what they are to the points in their cone.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct SpotLight {
@@ -173,29 +174,42 @@ impl SpotLight {
         Vec3::new(self.axis[0], self.axis[1], self.axis[2])
     }
 
-    /// Intensity in a direction, whose cosine to the axis is given, over that along the axis.
+    /// Intensity in a direction, of length 1 up to 2^-16, over that along the axis.
     #[inline(always)]
     #[must_use]
-    pub fn falloff(&self, cosine: f32) -> f32 {
-        let fall = exact::max(self.cos_inner - self.cos_outer, LEAST_FALL);
-        let linear = exact::clamp(exact::div(cosine - self.cos_outer, fall), 0.0, 1.0);
+    pub fn falloff(&self, direction: Vec3) -> f32 {
+        // 1 less the cosine is half the square of the difference: cosines of a narrow cone have no digits for it, nor lengths that are nearly 1.
+        let apart = flush3(direction - self.axis(), pow2(-40));
+        let gap = 0.5 * length_squared(apart);
+        let linear = exact::clamp(exact::div((1.0 - self.cos_outer) - gap, self.fall()), 0.0, 1.0);
         // What a device flushes is cut here.
         exact::flush(linear * linear, pow2(-60))
+    }
+
+    /// Cosines that the intensity falls over.
+    #[inline(always)]
+    fn fall(&self) -> f32 {
+        exact::max(self.cos_inner - self.cos_outer, LEAST_FALL)
     }
 
     /// Integrals of the falloff over all directions, and of the falloff times the cosine, both over 2π.
     #[inline(always)]
     fn integrals(&self) -> [f32; 2] {
-        let (inner, outer) = (self.cos_inner, self.cos_outer);
-        let fall = inner - outer;
+        let (outer, fall) = (self.cos_outer, self.fall());
+        let inner = outer + fall;
         let whole = (1.0 - inner) + fall * THIRD;
         let first = 0.5 * ((1.0 - inner) * (1.0 + inner)) + fall * (outer * THIRD + 0.25 * fall);
         [whole, first]
     }
 
+    /// What a tree takes for its flux. No node knows a narrow cone, so whether a point lies in it cannot be told; the choice with the least variance over all
+    /// points is then by the root mean square of what they get. That is the geometric mean of the flux and of that of a diffuse emitter as bright
+    /// along its axis, π times the intensity, where the flux is less.
     #[inline(always)]
     fn phi(&self) -> f32 {
-        phi(&self.intensity, TWO_PI * self.integrals()[0])
+        let per_intensity = TWO_PI * self.integrals()[0];
+        let mean = exact::sqrt(per_intensity * core::f32::consts::PI);
+        phi(&self.intensity, exact::max(per_intensity, mean))
     }
 }
 
@@ -230,9 +244,7 @@ impl Light for SpotLight {
                 cos_outer: outer,
             });
         }
-        for axis in 0..3 {
-            self.axis[axis] = exact::flush(self.axis[axis], pow2(-60));
-        }
+        self.axis = unit(self.axis);
         Ok(self)
     }
 
@@ -295,7 +307,7 @@ impl Light for SpotLight {
     #[inline(always)]
     fn point_for(&self, from: Vec3, _uv: [f32; 2]) -> LightPoint {
         let direction = towards(Vec3::new(self.p[0], self.p[1], self.p[2]), from);
-        let falloff = self.falloff(dot(self.axis(), direction));
+        let falloff = self.falloff(direction);
         let [r, g, b] = self.intensity;
         at(&self.p, [r * falloff, g * falloff, b * falloff])
     }

@@ -226,6 +226,25 @@ pub(crate) fn shining(emission: &[f32; 3], factor: f32, has_flux: bool) -> [f32;
     [shine(emission[0]), shine(emission[1]), shine(emission[2])]
 }
 
+/// A direction at length 1, up to 2^-22; one that is so already stays.
+pub(in crate::light) fn unit(direction: [f32; 3]) -> [f32; 3] {
+    let [x, y, z] = direction.map(|x| exact::flush(x, pow2(-60)));
+    let squared = x * x + y * y + z * z;
+    let is_unit = squared > 1.0 - UNIT && squared < 1.0 + UNIT;
+    let length = exact::sqrt(squared);
+    let own = |x: f32| {
+        if is_unit {
+            x
+        } else {
+            exact::flush(exact::div(x, length), pow2(-60))
+        }
+    };
+    [own(x), own(y), own(z)]
+}
+
+/// How far the square of a length is from 1 where it counts as 1.
+const UNIT: f32 = pow2(-20);
+
 /// The direction from `p` to `q`, of length 1 within 1e-5; zero where they are one point.
 #[inline(always)]
 pub(super) fn towards(p: Vec3, q: Vec3) -> Vec3 {

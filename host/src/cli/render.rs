@@ -55,6 +55,9 @@ pub(super) struct Args {
     /// ReSTIR, 1].
     #[arg(long)]
     spp: Option<u32>,
+    /// Which of the scene's cameras looks, counted from 0.
+    #[arg(long, default_value_t = 0)]
+    camera: usize,
     /// An environment map that lights the scene: a .hdr or .exr picture by longitude and latitude.
     #[arg(long, value_name = "FILE.hdr|FILE.exr")]
     environment: Option<PathBuf>,
@@ -208,6 +211,19 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         given("--scattered", args.scattered, 0..=MAX_SCATTERED.into()),
     ])?;
     let mut scene = Scene::open(&args.scene)?;
+    let cameras = scene.data().cameras.len();
+    if args.camera > 0 {
+        if args.camera >= cameras {
+            return Err(HostError::Range {
+                option: "--camera",
+                value: args.camera as u64,
+                expected: format!("0 to {}: the scene has {cameras}", cameras.saturating_sub(1)),
+            });
+        }
+        let mut data = scene.into_data();
+        data.cameras.swap(0, args.camera);
+        scene = Scene::new(data)?;
+    }
     if let Some(path) = &args.environment {
         let mut data = scene.into_data();
         data.environment = Some(Arc::new(read_environment(path, args.environment_scale)?));
@@ -349,7 +365,11 @@ impl Sequence<'_> {
             let ms = image.time.as_secs_f64() * 1e3;
             if !context.json {
                 let on = target.name();
-                say!("{}: {ms:.1} ms on {on}, exposure {exposure:.3}", output.display())?;
+                let factor = match exposure {
+                    0.001..1000.5 => format!("{exposure:.3}"),
+                    _ => format!("{exposure:e}"),
+                };
+                say!("{}: {ms:.1} ms on {on}, exposure {factor}", output.display())?;
             }
             let mut report = json!({
                 "frame": frame, "render_ms": ms, "exposure": exposure, "output": output,

@@ -152,7 +152,7 @@ impl Film {
                  more would show noise; --exposure sets another one"
             ));
         }
-        (lit < MIN_LIT).then(|| format!("only {:.2} % of the image are lit", 100.0 * lit))
+        (lit < MIN_LIT).then(|| format!("only {:.2} % of the image is lit", 100.0 * lit))
     }
 
     /// The exposure that [`auto_exposure`](Self::auto_exposure) would take if it were not bounded, and the share of pixels that are not

@@ -31,7 +31,7 @@ pub enum AnalyticKind {
     Spot {
         /// Angle from the axis up to which the light is whole, radians, from 0.
         inner: f32,
-        /// Angle from the axis beyond which there is none, radians, above `inner`, at most a right angle.
+        /// Angle from the axis beyond which there is none, radians, above 0, not below `inner`, at most a right angle.
         outer: f32,
     },
     /// From the surface of a sphere, outward.

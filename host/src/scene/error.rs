@@ -95,8 +95,9 @@ pub enum SceneError {
     },
     /// The scene has nothing that emits light.
     #[error(
-        "scene `{scene}` has no emissive triangle; give a material an emissiveFactor above zero, \
-         or use one of the built-in scenes"
+        "scene `{scene}` has no emissive triangle, and no light of another kind that this command knows (`lightbvh render` \
+         and `verify` know point, spot and directional lights); give a material an emissiveFactor above zero, or use one of \
+         the built-in scenes"
     )]
     NoEmissive {
         /// The scene.

@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 
 use crate::error::LightError;
 use crate::exact;
+use crate::light::record::unit;
 use crate::light::{MAX_RADIANCE, MIN_RADIANCE};
 use crate::point::ShadingPoint;
 use crate::vector::dot;
@@ -32,7 +33,7 @@ impl DistantLight {
         };
         let is_none = self.direction == [0.0; 3];
         match point.checked() {
-            Ok(point) if !is_none => self.direction = point.n,
+            Ok(point) if !is_none => self.direction = unit(point.n),
             _ => {
                 return Err(LightError::Axis { axis: self.direction });
             }

@@ -57,7 +57,7 @@ impl EnvironmentMap<'_> {
         let random: Random64 = random.into();
         let mut number = random.high >> (32 - BITS);
         let (mut node, mut column, mut row) = (0_u32, 0_u32, 0_u32);
-        for level in 0..self.levels {
+        for level in 0..self.depth() {
             let first = start_of(level + 1).wrapping_add(4 * node);
             // The last child with a count takes what is left, whatever the words are.
             let mut child = 0_u32;
@@ -77,7 +77,7 @@ impl EnvironmentMap<'_> {
             column = 2 * column + (child & 1);
             row = 2 * row + (child >> 1);
         }
-        let count = self.count(start_of(self.levels).wrapping_add(node));
+        let count = self.count(start_of(self.depth()).wrapping_add(node));
         if count == 0 || node >= self.radiance.len() as u32 {
             return EnvironmentSample {
                 texel: u32::MAX,
@@ -87,7 +87,7 @@ impl EnvironmentMap<'_> {
                 radiance: [0.0; 3],
             };
         }
-        let size = exact::pow2(1 - self.levels as i32);
+        let size = exact::pow2(1 - self.depth() as i32);
         let place = [
             (column as i32 as f32 + uv[0]) * size - 1.0,
             (row as i32 as f32 + uv[1]) * size - 1.0,
@@ -107,16 +107,16 @@ impl EnvironmentMap<'_> {
     #[inline]
     #[must_use]
     pub fn texel_of(&self, direction: [f32; 3]) -> u32 {
-        let half = exact::pow2(self.levels as i32 - 1);
+        let half = exact::pow2(self.depth() as i32 - 1);
         let place = place_of(direction);
-        let last = (1_u32 << self.levels) - 1;
+        let last = (1_u32 << self.depth()) - 1;
         let mut texel = 0_u32;
         let at = |x: f32| {
             let index = exact::floor_u32(exact::max((x + 1.0) * half, 0.0));
             if index < last { index } else { last }
         };
         let (column, row) = (at(place[0]), at(place[1]));
-        for k in 0..self.levels {
+        for k in 0..self.depth() {
             texel |= ((column >> k) & 1) << (2 * k);
             texel |= ((row >> k) & 1) << (2 * k + 1);
         }
@@ -128,13 +128,13 @@ impl EnvironmentMap<'_> {
     #[must_use]
     pub fn pmf(&self, texel: u32) -> f32 {
         if texel < self.radiance.len() as u32 {
-            probability(self.count(start_of(self.levels).wrapping_add(texel)))
+            probability(self.count(start_of(self.depth()).wrapping_add(texel)))
         } else {
             0.0
         }
     }
 
-    /// The density over solid angle with which a unit direction is chosen, 1/sr: what multiple importance sampling asks where a ray that
+    /// The density over solid angle with which a unit direction is chosen, 1/sr (at a length of 1 + *e*, less by 3 *e*): what multiple importance sampling asks where a ray that
     /// something else chose meets nothing.
     #[inline]
     #[must_use]
@@ -154,10 +154,20 @@ impl EnvironmentMap<'_> {
         }
     }
 
+    /// Its levels, whatever the words are.
+    #[inline(always)]
+    fn depth(&self) -> u32 {
+        if self.levels < MAX_LEVELS {
+            self.levels
+        } else {
+            MAX_LEVELS
+        }
+    }
+
     #[inline(always)]
     fn density_in(&self, pmf: f32, direction: [f32; 3]) -> f32 {
         // Texels over the square's area of 4.
-        let per_area = exact::pow2(2 * self.levels as i32 - 2);
+        let per_area = exact::pow2(2 * self.depth() as i32 - 2);
         (pmf * per_area) * cubed_distance(direction)
     }
 

@@ -124,10 +124,14 @@ impl Check<'_> {
             return Err(self.out_of_range(name("range"), range, "metres above 0"));
         }
         if let AnalyticKind::Spot { inner, outer } = light.kind
-            && !(inner >= 0.0 && inner < outer && outer <= std::f32::consts::FRAC_PI_2)
+            && !(inner >= 0.0 && inner <= outer && outer > 0.0 && outer <= std::f32::consts::FRAC_PI_2)
         {
             let element = name("outer angle");
-            return Err(self.out_of_range(element, outer, "radians above the inner angle, up to pi / 2"));
+            return Err(self.out_of_range(
+                element,
+                outer,
+                "radians above 0, not below the inner angle, up to pi / 2",
+            ));
         }
         let sizes: &[f32] = match &light.kind {
             AnalyticKind::Sphere { radius } => std::slice::from_ref(radius),

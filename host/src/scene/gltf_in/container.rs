@@ -94,6 +94,12 @@ fn chunk(bytes: &[u8], at: usize) -> Option<([u8; 4], &[u8], usize)> {
 /// The JSON part, and how many channels of animations are left out of it: those that name no node, as `KHR_animation_pointer` has
 /// them, which the model does not know.
 pub(super) fn parse(path: &str, text: &[u8]) -> Result<(json::Root, usize), SceneError> {
+    if text.starts_with(b"version https://git-lfs") {
+        return Err(broken(
+            path,
+            String::from("it is a pointer of Git LFS; run `git lfs pull`"),
+        ));
+    }
     let problem = match json::deserialize::from_slice(text) {
         Ok(root) => return Ok((root, 0)),
         Err(error) => broken(path, format!("its JSON part: {error}")),
@@ -101,7 +107,16 @@ pub(super) fn parse(path: &str, text: &[u8]) -> Result<(json::Root, usize), Scen
     let Ok(mut value) = serde_json::from_slice::<Value>(text) else {
         return Err(problem);
     };
-    let mut left_out = 0;
+    if let Some("1.0" | "1") = value.pointer("/asset/version").and_then(Value::as_str) {
+        return Err(broken(path, String::from("it is glTF 1.0")));
+    }
+    let (mut left_out, mut mended) = (0, false);
+    let scenes = value.get_mut("scenes").and_then(Value::as_array_mut);
+    for scene in scenes.into_iter().flatten().filter_map(Value::as_object_mut) {
+        // A scene may have none.
+        mended |= !scene.contains_key("nodes");
+        scene.entry("nodes").or_insert_with(|| Value::Array(Vec::new()));
+    }
     let animations = value.get_mut("animations").and_then(Value::as_array_mut);
     for animation in animations.into_iter().flatten() {
         if let Some(channels) = animation.get_mut("channels").and_then(Value::as_array_mut) {
@@ -111,7 +126,7 @@ pub(super) fn parse(path: &str, text: &[u8]) -> Result<(json::Root, usize), Scen
         }
     }
     match json::deserialize::from_value(value) {
-        Ok(root) if left_out > 0 => Ok((root, left_out)),
+        Ok(root) if left_out > 0 || mended => Ok((root, left_out)),
         _ => Err(problem),
     }
 }

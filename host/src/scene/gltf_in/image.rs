@@ -1,4 +1,4 @@
-//! Pictures, decoded within limits. One that is not there, or cannot be decoded, is noted and counts as white.
+//! Pictures, decoded within limits. One that is not there, or cannot be decoded, is noted and counts as white, as what glows as black.
 
 use std::collections::{HashMap, HashSet};
 use std::io::Cursor;
@@ -55,7 +55,7 @@ impl Document<'_> {
             Err(problem) => {
                 self.pictures.borrow_mut().failed.insert(index);
                 self.warn(format!(
-                    "images[{index}] counts as white: {problem}; use PNG, JPEG, WebP or KTX 2 of at most {MAX_SIDE} \
+                    "images[{index}] counts as white, and where it is what glows as black: {problem}; use PNG, JPEG, WebP or KTX 2 of at most {MAX_SIDE} \
                      pixels a side"
                 ));
                 None

@@ -69,6 +69,11 @@ fn one<'a>(
         }
     };
     let attributes = Attributes::new(document, primitive, element)?;
+    if attributes.accessor(Semantic::Positions).is_none() {
+        // glTF 2.0, section 3.7.2.1: renderers skip what has no positions.
+        document.warn(format!("{element}: it has no positions, and is left out"));
+        return Ok(None);
+    }
     let positions = positions(document, &attributes, shared)?;
     let triangles = triangles(document, &attributes, (primitive, mode), positions.len())?;
     shared.triangles += triangles.len() as u64;

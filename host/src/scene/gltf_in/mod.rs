@@ -11,7 +11,7 @@
 //! - metallic-roughness factors, or specular-glossiness ones; emission by factor, texture averaged per triangle, and
 //!   `KHR_materials_emissive_strength`; `doubleSided`;
 //! - pictures in PNG, JPEG, WebP (`EXT_texture_webp`) and KTX 2 (`KHR_texture_basisu`: eight bits a channel, plain or by Zstandard,
-//!   and what Basis Universal makes), placed by `KHR_texture_transform`. One that cannot be had is noted and counts as white;
+//!   and what Basis Universal makes), placed by `KHR_texture_transform`. One that cannot be had is noted and counts as white, and where it is what glows as black;
 //! - `KHR_materials_transmission` and blended alpha, as the share of light that goes through: surfaces with half or more of it are
 //!   left out unless they emit ([`super::Material::is_clear`]), as the reference renderer has no glass and lamps behind it burn;
 //! - `KHR_materials_unlit`: the colour is emitted, so that it is seen as it is, and nothing is reflected. It lights what is near;
@@ -113,6 +113,41 @@ impl Scene {
     }
 }
 
+/// What is said of several elements, said once: `materials[0], materials[3] and 7 more: ...`.
+fn grouped(warnings: Vec<String>) -> Vec<String> {
+    let mut groups: Vec<(Vec<String>, String)> = Vec::new();
+    for warning in warnings {
+        let said = warning
+            .split_once(": ")
+            .filter(|(element, _)| element.ends_with(']'));
+        let (elements, what) = match said {
+            Some((element, what)) => (vec![element.to_owned()], what.to_owned()),
+            None => (Vec::new(), warning),
+        };
+        match groups
+            .iter_mut()
+            .find(|(of, known)| !of.is_empty() && !elements.is_empty() && *known == what)
+        {
+            Some((of, _)) => of.extend(elements),
+            None => groups.push((elements, what)),
+        }
+    }
+    let line = |(elements, what): (Vec<String>, String)| {
+        let named = elements
+            .iter()
+            .take(3)
+            .map(String::as_str)
+            .collect::<Vec<_>>()
+            .join(", ");
+        match elements.len() {
+            0 => what,
+            1..=3 => format!("{named}: {what}"),
+            more => format!("{named} and {} more: {what}", more - 3),
+        }
+    };
+    groups.into_iter().map(line).collect()
+}
+
 /// A parsed file and what has been read of it.
 struct Document<'a> {
     path: &'a str,
@@ -160,7 +195,7 @@ impl Document<'_> {
     }
 
     fn into_warnings(self) -> Vec<String> {
-        let mut warnings = self.warnings.into_inner();
+        let mut warnings = grouped(self.warnings.into_inner());
         if warnings.len() > MAX_WARNINGS {
             let more = warnings.len() - MAX_WARNINGS;
             warnings.truncate(MAX_WARNINGS);

@@ -129,12 +129,16 @@ fn light(value: &Value, node: u32) -> Result<AnalyticLight, String> {
                 inner_cone_angle: inner,
                 outer_cone_angle: outer,
             } = light.spot;
-            if !(inner >= 0.0 && inner < outer && outer <= std::f32::consts::FRAC_PI_2) {
-                return Err(format!(
-                    "its cone, from {inner} to {outer} radians, is not from 0 up to pi / 2"
-                ));
+            // NaN is in no range.
+            if !(inner >= 0.0 && outer > 0.0 && outer.is_finite()) {
+                return Err(format!("its cone, from {inner} to {outer} radians, is none"));
             }
-            AnalyticKind::Spot { inner, outer }
+            // Exporters write inner cones as wide as outer ones, and cones beyond what is allowed.
+            let outer = outer.min(std::f32::consts::FRAC_PI_2);
+            AnalyticKind::Spot {
+                inner: inner.min(outer),
+                outer,
+            }
         }
     };
     Ok(AnalyticLight {
