@@ -297,7 +297,7 @@ fn narrow_spots_send_what_their_cone_says() {
                     intensity: [1.0; 3],
                     axis: axis.map(|x| x as f32),
                     cos_inner: inner.cos() as f32,
-                    cos_outer: (outer.cos() as f32).min(1.0 - exact::pow2(-20)),
+                    cos_outer: exact::min(outer.cos() as f32, 1.0 - exact::pow2(-20)),
                     mesh: 0,
                 };
                 let own = own.checked().expect("a sound spot");

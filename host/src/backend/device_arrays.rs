@@ -36,7 +36,14 @@ pub(super) struct DeviceScene<L> {
     /// Where lights are chosen by power.
     thresholds: Option<Arc<Buffer<u32>>>,
     /// What is beyond all surfaces, for kernels that know of it.
-    sky: Option<(Arc<Buffer<DistantLight>>, Arc<Buffer<u32>>, Arc<Buffer<[f32; 3]>>)>,
+    sky: Option<DeviceSky>,
+}
+
+/// A map and suns on the device.
+struct DeviceSky {
+    suns: Arc<Buffer<DistantLight>>,
+    counts: Arc<Buffer<u32>>,
+    radiance: Arc<Buffer<[f32; 3]>>,
 }
 
 /// The arrays of the scene that was rendered last.
@@ -112,11 +119,11 @@ impl<L: SceneLight> HeldScene<L> {
             sky: match L::IS_ANY {
                 true => {
                     let sky = scene.sky.view();
-                    Some((
-                        self.suns.bring(device, sky.suns, pass)?,
-                        self.sky_counts.bring(device, sky.counts, pass)?,
-                        self.sky_radiance.bring(device, sky.radiance, pass)?,
-                    ))
+                    Some(DeviceSky {
+                        suns: self.suns.bring(device, sky.suns, pass)?,
+                        counts: self.sky_counts.bring(device, sky.counts, pass)?,
+                        radiance: self.sky_radiance.bring(device, sky.radiance, pass)?,
+                    })
                 }
                 false => None,
             },
@@ -128,8 +135,8 @@ impl<L: SceneLight> DeviceScene<L> {
     /// The last buffers of kernels that know what is beyond all surfaces.
     pub fn sky(&self) -> Vec<Binding> {
         let sky = self.sky.as_ref();
-        sky.map_or(Vec::new(), |(suns, counts, radiance)| {
-            vec![suns.bind(), counts.bind(), radiance.bind()]
+        sky.map_or(Vec::new(), |sky| {
+            vec![sky.suns.bind(), sky.counts.bind(), sky.radiance.bind()]
         })
     }
 

@@ -115,6 +115,8 @@ impl<'a> SkyView<'a> {
     #[inline]
     fn split(&self, point: &ShadingPoint) -> Split<SOURCES> {
         let mut weights = [0.0; SOURCES];
+        // By index: rust-gpu has no iterators over slices.
+        #[expect(clippy::needless_range_loop)]
         for source in 0..SOURCES {
             if source < self.suns.len() {
                 let sun = self.suns[source];
