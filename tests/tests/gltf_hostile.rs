@@ -32,7 +32,7 @@ fn hostile_values_are_named() {
         ("/meshes/0/primitives/0/material", json!(5), "material 5"),
         ("/meshes/0/primitives/0/indices", json!(2), "accessor 2"),
         ("/meshes/0/primitives/0/indices", json!(0), "unsigned"),
-        ("/meshes/0/primitives/0/attributes", json!({}), "POSITION"),
+        ("/meshes/0/primitives/0/attributes", json!({}), "no triangles"),
         (
             "/meshes/0/primitives/0/attributes",
             json!({ "POSITION": 1 }),
