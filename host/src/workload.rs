@@ -9,7 +9,7 @@ use lightbvh_kernels::render::RenderParams;
 use crate::backend::{Sampler, SceneArrays};
 use crate::error::HostError;
 use crate::render::{RayBvh, camera};
-use crate::scene::{Scene, SceneLight};
+use crate::scene::{Scene, SceneLight, SkinArrays};
 
 /// Image and frame of a rendering.
 #[derive(Clone, Copy, Debug)]
@@ -87,11 +87,22 @@ pub fn arrays_lit_by<L: SceneLight>(
     width: u32,
     height: u32,
 ) -> Result<SceneArrays<L>, HostError> {
-    let data = scene.frame(frame);
+    let mut data = scene.frame(frame);
     let lights = listed(scene, frame, data.lights())?;
+    if L::IS_ANY {
+        data.triangles.append(&mut data.clear);
+    }
     let rays =
         RayBvh::build(&data.triangles).map_err(|error| HostError::in_frame(scene.name(), frame, error))?;
-    Ok(SceneArrays::new(rays, data.materials, lights, camera(&data.camera, width, height)).under(data.sky))
+    let skin = if L::IS_ANY {
+        data.skin(&rays)
+    } else {
+        SkinArrays::default()
+    };
+    let camera = camera(&data.camera, width, height);
+    Ok(SceneArrays::new(rays, data.materials, lights, camera)
+        .under(data.sky)
+        .painted(skin))
 }
 
 /// The light BVH that `sampler` walks; the other samplers walk none and get the two-level one.

@@ -18,6 +18,7 @@ use crate::shading::material::Material;
 use crate::shading::path::path_radiance;
 use crate::shading::pick::{PickLight, Power, Uniform};
 use crate::shading::pixel::Scene;
+use crate::shading::skin::{Corner, NoSkin, SkinView};
 use crate::shading::sky::{NoSky, SkyView};
 use crate::shading::trace::{RayNode, TriangleBlock};
 use lightbvh::TreeWords;
@@ -76,7 +77,7 @@ pub struct PathPush {
 
 /// Pass `path_bvh` for one choice.
 macro_rules! path_pass {
-    ($choice:ty, $light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr) => {
+    ($choice:ty, $light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr, $skin:expr) => {
         /// Paths with lights chosen from a light BVH of one or two levels.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -95,7 +96,7 @@ macro_rules! path_pass {
         ) {
             let i = invocation(id);
             if i < push.count {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky, $skin);
                 let picker: TreeOf<'_, $choice, _> = push.tree.tree(nodes, instances, trails);
                 results[i as usize] = path_pixel(
                     &scene,
@@ -110,13 +111,29 @@ macro_rules! path_pass {
     };
 }
 
-path_pass!(Standard, EmissiveTriangle, path_bvh, "path_bvh", [], NoSky);
-path_pass!(Paper, EmissiveTriangle, path_bvh_eq4, "path_bvh_eq4", [], NoSky);
-path_pass!(Kinds, AnyLight, path_bvh_any, "path_bvh_any", [9 suns: DistantLight, 10 sky_counts: u32, 11 sky_radiance: [f32; 3]], SkyView { suns, counts: sky_counts, radiance: sky_radiance });
+path_pass!(
+    Standard,
+    EmissiveTriangle,
+    path_bvh,
+    "path_bvh",
+    [],
+    NoSky,
+    NoSkin
+);
+path_pass!(
+    Paper,
+    EmissiveTriangle,
+    path_bvh_eq4,
+    "path_bvh_eq4",
+    [],
+    NoSky,
+    NoSkin
+);
+path_pass!(Kinds, AnyLight, path_bvh_any, "path_bvh_any", [9 suns: DistantLight, 10 sky_counts: u32, 11 sky_radiance: [f32; 3], 12 corners: Corner, 13 paint: u32], SkyView { suns, counts: sky_counts, radiance: sky_radiance }, SkinView { corners, words: paint });
 
 /// Pass `path_power` for one type of light.
 macro_rules! path_power_pass {
-    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr) => {
+    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr, $skin:expr) => {
         /// Paths with lights chosen in proportion to their power. `thresholds` is [`Power`]'s table.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -134,7 +151,7 @@ macro_rules! path_power_pass {
         ) {
             let i = invocation(id);
             if i < push.count {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky, $skin);
                 let picker = Power { thresholds };
                 results[i as usize] = path_pixel(
                     &scene,
@@ -149,12 +166,12 @@ macro_rules! path_power_pass {
     };
 }
 
-path_power_pass!(EmissiveTriangle, path_power, "path_power", [], NoSky);
-path_power_pass!(AnyLight, path_power_any, "path_power_any", [8 suns: DistantLight, 9 sky_counts: u32, 10 sky_radiance: [f32; 3]], SkyView { suns, counts: sky_counts, radiance: sky_radiance });
+path_power_pass!(EmissiveTriangle, path_power, "path_power", [], NoSky, NoSkin);
+path_power_pass!(AnyLight, path_power_any, "path_power_any", [8 suns: DistantLight, 9 sky_counts: u32, 10 sky_radiance: [f32; 3], 11 corners: Corner, 12 paint: u32], SkyView { suns, counts: sky_counts, radiance: sky_radiance }, SkinView { corners, words: paint });
 
 /// Pass `path_uniform` for one type of light.
 macro_rules! path_uniform_pass {
-    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr) => {
+    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr, $skin:expr) => {
         /// Paths with lights chosen uniformly.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -171,7 +188,7 @@ macro_rules! path_uniform_pass {
         ) {
             let i = invocation(id);
             if i < push.count {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky, $skin);
                 let picker = Uniform {
                     count: triangles.len() as u32,
                 };
@@ -188,5 +205,5 @@ macro_rules! path_uniform_pass {
     };
 }
 
-path_uniform_pass!(EmissiveTriangle, path_uniform, "path_uniform", [], NoSky);
-path_uniform_pass!(AnyLight, path_uniform_any, "path_uniform_any", [7 suns: DistantLight, 8 sky_counts: u32, 9 sky_radiance: [f32; 3]], SkyView { suns, counts: sky_counts, radiance: sky_radiance });
+path_uniform_pass!(EmissiveTriangle, path_uniform, "path_uniform", [], NoSky, NoSkin);
+path_uniform_pass!(AnyLight, path_uniform_any, "path_uniform_any", [7 suns: DistantLight, 8 sky_counts: u32, 9 sky_radiance: [f32; 3], 10 corners: Corner, 11 paint: u32], SkyView { suns, counts: sky_counts, radiance: sky_radiance }, SkinView { corners, words: paint });

@@ -17,6 +17,7 @@ use crate::shading::material::Material;
 use crate::shading::numbers::Part;
 use crate::shading::pick::{PickLight, Power, Uniform};
 use crate::shading::pixel::{Samples, Scene, reflected, see};
+use crate::shading::skin::{Corner, NoSkin, SkinView};
 use crate::shading::sky::{NoSky, SkyView};
 use crate::shading::trace::{RayNode, TriangleBlock};
 use lightbvh::TreeWords;
@@ -111,7 +112,7 @@ pub struct RenderPush {
 
 /// Pass `render_bvh` for one choice.
 macro_rules! render_pass {
-    ($choice:ty, $light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr) => {
+    ($choice:ty, $light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr, $skin:expr) => {
         /// Direct lighting by lights chosen from a light BVH of one or two levels.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -130,7 +131,7 @@ macro_rules! render_pass {
         ) {
             let i = invocation(id);
             if i < push.count {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky, $skin);
                 let picker: TreeOf<'_, $choice, _> = push.tree.tree(nodes, instances, trails);
                 results[i as usize] = render_pixel(
                     &scene,
@@ -144,20 +145,29 @@ macro_rules! render_pass {
     };
 }
 
-render_pass!(Standard, EmissiveTriangle, render_bvh, "render_bvh", [], NoSky);
+render_pass!(
+    Standard,
+    EmissiveTriangle,
+    render_bvh,
+    "render_bvh",
+    [],
+    NoSky,
+    NoSkin
+);
 render_pass!(
     Paper,
     EmissiveTriangle,
     render_bvh_eq4,
     "render_bvh_eq4",
     [],
-    NoSky
+    NoSky,
+    NoSkin
 );
-render_pass!(Kinds, AnyLight, render_bvh_any, "render_bvh_any", [9 suns: DistantLight, 10 sky_counts: u32, 11 sky_radiance: [f32; 3]], SkyView { suns, counts: sky_counts, radiance: sky_radiance });
+render_pass!(Kinds, AnyLight, render_bvh_any, "render_bvh_any", [9 suns: DistantLight, 10 sky_counts: u32, 11 sky_radiance: [f32; 3], 12 corners: Corner, 13 paint: u32], SkyView { suns, counts: sky_counts, radiance: sky_radiance }, SkinView { corners, words: paint });
 
 /// Pass `render_power` for one type of light.
 macro_rules! render_power_pass {
-    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr) => {
+    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr, $skin:expr) => {
         /// Direct lighting by lights chosen in proportion to their power. `thresholds` is [`Power`]'s table.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -175,7 +185,7 @@ macro_rules! render_power_pass {
         ) {
             let i = invocation(id);
             if i < push.count {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky, $skin);
                 let picker = Power { thresholds };
                 results[i as usize] = render_pixel(
                     &scene,
@@ -189,12 +199,12 @@ macro_rules! render_power_pass {
     };
 }
 
-render_power_pass!(EmissiveTriangle, render_power, "render_power", [], NoSky);
-render_power_pass!(AnyLight, render_power_any, "render_power_any", [8 suns: DistantLight, 9 sky_counts: u32, 10 sky_radiance: [f32; 3]], SkyView { suns, counts: sky_counts, radiance: sky_radiance });
+render_power_pass!(EmissiveTriangle, render_power, "render_power", [], NoSky, NoSkin);
+render_power_pass!(AnyLight, render_power_any, "render_power_any", [8 suns: DistantLight, 9 sky_counts: u32, 10 sky_radiance: [f32; 3], 11 corners: Corner, 12 paint: u32], SkyView { suns, counts: sky_counts, radiance: sky_radiance }, SkinView { corners, words: paint });
 
 /// Pass `render_uniform` for one type of light.
 macro_rules! render_uniform_pass {
-    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr) => {
+    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr, $skin:expr) => {
         /// Direct lighting by lights chosen uniformly.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -211,7 +221,7 @@ macro_rules! render_uniform_pass {
         ) {
             let i = invocation(id);
             if i < push.count {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky, $skin);
                 let picker = Uniform {
                     count: triangles.len() as u32,
                 };
@@ -227,5 +237,12 @@ macro_rules! render_uniform_pass {
     };
 }
 
-render_uniform_pass!(EmissiveTriangle, render_uniform, "render_uniform", [], NoSky);
-render_uniform_pass!(AnyLight, render_uniform_any, "render_uniform_any", [7 suns: DistantLight, 8 sky_counts: u32, 9 sky_radiance: [f32; 3]], SkyView { suns, counts: sky_counts, radiance: sky_radiance });
+render_uniform_pass!(
+    EmissiveTriangle,
+    render_uniform,
+    "render_uniform",
+    [],
+    NoSky,
+    NoSkin
+);
+render_uniform_pass!(AnyLight, render_uniform_any, "render_uniform_any", [7 suns: DistantLight, 8 sky_counts: u32, 9 sky_radiance: [f32; 3], 10 corners: Corner, 11 paint: u32], SkyView { suns, counts: sky_counts, radiance: sky_radiance }, SkinView { corners, words: paint });

@@ -32,6 +32,7 @@ use crate::shading::restir::spatial::spatial;
 use crate::shading::restir::surface::Surface;
 use crate::shading::restir::temporal::{Before, temporal};
 use crate::shading::restir::{PixelReservoir, RestirParams};
+use crate::shading::skin::{Corner, NoSkin, SkinView};
 use crate::shading::sky::{NoSky, SkyView};
 use crate::shading::trace::{RayNode, Surfaces, TriangleBlock};
 use lightbvh::TreeWords;
@@ -54,7 +55,7 @@ const _: () = assert!(size_of::<RestirPush>() == 84);
 
 /// Pass `restir_initial_power` for one type of light.
 macro_rules! initial_power_pass {
-    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr) => {
+    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr, $skin:expr) => {
         /// Pass 1 with candidates in proportion to power. `thresholds` is [`Power`]'s table.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -74,7 +75,7 @@ macro_rules! initial_power_pass {
             let i = invocation(id);
             let pixel = push.first.wrapping_add(i);
             if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky, $skin);
                 let surface = first_surface(&scene, &camera[0], &push.params, pixel);
                 let picker = Power { thresholds };
                 gbuffer[pixel as usize] = surface;
@@ -89,13 +90,14 @@ initial_power_pass!(
     restir_initial_power,
     "restir_initial_power",
     [],
-    NoSky
+    NoSky,
+    NoSkin
 );
-initial_power_pass!(AnyLight, restir_initial_power_any, "restir_initial_power_any", [9 suns: DistantLight, 10 sky_counts: u32, 11 sky_radiance: [f32; 3]], SkyView { suns, counts: sky_counts, radiance: sky_radiance });
+initial_power_pass!(AnyLight, restir_initial_power_any, "restir_initial_power_any", [9 suns: DistantLight, 10 sky_counts: u32, 11 sky_radiance: [f32; 3], 12 corners: Corner, 13 paint: u32], SkyView { suns, counts: sky_counts, radiance: sky_radiance }, SkinView { corners, words: paint });
 
 /// Pass `restir_initial_bvh` for one choice.
 macro_rules! initial_pass {
-    ($choice:ty, $light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr) => {
+    ($choice:ty, $light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr, $skin:expr) => {
         /// Pass 1 with candidates from the light BVH.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -116,7 +118,7 @@ macro_rules! initial_pass {
             let i = invocation(id);
             let pixel = push.first.wrapping_add(i);
             if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky, $skin);
                 let surface = first_surface(&scene, &camera[0], &push.params, pixel);
                 let picker: TreeOf<'_, $choice, _> = push.tree.tree(nodes, instances, trails);
                 gbuffer[pixel as usize] = surface;
@@ -132,7 +134,8 @@ initial_pass!(
     restir_initial_bvh,
     "restir_initial_bvh",
     [],
-    NoSky
+    NoSky,
+    NoSkin
 );
 initial_pass!(
     Paper,
@@ -140,13 +143,14 @@ initial_pass!(
     restir_initial_bvh_eq4,
     "restir_initial_bvh_eq4",
     [],
-    NoSky
+    NoSky,
+    NoSkin
 );
-initial_pass!(Kinds, AnyLight, restir_initial_bvh_any, "restir_initial_bvh_any", [10 suns: DistantLight, 11 sky_counts: u32, 12 sky_radiance: [f32; 3]], SkyView { suns, counts: sky_counts, radiance: sky_radiance });
+initial_pass!(Kinds, AnyLight, restir_initial_bvh_any, "restir_initial_bvh_any", [10 suns: DistantLight, 11 sky_counts: u32, 12 sky_radiance: [f32; 3], 13 corners: Corner, 14 paint: u32], SkyView { suns, counts: sky_counts, radiance: sky_radiance }, SkinView { corners, words: paint });
 
 /// Pass `restir_temporal_unbiased` for one type of light.
 macro_rules! temporal_unbiased_pass {
-    ($light:ty, $pass:ident, $name:tt) => {
+    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $skin:expr) => {
         /// Pass 2 without bias; `before_*` is the frame before, `before_camera` its camera.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -166,6 +170,7 @@ macro_rules! temporal_unbiased_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 11)] to_current: &[[u32; 2]],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 12)] gbuffer: &[Surface],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 13)] reservoirs: &mut [PixelReservoir],
+            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $at)] $own: &[$word],)*
         ) {
             let i = invocation(id);
             let pixel = push.first.wrapping_add(i);
@@ -178,6 +183,7 @@ macro_rules! temporal_unbiased_pass {
                     surfaces: Surfaces {
                         nodes: before_ray_nodes,
                         blocks: before_surfaces,
+                        skin: $skin,
                     },
                     emitters: Emitters {
                         triangles: before_triangles,
@@ -211,12 +217,19 @@ macro_rules! temporal_unbiased_pass {
 temporal_unbiased_pass!(
     EmissiveTriangle,
     restir_temporal_unbiased,
-    "restir_temporal_unbiased"
+    "restir_temporal_unbiased",
+    [],
+    NoSkin
 );
 temporal_unbiased_pass!(
     AnyLight,
     restir_temporal_unbiased_any,
-    "restir_temporal_unbiased_any"
+    "restir_temporal_unbiased_any",
+    [14 before_corners: Corner, 15 paint: u32],
+    SkinView {
+        corners: before_corners,
+        words: paint
+    }
 );
 
 /// Pass `restir_temporal_biased` for one type of light.
@@ -273,7 +286,7 @@ temporal_biased_pass!(AnyLight, restir_temporal_biased_any, "restir_temporal_bia
 
 /// Pass `restir_spatial_unbiased` for one type of light.
 macro_rules! spatial_unbiased_pass {
-    ($light:ty, $pass:ident, $name:tt) => {
+    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $skin:expr) => {
         /// Pass 3 without bias.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -287,6 +300,7 @@ macro_rules! spatial_unbiased_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 5)] gbuffer: &[Surface],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 6)] reservoirs: &[PixelReservoir],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 7)] results: &mut [PixelReservoir],
+            $(#[spirv(storage_buffer, descriptor_set = 0, binding = $at)] $own: &[$word],)*
         ) {
             let i = invocation(id);
             let pixel = push.first.wrapping_add(i);
@@ -299,6 +313,7 @@ macro_rules! spatial_unbiased_pass {
                     surfaces: Surfaces {
                         nodes: ray_nodes,
                         blocks: surfaces,
+                        skin: $skin,
                     },
                     emitters,
                 };
@@ -319,12 +334,19 @@ macro_rules! spatial_unbiased_pass {
 spatial_unbiased_pass!(
     EmissiveTriangle,
     restir_spatial_unbiased,
-    "restir_spatial_unbiased"
+    "restir_spatial_unbiased",
+    [],
+    NoSkin
 );
 spatial_unbiased_pass!(
     AnyLight,
     restir_spatial_unbiased_any,
-    "restir_spatial_unbiased_any"
+    "restir_spatial_unbiased_any",
+    [8 corners: Corner, 9 paint: u32],
+    SkinView {
+        corners,
+        words: paint
+    }
 );
 
 /// Pass `restir_spatial_biased` for one type of light.
@@ -368,7 +390,7 @@ spatial_biased_pass!(AnyLight, restir_spatial_biased_any, "restir_spatial_biased
 
 /// Pass `restir_shade` for one type of light.
 macro_rules! shade_pass {
-    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr) => {
+    ($light:ty, $pass:ident, $name:tt, [$($at:tt $own:ident: $word:ty),*], $sky:expr, $skin:expr) => {
         /// Pass 4.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
@@ -387,7 +409,7 @@ macro_rules! shade_pass {
             let i = invocation(id);
             let pixel = push.first.wrapping_add(i);
             if i < push.count && pixel < gbuffer.len() as u32 && pixel < reservoirs.len() as u32 {
-                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky);
+                let scene = Scene::new(ray_nodes, surfaces, materials, triangles, instances, $sky, $skin);
                 let surface = gbuffer[pixel as usize];
                 let last = reservoirs[pixel as usize];
                 let (shaded, kept) = shade(&scene, &push.params, &surface, &last, pixel);
@@ -398,5 +420,5 @@ macro_rules! shade_pass {
     };
 }
 
-shade_pass!(EmissiveTriangle, restir_shade, "restir_shade", [], NoSky);
-shade_pass!(AnyLight, restir_shade_any, "restir_shade_any", [8 suns: DistantLight, 9 sky_counts: u32, 10 sky_radiance: [f32; 3]], SkyView { suns, counts: sky_counts, radiance: sky_radiance });
+shade_pass!(EmissiveTriangle, restir_shade, "restir_shade", [], NoSky, NoSkin);
+shade_pass!(AnyLight, restir_shade_any, "restir_shade_any", [8 suns: DistantLight, 9 sky_counts: u32, 10 sky_radiance: [f32; 3], 11 corners: Corner, 12 paint: u32], SkyView { suns, counts: sky_counts, radiance: sky_radiance }, SkinView { corners, words: paint });

@@ -25,7 +25,7 @@ use lightbvh_tests::devices::on_each_device;
 
 const ALBEDO: f32 = 0.5;
 
-fn node(transform: Transform, mesh: Option<u32>) -> Node {
+pub fn node(transform: Transform, mesh: Option<u32>) -> Node {
     Node {
         transform,
         mesh,
@@ -33,7 +33,7 @@ fn node(transform: Transform, mesh: Option<u32>) -> Node {
     }
 }
 
-fn at(translation: [f32; 3]) -> Transform {
+pub fn at(translation: [f32; 3]) -> Transform {
     Transform::Trs {
         translation,
         rotation: [0.0, 0.0, 0.0, 1.0],
@@ -42,7 +42,7 @@ fn at(translation: [f32; 3]) -> Transform {
 }
 
 /// Turned so that -Z points down.
-fn down(translation: [f32; 3]) -> Transform {
+pub fn down(translation: [f32; 3]) -> Transform {
     let half = std::f32::consts::FRAC_1_SQRT_2;
     Transform::Trs {
         translation,
@@ -101,7 +101,7 @@ fn floor(aim: f32, lights: Vec<(Transform, AnalyticKind, f32)>) -> Scene {
     Scene::new(data).expect("a sound scene")
 }
 
-const SETTINGS: RenderSettings = RenderSettings {
+pub const SETTINGS: RenderSettings = RenderSettings {
     frame: 0,
     width: 32,
     height: 32,
@@ -109,12 +109,12 @@ const SETTINGS: RenderSettings = RenderSettings {
     seed: 5,
 };
 
-fn arrays(scene: &Scene, settings: &RenderSettings) -> SceneArrays<AnyLight> {
+pub fn arrays(scene: &Scene, settings: &RenderSettings) -> SceneArrays<AnyLight> {
     arrays_lit_by(scene, settings.frame, settings.width, settings.height).expect("a frame")
 }
 
 /// Mean of an image, and its standard error.
-fn mean(image: &[[f32; 3]]) -> (f64, f64) {
+pub fn mean(image: &[[f32; 3]]) -> (f64, f64) {
     let n = image.len() as f64;
     let mean = image.iter().map(|p| f64::from(p[1])).sum::<f64>() / n;
     let squares = image
@@ -324,7 +324,7 @@ fn room() -> Scene {
 }
 
 /// The room under a map and two suns.
-fn open_room() -> Scene {
+pub fn open_room() -> Scene {
     let mut data = room().into_data();
     let colors = |[x, y, z]: [f32; 3]| [0.1 + 0.1 * x * x, 0.1 + 0.2 * y.max(0.0), 0.2 + 0.1 * z * z];
     data.environment = Some(Arc::new(Environment::from_fn(8, colors).expect("a map")));
@@ -353,14 +353,18 @@ fn open_room() -> Scene {
 /// The images of all samplers agree, of direct light and of paths.
 #[test]
 fn samplers_agree_on_every_kind() {
-    let scene = open_room();
+    agree(&open_room());
+}
+
+/// That they do on a scene.
+pub fn agree(scene: &Scene) {
     let settings = RenderSettings {
         width: 48,
         height: 36,
         samples: 256,
         ..SETTINGS
     };
-    let arrays = arrays(&scene, &settings);
+    let arrays = arrays(scene, &settings);
     let params = settings.params([0.05; 3]);
     for integrator in [Integrator::Direct, Integrator::Path { bounces: 3 }] {
         let images: Vec<Vec<[f32; 3]>> = Sampler::ALL
@@ -487,16 +491,20 @@ fn instances_stand_where_the_frame_has_its_lamps() {
 
 #[test]
 fn every_kind_has_the_same_words_on_every_device() {
-    let scene = open_room();
+    same_on_devices(&open_room());
+}
+
+/// That each device has the CPU's words of a scene, by every sampler, directly, of several candidates, by paths and by ReSTIR.
+pub fn same_on_devices(scene: &Scene) {
     let settings = RenderSettings {
         width: 40,
         height: 25,
         samples: 2,
         ..SETTINGS
     };
-    let arrays = Arc::new(arrays(&scene, &settings));
+    let arrays = Arc::new(arrays(scene, &settings));
     let params = settings.params([0.2, 0.3, 0.4]);
-    let (two_level, _) = Instances::<AnyLight>::new(&scene, 0, BuildParams::default()).expect("sound");
+    let (two_level, _) = Instances::<AnyLight>::new(scene, 0, BuildParams::default()).expect("sound");
     on_each_device(Options::default(), |device| {
         for sampler in Sampler::ALL {
             let bvh: Bvh<Kinds, WIDTH> = match sampler {

@@ -52,5 +52,6 @@ mod scene_edits;
 mod scenes;
 mod spirv_rules;
 mod sweep;
+mod textures;
 mod unbiased;
 mod vulkan_device;

@@ -60,6 +60,13 @@ impl AnyLight {
         self.emission
     }
 
+    /// The light with another [`emission`](Self::emission), in the range of its kind.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_emission(self, emission: [f32; 3]) -> Self {
+        Self { emission, ..self }
+    }
+
     /// Whether both of its sides emit.
     #[inline(always)]
     #[must_use]

@@ -244,7 +244,7 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
         let scene = self.scene.bring(device, scene, sampler, emitters, &mut pass);
         let scene = scene.inspect_err(|_| self.scene = HeldScene::default())?;
         let inputs = scene.with_lights(sampler, &self.tree);
-        let sky = scene.sky();
+        let surroundings = scene.surroundings();
         let pixels = params.width as usize * params.height as usize;
         // The first part comes with the scene.
         let mut first_pass = Some(pass);
@@ -257,7 +257,7 @@ impl<C: Choice<W, Light: SceneLight>, const W: usize> Backend<C::Light> for Devi
             for first in (0..pixels).step_by(per_pass) {
                 let count = usize::min(per_pass, pixels - first) as u32;
                 let output = device.buffer::<[f32; 3]>(count as usize, 0)?;
-                let bindings = [inputs.as_slice(), &[output.bind()], &sky].concat();
+                let bindings = [inputs.as_slice(), &[output.bind()], &surroundings].concat();
                 let first = first as u32;
                 let push = match integrator {
                     Integrator::Direct => bytes_of(&RenderPush {

@@ -12,6 +12,7 @@ use lightbvh_kernels::bvh::{Choice, TreeOf};
 use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::emitter::Emitter;
 use lightbvh_kernels::shading::material::Material;
+use lightbvh_kernels::shading::skin::Corner;
 use lightbvh_kernels::shading::trace::{RayNode, TriangleBlock};
 
 use super::held::Held;
@@ -37,6 +38,14 @@ pub(super) struct DeviceScene<L> {
     thresholds: Option<Arc<Buffer<u32>>>,
     /// What is beyond all surfaces, for kernels that know of it.
     sky: Option<DeviceSky>,
+    /// What is painted on them, for the same.
+    skin: Option<DeviceSkin>,
+}
+
+/// Paint on the device.
+struct DeviceSkin {
+    corners: Arc<Buffer<Corner>>,
+    words: Arc<Buffer<u32>>,
 }
 
 /// A map and suns on the device.
@@ -58,6 +67,8 @@ pub(super) struct HeldScene<L> {
     suns: Held<DistantLight>,
     sky_counts: Held<u32>,
     sky_radiance: Held<[f32; 3]>,
+    corners: Held<Corner>,
+    paint: Held<u32>,
 }
 
 impl<L> Clone for DeviceEmitters<L> {
@@ -82,6 +93,8 @@ impl<L> Default for HeldScene<L> {
             suns: Held::default(),
             sky_counts: Held::default(),
             sky_radiance: Held::default(),
+            corners: Held::default(),
+            paint: Held::default(),
         }
     }
 }
@@ -127,17 +140,32 @@ impl<L: SceneLight> HeldScene<L> {
                 }
                 false => None,
             },
+            skin: match L::IS_ANY {
+                true => Some(DeviceSkin {
+                    corners: self.corners.bring(device, &scene.skin.corners, pass)?,
+                    words: self.paint.bring(device, &scene.skin.words, pass)?,
+                }),
+                false => None,
+            },
         })
     }
 }
 
 impl<L: SceneLight> DeviceScene<L> {
-    /// The last buffers of kernels that know what is beyond all surfaces.
-    pub fn sky(&self) -> Vec<Binding> {
+    /// The last buffers of kernels that know what is beyond all surfaces, and painted on them.
+    pub fn surroundings(&self) -> Vec<Binding> {
         let sky = self.sky.as_ref();
-        sky.map_or(Vec::new(), |sky| {
+        let mut bindings = sky.map_or(Vec::new(), |sky| {
             vec![sky.suns.bind(), sky.counts.bind(), sky.radiance.bind()]
-        })
+        });
+        bindings.extend(self.skin());
+        bindings
+    }
+
+    /// The last buffers of kernels that know what is painted on surfaces alone.
+    pub fn skin(&self) -> Vec<Binding> {
+        let skin = self.skin.as_ref();
+        skin.map_or(Vec::new(), |skin| vec![skin.corners.bind(), skin.words.bind()])
     }
 
     /// The buffers that a [`Scene`](lightbvh_kernels::shading::pixel::Scene) is made of.

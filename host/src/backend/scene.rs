@@ -5,9 +5,10 @@ use lightbvh_kernels::shading::camera::Camera;
 use lightbvh_kernels::shading::emitters::{Emitters, listed};
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pixel::Scene as SceneView;
+use lightbvh_kernels::shading::trace::Surfaces;
 
 use crate::render::{RayBvh, power_thresholds};
-use crate::scene::{SceneLight, Sky};
+use crate::scene::{SceneLight, SkinArrays, Sky};
 
 /// How the renderer chooses lights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, strum::IntoStaticStr, serde::Serialize)]
@@ -56,6 +57,8 @@ pub struct SceneArrays<L = EmissiveTriangle> {
     pub camera: Camera,
     /// What is beyond all surfaces.
     pub sky: Sky,
+    /// What is painted on them.
+    pub skin: SkinArrays,
 }
 
 impl<L: SceneLight> SceneArrays<L> {
@@ -71,6 +74,7 @@ impl<L: SceneLight> SceneArrays<L> {
             thresholds,
             camera,
             sky: Sky::default(),
+            skin: SkinArrays::default(),
         }
     }
 
@@ -78,6 +82,12 @@ impl<L: SceneLight> SceneArrays<L> {
     #[must_use]
     pub fn under(self, sky: Sky) -> Self {
         Self { sky, ..self }
+    }
+
+    /// With what is painted on the surfaces.
+    #[must_use]
+    pub fn painted(self, skin: SkinArrays) -> Self {
+        Self { skin, ..self }
     }
 
     /// The arrays as the kernels' functions take them, the lights as they are listed here.
@@ -88,11 +98,18 @@ impl<L: SceneLight> SceneArrays<L> {
     /// The arrays as the kernels' functions take them, with lights from elsewhere: those of a light BVH.
     pub fn lit_by<'a>(&'a self, emitters: Emitters<'a, L>) -> SceneView<'a, L> {
         SceneView {
-            surfaces: self.rays.surfaces(),
+            surfaces: self.surfaces(),
             materials: &self.materials,
             emitters,
             sky: L::sky(&self.sky),
         }
+    }
+
+    /// What rays meet, and what is painted on it.
+    pub fn surfaces(&self) -> Surfaces<'_, L::Skin<'_>> {
+        let Surfaces { nodes, blocks, .. } = self.rays.surfaces();
+        let skin = L::skin(&self.skin);
+        Surfaces { nodes, blocks, skin }
     }
 
     /// The lights as they are listed here.

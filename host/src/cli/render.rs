@@ -64,6 +64,9 @@ pub(super) struct Args {
     /// Factor on the environment map's radiance.
     #[arg(long, default_value_t = 1.0, value_parser = exposure, requires = "environment")]
     environment_scale: f32,
+    /// Show the mean of each texture in its place, and neither glass nor what is cut out: as all commands but this and `verify` do.
+    #[arg(long)]
+    no_textures: bool,
     /// How lights are chosen. ReSTIR runs through up to 8 earlier frames before the first one shown.
     #[arg(long, value_enum, default_value_t = Method::TwoLevelMoments)]
     sampler: Method,
@@ -231,6 +234,17 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     }
     for warning in scene.warnings() {
         news!("{}: {warning}", scene.name());
+    }
+    let is_known = AnyLight::IMPORTANCES.contains(&recipe.importance);
+    let is_painted = scene.data().is_painted();
+    if is_painted && !is_known && !scene.has_other_lights() {
+        news!(
+            "{}: textures are shown by their means, and glass is left out: the paper's importance knows triangles alone",
+            scene.name()
+        );
+    }
+    if is_painted && (args.no_textures || !is_known) {
+        scene = scene.unpainted();
     }
     let sequence = Sequence {
         args,

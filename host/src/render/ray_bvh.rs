@@ -2,8 +2,9 @@
 
 use glam::Vec3A;
 use lightbvh_kernels::shading::grid::{MAX_COORDINATE, STEP, snap};
+use lightbvh_kernels::shading::skin::NoSkin;
 use lightbvh_kernels::shading::trace::{
-    LANES, MAX_DEPTH, MAX_TRIANGLES, RayNode, SurfaceTriangle, Surfaces, TriangleBlock, WIDTH,
+    LANES, MAX_DEPTH, MAX_TRIANGLES, NONE, RayNode, SurfaceTriangle, Surfaces, TriangleBlock, WIDTH,
 };
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
@@ -55,6 +56,7 @@ pub struct RayBvh {
     pub nodes: Vec<RayNode>,
     /// The triangles, a block for each leaf, in the order of the leaves, their vertices on the grid.
     pub blocks: Vec<TriangleBlock>,
+    sources: Vec<u32>,
 }
 
 impl RayBvh {
@@ -95,7 +97,14 @@ impl RayBvh {
         Surfaces {
             nodes: &self.nodes,
             blocks: &self.blocks,
+            skin: NoSkin,
         }
+    }
+
+    /// By the number of a triangle in a [`Hit`](lightbvh_kernels::shading::trace::Hit) the index that it was built with; [`NONE`] in lanes
+    /// without one.
+    pub fn sources(&self) -> &[u32] {
+        &self.sources
     }
 }
 
@@ -251,6 +260,7 @@ impl<'a> Layout<'a> {
         let mut out = RayBvh {
             nodes: vec![RayNode::EMPTY],
             blocks: Vec::with_capacity(self.leaves.len()),
+            sources: Vec::with_capacity(self.leaves.len() * LANES),
         };
         let mut stack = Vec::new();
         self.push_children(&Part::Node(0), 0, MAX_DEPTH as u32, &mut out, &mut stack);
@@ -267,8 +277,11 @@ impl<'a> Layout<'a> {
                 let index = out.blocks.len() as u32;
                 let range = leaf.first_index as usize..(leaf.first_index + leaf.prim_count) as usize;
                 let mut block = TriangleBlock::EMPTY;
+                let first = out.sources.len();
+                out.sources.resize(first + LANES, NONE);
                 for (lane, &i) in self.bvh.primitive_indices[range].iter().enumerate() {
                     block.set(lane, &self.triangles[i as usize]);
+                    out.sources[first + lane] = i;
                 }
                 out.blocks.push(block);
                 RayNode::leaf(index, leaf.prim_count)

@@ -11,10 +11,17 @@ use super::flush::flush_tiny;
 use super::frame::emits;
 use super::model::{Channel, Counts, Interpolation, Material, Primitive, Scene, SceneData};
 use super::motion_bounds;
+use super::paint::{MAX_SIDE, Opacity, Paint, Picture};
 use super::transform::Transform;
 
 /// Most triangles of a frame, over all instances: 2^26, some 3 GiB of records, well inside 32-bit indices.
 pub const MAX_TRIANGLES: u64 = 1 << 26;
+
+/// Greatest magnitude of a texture coordinate: 2^20.
+const MAX_TEXTURE_COORDINATE: f32 = 1_048_576.0;
+
+/// Greatest factor on how far normals bend.
+const MAX_BUMP: f32 = 1024.0;
 
 impl Scene {
     /// Checks `data` and wraps it.
@@ -29,8 +36,14 @@ impl Scene {
         flush_tiny(&mut data);
         let check = Check { scene: &data.name };
         check.limit("nodes", data.nodes.len(), u64::from(u32::MAX))?;
+        for (index, picture) in data.pictures.iter().enumerate() {
+            check.picture(index, picture)?;
+        }
         for (index, material) in data.materials.iter().enumerate() {
             check.material(index, material)?;
+            if let Some(paint) = &material.paint {
+                check.paint(index, paint, data.pictures.len())?;
+            }
         }
         for (m, mesh) in data.meshes.iter().enumerate() {
             for (p, primitive) in mesh.primitives.iter().enumerate() {
@@ -162,6 +175,70 @@ impl Check<'_> {
         Ok(())
     }
 
+    fn picture(&self, index: usize, picture: &Picture) -> Result<(), SceneError> {
+        for size in [picture.width, picture.height] {
+            if !(1..=MAX_SIDE).contains(&size) {
+                let element = format!("a side of picture {index}");
+                return Err(self.out_of_range(element, size, "1 to 16384 texels"));
+            }
+        }
+        let texels = picture.width as usize * picture.height as usize;
+        self.length(
+            || format!("texel bytes of picture {index}"),
+            picture.texels.len(),
+            4 * texels,
+        )
+    }
+
+    fn paint(&self, index: usize, paint: &Paint, pictures: usize) -> Result<(), SceneError> {
+        let name = |what: &str| format!("{what} of the paint of material {index}");
+        self.color(|| name("radiance"), paint.radiance)?;
+        let [r, g, b, opacity] = paint.base;
+        for (what, value) in [
+            ("base colour", r),
+            ("base colour", g),
+            ("base colour", b),
+            ("opacity", opacity),
+            ("metallic", paint.metallic),
+            ("roughness", paint.roughness),
+            ("transmission", paint.transmission),
+        ] {
+            self.finite(|| name(what), &[value])?;
+            if !(0.0..=1.0).contains(&value) {
+                return Err(self.out_of_range(name(what), value, "0 to 1"));
+            }
+        }
+        self.finite(|| name("factor of normals"), &[paint.bump])?;
+        if paint.bump.abs() > MAX_BUMP {
+            return Err(self.out_of_range(
+                name("factor of normals"),
+                paint.bump,
+                "at most 2^10 in magnitude",
+            ));
+        }
+        if let Opacity::Cut(cutoff) = paint.opacity {
+            self.finite(|| name("cutoff"), &[cutoff])?;
+        }
+        for (what, texture) in paint.textures() {
+            self.index(
+                || name(&format!("picture of the {what}")),
+                texture.picture,
+                pictures,
+            )?;
+            let element = || name(&format!("place of the {what} texture"));
+            self.finite(element, texture.transform.as_flattened())?;
+            if let Some(&value) = texture
+                .transform
+                .as_flattened()
+                .iter()
+                .find(|x| x.abs() > MAX_TEXTURE_COORDINATE)
+            {
+                return Err(self.out_of_range(element(), value, "at most 2^20 in magnitude"));
+            }
+        }
+        Ok(())
+    }
+
     fn primitive(&self, name: &str, primitive: &Primitive, materials: usize) -> Result<(), SceneError> {
         self.index(|| format!("material of {name}"), primitive.material, materials)?;
         for (v, position) in primitive.positions.iter().enumerate() {
@@ -189,6 +266,20 @@ impl Check<'_> {
             )?;
             for (t, &rgb) in radiance.iter().enumerate() {
                 self.color(|| format!("radiance of triangle {t} of {name}"), rgb)?;
+            }
+        }
+        if let Some(coordinates) = &primitive.coordinates {
+            self.length(
+                || format!("texture coordinates of {name}"),
+                coordinates.len(),
+                vertices,
+            )?;
+            for (v, uv) in coordinates.iter().enumerate() {
+                self.finite(|| format!("texture coordinate {v} of {name}"), uv)?;
+                if let Some(&value) = uv.iter().find(|x| x.abs() > MAX_TEXTURE_COORDINATE) {
+                    let element = format!("texture coordinate {v} of {name}");
+                    return Err(self.out_of_range(element, value, "at most 2^20 in magnitude"));
+                }
             }
         }
         self.bends(name, primitive)

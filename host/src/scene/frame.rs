@@ -1,11 +1,14 @@
 //! One frame of a scene: world-space triangles and lights, in the same order every frame.
 
+use std::sync::Arc;
+
 use lightbvh::light::infinite::DistantLight;
 use lightbvh::light::{AnyLight, EmissiveTriangle, MIN_COORDINATE, TWO_SIDED};
 use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
+use lightbvh_kernels::shading::skin::Corner;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 
-use crate::render::View;
+use crate::render::{RayBvh, View};
 
 use super::analytic::AnalyticKind;
 use super::animate::Pose;
@@ -16,6 +19,7 @@ use super::framing;
 use super::lamps;
 use super::model::{Scene, SceneData};
 use super::scene_light::SceneLight;
+use super::skin_words::SkinArrays;
 use super::sky::Sky;
 use super::transform::unit_or;
 
@@ -46,6 +50,12 @@ pub struct Frame {
     pub others: Vec<AnyLight>,
     /// What is beyond all surfaces, but for the background.
     pub sky: Sky,
+    /// Triangles of clear glass, which passes over all kinds of light know, and no others.
+    pub clear: Vec<SurfaceTriangle>,
+    /// Where `triangles`, then those of `clear`, then `emissive` lie on textures; empty where nothing is painted.
+    pub corners: [Vec<Corner>; 3],
+    /// [`SkinArrays::words`](super::SkinArrays); empty where nothing is painted.
+    pub paint: Arc<Vec<u32>>,
     /// By [`SurfaceTriangle::material`]; the last one of lights by formula, where there are any.
     pub materials: Vec<SurfaceMaterial>,
     /// Where the frame is seen from.
@@ -65,12 +75,19 @@ impl Scene {
             mesh_lights: Vec::with_capacity(self.counts.mesh_lights),
             others: Vec::with_capacity(self.counts.analytic),
             sky: Sky::new(data.environment.clone(), suns(data, &pose)),
+            clear: Vec::new(),
+            corners: [const { Vec::new() }; 3],
+            paint: self.paint_words(),
             materials: data.materials.iter().map(super::Material::surface).collect(),
             camera: NOWHERE,
             background: data.background,
         };
         place_meshes(data, &pose, &mut out);
         lamps::place(data, &pose, &mut out);
+        if !out.paint.is_empty() {
+            // Lamps are not painted.
+            out.corners[0].resize(out.triangles.len(), UNPAINTED);
+        }
         out.camera = match data.cameras.first() {
             Some(camera) => view_of_node(&pose.world[camera.node as usize], camera.yfov),
             // The same in every frame.
@@ -85,6 +102,30 @@ impl Scene {
 }
 
 impl Frame {
+    /// What is painted on the triangles that `rays` are of: those of glass after the others.
+    pub fn skin(&self, rays: &RayBvh) -> SkinArrays {
+        if self.paint.is_empty() {
+            return SkinArrays::default();
+        }
+        let [opaque, clear, lights] = &self.corners;
+        let of = |&source: &u32| {
+            let source = source as usize;
+            let own = opaque
+                .get(source)
+                .or_else(|| clear.get(source.wrapping_sub(opaque.len())));
+            own.copied().unwrap_or(UNPAINTED)
+        };
+        SkinArrays {
+            corners: rays
+                .sources()
+                .iter()
+                .map(of)
+                .chain(lights.iter().copied())
+                .collect(),
+            words: Arc::clone(&self.paint),
+        }
+    }
+
     /// All lights that the type holds, in the order in which they are numbered.
     pub fn lights<L: SceneLight>(&self) -> Vec<L> {
         let triangles = self.emissive.iter().map(|&triangle| L::from(triangle));
@@ -106,6 +147,12 @@ fn suns(data: &SceneData, pose: &Pose) -> Vec<DistantLight> {
     })
     .collect()
 }
+
+/// Where nothing is painted.
+const UNPAINTED: Corner = Corner {
+    uv: [[0.0; 2]; 3],
+    material: NONE,
+};
 
 /// Until the frame's triangles are there to look at.
 const NOWHERE: View = View {
@@ -129,14 +176,33 @@ pub(super) fn place_meshes(data: &SceneData, pose: &Pose, out: &mut Frame) {
             let first = out.emissive.len() as u32;
             let Placed { points, mirrored } = pose.placed(data, index, primitive);
             let points: Vec<[f32; 3]> = points.into_iter().map(rounded).collect();
+            let is_painted = !out.paint.is_empty();
+            // Textures without coordinates are not shown.
+            let own = material.paint.as_ref().filter(|paint| paint.is_seen());
+            let lies =
+                own.is_some_and(|paint| primitive.coordinates.is_some() || paint.textures().next().is_none());
 
             for (triangle, &[a, b, c]) in primitive.triangles.iter().enumerate() {
-                if !primitive.is_shown(triangle, material) {
-                    continue;
-                }
                 // A mirrored instance would show its back; swapping two vertices keeps the front in front.
                 let [b, c] = if mirrored { [c, b] } else { [b, c] };
                 let p = [a, b, c].map(|vertex| points[vertex as usize]);
+                let uv = primitive.coordinates.as_ref().filter(|_| is_painted);
+                let corner = Corner {
+                    uv: uv.map_or([[0.0; 2]; 3], |uv| [a, b, c].map(|vertex| uv[vertex as usize])),
+                    material: if lies { primitive.material } else { NONE },
+                };
+                if !primitive.is_shown(triangle, material) {
+                    if own.is_some() {
+                        out.clear.push(SurfaceTriangle {
+                            p,
+                            material: primitive.material,
+                            light: NONE,
+                            instance: NONE,
+                        });
+                        out.corners[1].push(corner);
+                    }
+                    continue;
+                }
                 let radiance = primitive.triangle_radiance(triangle, material.radiance);
                 let light = if emits(radiance) {
                     out.emissive.push(EmissiveTriangle {
@@ -145,6 +211,9 @@ pub(super) fn place_meshes(data: &SceneData, pose: &Pose, out: &mut Frame) {
                         mesh: mesh_light,
                         flags,
                     });
+                    if is_painted {
+                        out.corners[2].push(corner);
+                    }
                     out.emissive.len() as u32 - 1
                 } else {
                     NONE
@@ -155,6 +224,9 @@ pub(super) fn place_meshes(data: &SceneData, pose: &Pose, out: &mut Frame) {
                     light,
                     instance: mesh_light,
                 });
+                if is_painted {
+                    out.corners[0].push(corner);
+                }
             }
 
             let count = out.emissive.len() as u32 - first;

@@ -2,6 +2,7 @@
 
 mod bend;
 mod material;
+mod paint;
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -38,7 +39,7 @@ impl Scene {
     ///
     /// Reading them back gives a scene with the same frames, word for word. Emission that differs from triangle to
     /// triangle, or whose channels are too far apart for a factor, goes into the vertex attribute `_RADIANCE`, the
-    /// background into the scene's `extras`.
+    /// background into the scene's `extras`. Pictures are PNG; where textures are turned, coordinates on them change by rounding.
     ///
     /// # Errors
     /// [`SceneError::TooMany`] beyond the 4 GiB that the container can name.
@@ -114,6 +115,16 @@ impl Writer {
             .filter(|&node| data.nodes[node].parent.is_none())
             .collect();
         let skins: Vec<Value> = data.skins.iter().map(|skin| self.skin(skin)).collect();
+        let images: Vec<Value> = data.pictures.iter().map(|own| self.picture(own)).collect();
+        let mut textures = paint::Textures::default();
+        let painted = |own: &Material| {
+            let mut written = material(own);
+            if let Some(paint) = &own.paint {
+                textures.paint(paint, &mut written);
+            }
+            written
+        };
+        let materials: Vec<Value> = data.materials.iter().map(painted).collect();
         let mut root = json!({
             "asset": { "version": "2.0", "generator": "lightbvh" },
             "extensionsUsed": ["KHR_materials_emissive_strength", "KHR_materials_transmission"],
@@ -121,7 +132,8 @@ impl Writer {
             "scenes": [{ "name": data.name, "nodes": roots, "extras": { BACKGROUND_EXTRA: data.background } }],
             "nodes": nodes(scene),
             "meshes": meshes,
-            "materials": data.materials.iter().map(material).collect::<Vec<_>>(),
+            "materials": materials,
+            "images": images,
             "animations": animations,
             "skins": skins,
             "cameras": cameras.collect::<Vec<_>>(),
@@ -129,6 +141,7 @@ impl Writer {
             "bufferViews": self.views,
             "buffers": [{ "byteLength": self.binary.len() }],
         });
+        textures.finish(&mut root);
         let lights: Vec<Value> = data.analytic.iter().filter_map(light).collect();
         if !lights.is_empty() {
             root["extensions"] = json!({ "KHR_lights_punctual": { "lights": lights } });
@@ -184,6 +197,13 @@ impl Writer {
         if let Some(radiance) = &radiance {
             let of_vertices: Vec<[f32; 3]> = radiance.iter().flat_map(|&rgb| [rgb; 3]).collect();
             attributes[format!("_{RADIANCE_ATTRIBUTE}")] = json!(self.floats(&of_vertices, "VEC3"));
+        }
+        if let Some(coordinates) = &primitive.coordinates {
+            let own: Vec<[f32; 2]> = match &order {
+                None => coordinates.clone(),
+                Some(order) => order.iter().map(|&vertex| coordinates[vertex as usize]).collect(),
+            };
+            attributes["TEXCOORD_0"] = json!(self.floats(&own, "VEC2"));
         }
         let words: Vec<[u8; 4]> = triangles
             .as_flattened()

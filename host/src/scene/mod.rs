@@ -33,10 +33,13 @@ mod lamps;
 mod load;
 mod model;
 mod motion_bounds;
+mod paint;
 mod random;
 mod scene_light;
 mod shapes;
+mod skin_words;
 mod sky;
+mod srgb;
 mod track;
 mod transform;
 
@@ -56,6 +59,8 @@ pub use load::{BUILT_IN, STAGE};
 pub use model::{
     Animation, Camera, Channel, Interpolation, Material, Mesh, Node, Primitive, Property, Scene, SceneData,
 };
+pub use paint::{IN_PLACE, MAX_SIDE, Opacity, Paint, Picture, Texture, Wrap};
 pub use scene_light::SceneLight;
+pub use skin_words::SkinArrays;
 pub use sky::Sky;
 pub use transform::Transform;

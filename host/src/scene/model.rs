@@ -11,6 +11,8 @@ use super::analytic::AnalyticLight;
 use super::deform::{Influence, MorphChannel, Skin};
 use super::error::SceneError;
 use super::frame::emits;
+use super::paint::{Paint, Picture};
+use super::skin_words;
 use super::transform::Transform;
 
 /// A scene that passed every check of [`Scene::new`]: finite, in range, references whole.
@@ -19,6 +21,8 @@ pub struct Scene {
     data: SceneData,
     /// Camera for scenes that bring none, made from frame 0 when it is asked for.
     pub(super) default_camera: OnceLock<View>,
+    /// What is painted on it, made when it is asked for.
+    paint: OnceLock<Arc<Vec<u32>>>,
     pub(super) counts: Counts,
 }
 
@@ -41,12 +45,23 @@ pub struct SceneData {
     pub skins: Vec<Skin>,
     /// Lights by formula.
     pub analytic: Vec<AnalyticLight>,
+    /// Named by textures.
+    pub pictures: Vec<Picture>,
     /// Radiance of rays that leave the scene, W/(m² sr), linear RGB, where there is no environment map.
     pub background: [f32; 3],
     /// Radiance from all directions: seen where nothing else is, and points are lit by it.
     pub environment: Option<Arc<Environment>>,
     /// What the loader left out, one sentence each.
     pub warnings: Vec<String>,
+}
+
+impl SceneData {
+    /// Whether anything is painted on any material.
+    pub fn is_painted(&self) -> bool {
+        self.materials
+            .iter()
+            .any(|material| material.paint.as_ref().is_some_and(Paint::is_seen))
+    }
 }
 
 /// One place in the hierarchy.
@@ -86,6 +101,8 @@ pub struct Primitive {
     pub material: u32,
     /// Radiance of each triangle where an emissive texture makes them differ; replaces the material's.
     pub radiance: Option<Vec<[f32; 3]>>,
+    /// Texture coordinates of each vertex, where the material has textures that lie by them.
+    pub coordinates: Option<Vec<[f32; 2]>>,
     /// Morph targets: how far each vertex is moved where the target's weight is 1; one without entries moves nothing.
     pub targets: Vec<Vec<[f32; 3]>>,
     /// Joints of each vertex, in sets of four.
@@ -107,10 +124,12 @@ pub struct Material {
     pub metallic: f32,
     /// Perceptual roughness in [0, 1].
     pub roughness: f32,
-    /// Whether alpha cuts parts of the surface out; the reference renderer takes it as opaque.
+    /// Whether alpha cuts parts of the surface out; where the reference renderer shows no [`paint`](Self::paint), it takes it as opaque.
     pub masked: bool,
     /// Share of light that goes straight through, in [0, 1]; see [`is_clear`](Self::is_clear).
     pub transmission: f32,
+    /// What is painted on it, of which all that stands above is the mean.
+    pub paint: Option<Paint>,
 }
 
 impl Default for Material {
@@ -124,33 +143,21 @@ impl Default for Material {
             roughness: 1.0,
             masked: false,
             transmission: 0.0,
+            paint: None,
         }
     }
 }
 
 impl Material {
-    /// Whether more light goes through than not. The reference renderer has no glass: surfaces of such a material that do not
-    /// emit are left out of frames, so that lamps behind them are not hidden.
+    /// Whether more light goes through than not. Where the reference renderer shows no [`paint`](Self::paint), it has no glass: surfaces of
+    /// such a material that do not emit are left out, so that lamps behind them are not hidden.
     pub fn is_clear(&self) -> bool {
         self.transmission >= 0.5
     }
 
-    /// Maps metallic and roughness to the reference renderer's two lobes.
-    ///
-    /// Normal-incidence reflectance is 0.04 for dielectrics and the base colour for metals (glTF 2.0, appendix B.2).
-    /// The exponent follows Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces",
-    /// section 5.2: n = 2/α² - 2 with α = roughness², rounded down to a power of two. The glossy lobe is white in the
-    /// reference renderer, so a metal keeps its colour in the diffuse lobe that is left.
+    /// The reference renderer's two lobes.
     pub fn surface(&self) -> SurfaceMaterial {
-        let [r, g, b] = self.base_color;
-        let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-        let alpha = (self.roughness * self.roughness).max(1.0 / 32.0);
-        let exponent = (2.0 / (alpha * alpha) - 2.0).clamp(1.0, 1024.0) as u32;
-        SurfaceMaterial {
-            albedo: self.base_color,
-            specular: 0.04 * (1.0 - self.metallic) + luminance * self.metallic,
-            exponent_log2: exponent.ilog2(),
-        }
+        SurfaceMaterial::of(self.base_color, self.metallic, self.roughness)
     }
 }
 
@@ -252,6 +259,7 @@ impl Scene {
         Self {
             data,
             default_camera: OnceLock::new(),
+            paint: OnceLock::new(),
             counts,
         }
     }
@@ -276,13 +284,41 @@ impl Scene {
         &self.data.warnings
     }
 
+    /// The scene with means in place of all that is painted on it.
+    pub fn unpainted(mut self) -> Self {
+        for material in &mut self.data.materials {
+            material.paint = None;
+        }
+        self.data.pictures.clear();
+        self.paint = OnceLock::new();
+        self
+    }
+
+    /// The words of [`SkinArrays`](super::SkinArrays).
+    pub(super) fn paint_words(&self) -> Arc<Vec<u32>> {
+        Arc::clone(self.paint.get_or_init(|| Arc::new(skin_words::words(&self.data))))
+    }
+
     /// What a command that knows emissive triangles alone leaves out.
     pub fn unknown_lights(&self) -> Option<String> {
-        self.has_kinds().then(|| {
+        let mut parts = Vec::new();
+        if self.has_other_lights() {
             let count = self.counts.analytic + self.counts.suns;
-            let map = if self.data.environment.is_some() { " and an environment map" } else { "" };
-            format!("{count} lights of other kinds than triangles{map} are left out here; `lightbvh render` and `verify` know them")
-        })
+            let map = if self.data.environment.is_some() {
+                " and an environment map"
+            } else {
+                ""
+            };
+            parts.push(format!(
+                "{count} lights of other kinds than triangles{map} are left out here"
+            ));
+        }
+        if self.data.is_painted() {
+            parts.push(String::from(
+                "textures are shown by their means here, and glass is left out",
+            ));
+        }
+        (!parts.is_empty()).then(|| format!("{}; `lightbvh render` and `verify` know them", parts.join("; ")))
     }
 
     /// Triangles of every frame.
@@ -306,8 +342,14 @@ impl Scene {
     }
 
     /// Whether it has other light than that of emissive triangles: lights by formula, suns, an environment map.
-    pub fn has_kinds(&self) -> bool {
+    pub fn has_other_lights(&self) -> bool {
         self.counts.analytic + self.counts.suns > 0 || self.data.environment.is_some()
+    }
+
+    /// Whether only passes over all kinds of light show all of it: it has [other lights](Self::has_other_lights), or something is painted on
+    /// its surfaces.
+    pub fn has_kinds(&self) -> bool {
+        self.has_other_lights() || self.data.is_painted()
     }
 
     /// For commands that sample emissive triangles.

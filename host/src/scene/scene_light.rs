@@ -3,8 +3,10 @@
 use lightbvh::EmissiveTriangle;
 use lightbvh::light::{AnyLight, Light};
 use lightbvh_kernels::shading::emitter::Emitter;
+use lightbvh_kernels::shading::skin::{NoSkin, SkinView};
 use lightbvh_kernels::shading::sky::{NoSky, SkyView};
 
+use super::skin_words::SkinArrays;
 use super::sky::Sky;
 use crate::render::triangle_flux;
 
@@ -18,6 +20,9 @@ pub trait SceneLight: Emitter + From<EmissiveTriangle> {
 
     /// What is beyond all surfaces, where such scenes know of it.
     fn sky(sky: &Sky) -> Self::Sky<'_>;
+
+    /// What is painted on surfaces, where such scenes know of it.
+    fn skin(skin: &SkinArrays) -> Self::Skin<'_>;
 
     /// Vertices of the light where it is a triangle; of another, three times the place it is at.
     fn corners(&self) -> [[f32; 3]; 3];
@@ -35,6 +40,10 @@ impl SceneLight for EmissiveTriangle {
 
     fn sky(_: &Sky) -> NoSky {
         NoSky
+    }
+
+    fn skin(_: &SkinArrays) -> NoSkin {
+        NoSkin
     }
 
     fn corners(&self) -> [[f32; 3]; 3] {
@@ -55,6 +64,10 @@ impl SceneLight for AnyLight {
 
     fn sky(sky: &Sky) -> SkyView<'_> {
         sky.view()
+    }
+
+    fn skin(skin: &SkinArrays) -> SkinView<'_> {
+        skin.view()
     }
 
     fn corners(&self) -> [[f32; 3]; 3] {

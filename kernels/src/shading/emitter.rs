@@ -11,6 +11,7 @@ use super::area::{Connection, NEAREST_SQUARED, OFFSET, connect, largest_componen
 use super::grid::{STEP, TINY, TINY_AREA, bounded_product, bounded_quotient, flush_vector, snap_point};
 use super::material::Material;
 use super::ray::Ray;
+use super::skin::{NoSkin, Skin, SkinView};
 use super::sky::{NoSky, Sky, SkyView};
 
 /// A light that points are lit by, and that rays may meet.
@@ -20,6 +21,9 @@ pub trait Emitter: Light {
 
     /// What scenes lit by such lights have beyond all surfaces.
     type Sky<'a>: Sky;
+
+    /// What is painted on the surfaces of such scenes.
+    type Skin<'a>: Skin;
 
     /// Connects `point` with the point of this light that `uv` chooses, where the light was chosen with probability `pmf`.
     fn connect(
@@ -42,6 +46,13 @@ pub trait Emitter: Light {
     /// The radiance of its surface, seen from its front or back.
     fn emitted(&self, front: bool) -> Vec3;
 
+    /// Its radiance, or what it has in place of that.
+    fn emission(&self) -> [f32; 3];
+
+    /// It with another.
+    #[must_use]
+    fn with_emission(self, emission: [f32; 3]) -> Self;
+
     /// The numbers that choose the point which the ray meets. Of lights that [are met](Self::is_met).
     fn coordinates(&self, ray: &Ray) -> [f32; 2];
 }
@@ -49,6 +60,7 @@ pub trait Emitter: Light {
 impl Emitter for EmissiveTriangle {
     const SUFFIX: &'static str = "";
     type Sky<'a> = NoSky;
+    type Skin<'a> = NoSkin;
 
     #[inline]
     fn connect(
@@ -78,6 +90,19 @@ impl Emitter for EmissiveTriangle {
     }
 
     #[inline]
+    fn emission(&self) -> [f32; 3] {
+        self.radiance
+    }
+
+    #[inline]
+    fn with_emission(self, emission: [f32; 3]) -> Self {
+        Self {
+            radiance: emission,
+            ..self
+        }
+    }
+
+    #[inline]
     fn coordinates(&self, ray: &Ray) -> [f32; 2] {
         // As the ray BVH has them.
         let p0 = snap_point(self.vertex(0));
@@ -103,6 +128,7 @@ fn shown(radiance: [f32; 3], is_seen: bool) -> Vec3 {
 impl Emitter for AnyLight {
     const SUFFIX: &'static str = "_any";
     type Sky<'a> = SkyView<'a>;
+    type Skin<'a> = SkinView<'a>;
 
     #[inline]
     fn connect(
@@ -132,7 +158,17 @@ impl Emitter for AnyLight {
 
     #[inline]
     fn emitted(&self, front: bool) -> Vec3 {
-        shown(self.emission(), front || self.is_two_sided())
+        shown(Self::emission(self), front || self.is_two_sided())
+    }
+
+    #[inline]
+    fn emission(&self) -> [f32; 3] {
+        Self::emission(self)
+    }
+
+    #[inline]
+    fn with_emission(self, emission: [f32; 3]) -> Self {
+        Self::with_emission(self, emission)
     }
 
     #[inline]

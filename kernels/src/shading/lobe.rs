@@ -77,12 +77,15 @@ pub fn cosine_power(n: Vec3, v: Vec3, log2: u32) -> f32 {
         let mut defect = if near { sin_squared } else { 1.0 - cos_squared };
         power = if near { 1.0 - sin_squared } else { cos_squared };
         let steps = if log2 > 0 { log2 - 1 } else { 0 };
-        for _ in 0..steps {
+        // No range: one may panic for all that rust-gpu knows, and what may panic it inlines wherever it is called.
+        let mut step = 0;
+        while step < steps {
             let near = defect < 0.5;
             let squared_defect = defect * (2.0 - defect);
             let squared_power = flush(power * power, STEP);
             defect = if near { squared_defect } else { 1.0 - squared_power };
             power = if near { 1.0 - squared_defect } else { squared_power };
+            step += 1;
         }
         power = if log2 == 0 { sqrt(power) } else { power };
     }

@@ -10,6 +10,7 @@
 //! | [`emitter`] | a light as the renderer shows it, of triangles alone or of any kind |
 //! | [`area`] | a point on the chosen light, and what it contributes |
 //! | [`sky`] | light from without end: an environment map and suns |
+//! | [`skin`], [`picture`], [`tangent`] | textures: colours, glow, what is cut out, what light goes through, bent normals |
 //! | [`pick`] | the choice of a light: the trait, uniform and by power |
 //! | [`picks`] | the lights of a pixel's samples |
 //! | [`candidates`] | one light out of several, by what they would contribute |
@@ -36,8 +37,11 @@ pub mod numbers;
 pub mod path;
 pub mod pick;
 pub mod picks;
+pub mod picture;
 pub mod pixel;
 pub mod ray;
 pub mod restir;
+pub mod skin;
 pub mod sky;
+pub mod tangent;
 pub mod trace;

@@ -10,10 +10,11 @@ use super::emitter::Emitter;
 use super::grid::{STEP, TINY, bounded_product, flush_vector};
 use super::mis::power_heuristic;
 use super::pick::PickLight;
-use super::pixel::{Scene, encounter, load_material};
+use super::pixel::{Scene, encounter};
 use super::ray::{FAR, Ray};
-use super::sky::{Sky, hides, is_lit};
-use super::trace::{NONE, any_hit};
+use super::skin::{SHADOW, Skin, Through};
+use super::sky::{Sky, is_lit, unhidden};
+use super::trace::{NONE, through};
 
 /// Most surfaces that a path may be reflected by.
 pub const MAX_BOUNCES: u32 = 64;
@@ -79,11 +80,14 @@ pub fn path_radiance<L: Emitter, P: PickLight>(
             weight = power_heuristic(density, scene.sky.density(&from, ray.direction));
         }
         radiance += bounded(throughput, seen.direct * weight);
+        if <L::Skin<'_> as Skin>::IS_PAINTED {
+            throughput = bounded(throughput, seen.tint);
+        }
 
         let n = flush_vector(seen.point.normal(), STEP);
         alive = bounce < bounces && length_squared(n) > 0.0 && seen.material < scene.materials.len() as u32;
         if alive {
-            let material = load_material(scene.materials, seen.material);
+            let material = scene.material(&seen);
             let picked = picker.pick(
                 &seen.point,
                 Random64::from(hash(random.wrapping_add(RANDOM_LIGHT))),
@@ -91,13 +95,15 @@ pub fn path_radiance<L: Emitter, P: PickLight>(
             if picked.pmf > 0.0 {
                 let light = scene.emitters.light(picked.light, picked.instance);
                 let uv = [draw(random, RANDOM_LIGHT + 1), draw(random, RANDOM_LIGHT + 2)];
+                let light = scene.glowing(light, picked.light, uv);
                 let connection = light.connect(&seen.point, seen.wo, &material, picked.pmf, uv);
                 if connection.contribution.x + connection.contribution.y + connection.contribution.z > 0.0 {
                     let origin = seen.point.position();
                     let shadow = Ray::new(origin, connection.target - origin, 1.0);
-                    if !any_hit(&scene.surfaces, &shadow, picked.light) {
+                    let open = through::<SHADOW, _>(&scene.surfaces, &shadow, picked.light);
+                    if open.is_open() {
                         let weight = power_heuristic(connection.density, connection.scattering_density);
-                        radiance += bounded(throughput, connection.contribution * weight);
+                        radiance += bounded(throughput, open.of(connection.contribution) * weight);
                     }
                 }
             }
@@ -106,9 +112,10 @@ pub fn path_radiance<L: Emitter, P: PickLight>(
                 let uv = [draw(random, RANDOM_SKY + 1), draw(random, RANDOM_SKY + 2)];
                 let number = hash(random.wrapping_add(RANDOM_SKY));
                 let arriving = scene.sky.connect(&seen.point, seen.wo, &material, number, uv);
-                if is_lit(&arriving) && !hides(scene, &seen.point, arriving.direction) {
+                if is_lit(&arriving) {
+                    let left = unhidden(scene, &seen.point, arriving.direction, arriving.contribution);
                     let weight = power_heuristic(arriving.density, arriving.scattering_density);
-                    radiance += bounded(throughput, arriving.contribution * weight);
+                    radiance += bounded(throughput, left * weight);
                 }
             }
 

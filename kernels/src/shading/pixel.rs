@@ -17,9 +17,10 @@ use super::pick::PickLight;
 use super::picks::Picks;
 use super::ray::Ray;
 use super::restir::surface::Surface;
-use super::restir::target::{lit, weighted};
+use super::restir::target::{as_painted, lit, weighted};
+use super::skin::{GLASS, SHADOW, Skin, Spot, Through};
 use super::sky::{Sky, sky_sample};
-use super::trace::{LANES, NONE, RayNode, Surfaces, TriangleBlock, any_hit, closest_hit, vertex};
+use super::trace::{LANES, NONE, RayNode, Surfaces, TriangleBlock, seen_hit, through, vertex};
 
 /// Most candidates of a sample.
 pub const MAX_CANDIDATES: u32 = 1 << 8;
@@ -28,7 +29,7 @@ pub const MAX_CANDIDATES: u32 = 1 << 8;
 #[derive(Clone, Copy)]
 pub struct Scene<'a, L: Emitter = EmissiveTriangle> {
     /// What rays hit.
-    pub surfaces: Surfaces<'a>,
+    pub surfaces: Surfaces<'a, L::Skin<'a>>,
     /// How it reflects; indexed by the triangles.
     pub materials: &'a [Material],
     /// What of it emits.
@@ -48,13 +49,42 @@ impl<'a, L: Emitter> Scene<'a, L> {
         triangles: &'a [L],
         instances: &'a [Instance],
         sky: L::Sky<'a>,
+        skin: L::Skin<'a>,
     ) -> Self {
         Self {
-            surfaces: Surfaces { nodes, blocks },
+            surfaces: Surfaces { nodes, blocks, skin },
             materials,
             emitters: Emitters { triangles, instances },
             sky,
         }
+    }
+
+    /// How what was seen reflects.
+    #[inline]
+    #[must_use]
+    pub fn material(&self, seen: &Seen) -> Material {
+        self.surfaces
+            .skin
+            .material(self.materials, seen.material, &seen.spot)
+    }
+
+    /// `light`, which is number `number`, as it glows at the point that `uv` chooses.
+    #[inline]
+    #[must_use]
+    pub fn glowing(&self, light: L, number: u32, uv: [f32; 2]) -> L {
+        let mut glowing = light;
+        if <L::Skin<'_> as Skin>::IS_PAINTED {
+            // As `uniform_point` folds them.
+            let fold = uv[0] + uv[1] > 1.0;
+            let at = if fold { [1.0 - uv[0], 1.0 - uv[1]] } else { uv };
+            let blocks = self.surfaces.blocks;
+            let emission = self
+                .surfaces
+                .skin
+                .glow::<true>(blocks, number, at, light.emission());
+            glowing = light.with_emission(emission);
+        }
+        glowing
     }
 }
 
@@ -68,8 +98,12 @@ pub struct Seen {
     pub wo: Vec3,
     /// Index of the material.
     pub material: u32,
-    /// What arrives without being reflected: the radiance of a light seen directly, or the background.
+    /// What arrives without being reflected: the radiance of a light seen directly, or the background, through what is clear before it.
     pub direct: Vec3,
+    /// What was met.
+    pub spot: Spot,
+    /// What clear surfaces leave of the light that comes from there, where there may be such.
+    pub tint: Vec3,
 }
 
 /// What a ray meets, and how far away.
@@ -99,7 +133,7 @@ pub fn see<L: Emitter>(scene: &Scene<'_, L>, ray: &Ray, background: Vec3) -> See
 #[must_use]
 pub fn encounter<L: Emitter>(scene: &Scene<'_, L>, ray: &Ray, background: Vec3) -> Encounter {
     let blocks = scene.surfaces.blocks;
-    let hit = closest_hit(&scene.surfaces, ray);
+    let hit = seen_hit(&scene.surfaces, ray);
     let mut seen = Seen {
         point: ShadingPoint {
             p: [0.0; 3],
@@ -108,6 +142,11 @@ pub fn encounter<L: Emitter>(scene: &Scene<'_, L>, ray: &Ray, background: Vec3) 
         wo: Vec3::ZERO,
         material: 0,
         direct: scene.sky.seen(ray.direction, background),
+        spot: Spot {
+            triangle: hit.triangle,
+            at: [0.0; 2],
+        },
+        tint: Vec3::ONE,
     };
     let mut light = NONE;
     let mut instance = NONE;
@@ -121,20 +160,30 @@ pub fn encounter<L: Emitter>(scene: &Scene<'_, L>, ray: &Ray, background: Vec3) 
         let m = flush_vector(cross(e1, e2), TINY_AREA);
         let length = sqrt(length_squared(m));
         let front = dot(m, ray.direction) < 0.0;
+        let [a, b] = ray.barycentric(p0, e1, e2);
+        seen.spot.at = [a, b];
         if length > TINY_AREA {
             let side = div(if front { 1.0 } else { -1.0 }, length);
             let n = m * side;
-            let p = hit_point(ray, p0, e1, e2) + n * offset_distance(p0, p1, p2);
+            // From the barycentric coordinates: off the plane only by the rounding of the triangle's own coordinates, however far away
+            // the ray started.
+            let p = ((p0 + e1 * a) + e2 * b) + n * offset_distance(p0, p1, p2);
+            seen.wo = -ray.direction * div(1.0, sqrt(length_squared(ray.direction)));
+            let n = scene.surfaces.skin.normal(blocks, &seen.spot, n, seen.wo);
             seen.point = ShadingPoint {
                 p: [p.x, p.y, p.z],
                 n: [n.x, n.y, n.z],
             };
-            seen.wo = -ray.direction * div(1.0, sqrt(length_squared(ray.direction)));
         }
         seen.material = blocks[block].material[lane];
         light = blocks[block].light[lane];
         instance = blocks[block].instance[lane];
-        seen.direct = emitted(&scene.emitters, light, instance, front);
+        seen.direct = emitted(scene, light, instance, front, seen.spot.at);
+    }
+    if <L::Skin<'_> as Skin>::IS_PAINTED && scene.surfaces.skin.has_glass() {
+        let before = Ray { t_max: hit.t, ..*ray };
+        seen.tint = through::<GLASS, _>(&scene.surfaces, &before, NONE).of(Vec3::ONE);
+        seen.direct = flush_vector(seen.direct * seen.tint, TINY);
     }
     Encounter {
         seen,
@@ -145,20 +194,22 @@ pub fn encounter<L: Emitter>(scene: &Scene<'_, L>, ray: &Ray, background: Vec3) 
     }
 }
 
-/// The point where `ray` meets the plane of a triangle it is known to hit, from its barycentric coordinates: off the plane
-/// only by the rounding of the triangle's own coordinates, however far away the ray started.
-#[inline]
-fn hit_point(ray: &Ray, p0: Vec3, e1: Vec3, e2: Vec3) -> Vec3 {
-    let [a, b] = ray.barycentric(p0, e1, e2);
-    (p0 + e1 * a) + e2 * b
-}
-
 /// The radiance of a light seen from its front or back; none where there is no such light.
 #[inline]
-fn emitted<L: Emitter>(emitters: &Emitters<'_, L>, light: u32, instance: u32, front: bool) -> Vec3 {
+fn emitted<L: Emitter>(scene: &Scene<'_, L>, light: u32, instance: u32, front: bool, at: [f32; 2]) -> Vec3 {
     let mut radiance = Vec3::ZERO;
     if light != NONE {
-        radiance = emitters.light(light, instance).emitted(front);
+        let mut own = scene.emitters.light(light, instance);
+        if <L::Skin<'_> as Skin>::IS_PAINTED {
+            let blocks = scene.surfaces.blocks;
+            own = own.with_emission(
+                scene
+                    .surfaces
+                    .skin
+                    .glow::<false>(blocks, light, at, own.emission()),
+            );
+        }
+        radiance = own.emitted(front);
     }
     radiance
 }
@@ -213,7 +264,12 @@ pub fn reflected<L: Emitter, P: PickLight>(
         one_by_one(scene, seen, picker, samples, seed)
     };
     let count = if samples.count == 0 { 1 } else { samples.count };
-    flush_vector(sum * div(1.0, count as i32 as f32), TINY)
+    let mean = flush_vector(sum * div(1.0, count as i32 as f32), TINY);
+    if <L::Skin<'_> as Skin>::IS_PAINTED {
+        flush_vector(mean * seen.tint, TINY)
+    } else {
+        mean
+    }
 }
 
 /// The numbers of `samples` of so many lights each.
@@ -234,7 +290,7 @@ fn one_by_one<L: Emitter, P: PickLight>(
     let n = seen.point.normal();
     let mut sum = Vec3::ZERO;
     if length_squared(n) > 0.0 && seen.material < scene.materials.len() as u32 {
-        let material = load_material(scene.materials, seen.material);
+        let material = scene.material(seen);
         let mut picks = Picks::new(
             numbers(seed, samples, 1),
             samples.first,
@@ -246,12 +302,14 @@ fn one_by_one<L: Emitter, P: PickLight>(
             if picked.pmf > 0.0 {
                 let light = scene.emitters.light(picked.light, picked.instance);
                 let uv = picks.uv(sample);
+                let light = scene.glowing(light, picked.light, uv);
                 let connection = light.connect(&seen.point, seen.wo, &material, picked.pmf, uv);
                 if connection.contribution.x + connection.contribution.y + connection.contribution.z > 0.0 {
                     let origin = seen.point.position();
                     let ray = Ray::new(origin, connection.target - origin, 1.0);
-                    if !any_hit(&scene.surfaces, &ray, picked.light) {
-                        sum += connection.contribution;
+                    let open = through::<SHADOW, _>(&scene.surfaces, &ray, picked.light);
+                    if open.is_open() {
+                        sum += open.of(connection.contribution);
                     }
                 }
             }
@@ -280,6 +338,7 @@ fn one_of_many<L: Emitter, P: PickLight>(
     let surface = Surface::new(seen, seen.point.position());
     let mut sum = Vec3::ZERO;
     if surface.is_lit() && surface.material < scene.materials.len() as u32 {
+        let material = scene.material(seen);
         let of_all = |samples: u32| samples.wrapping_mul(count);
         let mut picks = Picks::new(
             numbers(seed, samples, count),
@@ -301,11 +360,11 @@ fn one_of_many<L: Emitter, P: PickLight>(
                 let arriving = lit(scene.materials, &scene.emitters, &surface, &sample);
                 let factor = chosen.arrives(scene, &surface, &arriving);
                 if factor > 0.0 {
-                    sum += weighted(arriving.contribution, min(weight * factor, MAX_WEIGHT));
+                    let contribution = as_painted(scene, &surface, &material, &sample, &arriving);
+                    sum += weighted(contribution, min(weight * factor, MAX_WEIGHT));
                 }
             }
             if <L::Sky<'_> as Sky>::IS_SAMPLED {
-                let material = load_material(scene.materials, surface.material);
                 sum += sky_sample(scene, &surface.point, seen.wo, &material, seed, number);
             }
         }

@@ -12,7 +12,8 @@ use super::grid::{STEP, bounded_product, bounded_quotient, flush_vector};
 use super::material::Material;
 use super::pixel::Scene;
 use super::ray::{FAR, Ray};
-use super::trace::{NONE, any_hit};
+use super::skin::{SHADOW, Through};
+use super::trace::{NONE, through};
 
 /// Most sources: the environment, and suns.
 const SOURCES: usize = 8;
@@ -228,8 +229,8 @@ pub fn sky_sample<L: Emitter>(
         let at = |k: u32, step: u32| hash(seed.wrapping_add(k)).wrapping_add(number.wrapping_mul(step));
         let uv = [unit_f32(at(1, R3[1])), unit_f32(at(2, R3[2]))];
         let arriving = scene.sky.connect(point, wo, material, at(0, R3[0]), uv);
-        if is_lit(&arriving) && !hides(scene, point, arriving.direction) {
-            reflected = arriving.contribution;
+        if is_lit(&arriving) {
+            reflected = unhidden(scene, point, arriving.direction, arriving.contribution);
         }
     }
     reflected
@@ -242,9 +243,20 @@ pub fn is_lit(arriving: &Arriving) -> bool {
     arriving.contribution.x + arriving.contribution.y + arriving.contribution.z > 0.0
 }
 
-/// Whether anything lies in a direction.
+/// What of `light` comes from a direction: nothing where anything lies there that lets none through.
 #[inline]
 #[must_use]
-pub fn hides<L: Emitter>(scene: &Scene<'_, L>, point: &ShadingPoint, direction: Vec3) -> bool {
-    any_hit(&scene.surfaces, &Ray::new(point.position(), direction, FAR), NONE)
+pub fn unhidden<L: Emitter>(
+    scene: &Scene<'_, L>,
+    point: &ShadingPoint,
+    direction: Vec3,
+    light: Vec3,
+) -> Vec3 {
+    let ray = Ray::new(point.position(), direction, FAR);
+    let open = through::<SHADOW, _>(&scene.surfaces, &ray, NONE);
+    let mut left = Vec3::ZERO;
+    if open.is_open() {
+        left = open.of(light);
+    }
+    left
 }

@@ -6,6 +6,7 @@ use lightbvh::exact::{max, min, pow2};
 use lightbvh::widest::widest;
 
 use super::ray::{FAR, MISS, Meeting, Ray};
+use super::skin::{FIND, NoSkin, SEE, SHADOW, Skin, Through};
 
 /// No triangle, no light.
 pub const NONE: u32 = u32::MAX;
@@ -133,11 +134,13 @@ impl TriangleBlock {
 
 /// The scene as rays see it.
 #[derive(Clone, Copy)]
-pub struct Surfaces<'a> {
+pub struct Surfaces<'a, S = NoSkin> {
     /// The ray BVH.
     pub nodes: &'a [RayNode],
     /// What its leaves hold.
     pub blocks: &'a [TriangleBlock],
+    /// What is painted on it.
+    pub skin: S,
 }
 
 /// The first triangle on a ray.
@@ -161,35 +164,76 @@ pub fn vertex(blocks: &[TriangleBlock], index: u32, k: usize) -> Vec3 {
     )
 }
 
-/// The nearest hit of the ray; of equally near ones, the first in the order of the triangles.
+/// A hit, and what is left of light on the way to it.
+#[derive(Clone, Copy)]
+struct Found<T> {
+    hit: Hit,
+    through: T,
+}
+
+/// The nearest hit of the ray; of equally near ones, the first in the order of the triangles. What lets any light through is passed by.
 #[inline]
 #[must_use]
-pub fn closest_hit(surfaces: &Surfaces<'_>, ray: &Ray) -> Hit {
+pub fn closest_hit<S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray) -> Hit {
+    nearest::<FIND, S>(surfaces, ray)
+}
+
+/// The nearest hit of the ray as an eye has it: what covers a part of what is behind it is met as often.
+#[inline]
+#[must_use]
+pub fn seen_hit<S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray) -> Hit {
+    nearest::<SEE, S>(surfaces, ray)
+}
+
+/// The nearest hit of the ray, for a mode of [`Skin::meets`].
+#[inline]
+#[must_use]
+pub fn nearest<const MODE: u32, S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray) -> Hit {
     widest(
         #[inline(always)]
-        || walk::<false>(surfaces, ray, NONE),
+        || walk::<MODE, S>(surfaces, ray, NONE).hit,
     )
 }
 
-/// Whether anything but the emissive triangle `except` lies on the ray. A light so never shadows itself, whatever the
-/// rounding.
+/// Whether anything but the emissive triangle `except` lies on the ray that lets no light through. A light so never shadows itself,
+/// whatever the rounding.
 #[inline]
 #[must_use]
-pub fn any_hit(surfaces: &Surfaces<'_>, ray: &Ray, except: u32) -> bool {
+pub fn any_hit<S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray, except: u32) -> bool {
     widest(
         #[inline(always)]
-        || walk::<true>(surfaces, ray, except).triangle != NONE,
+        || walk::<SHADOW, S>(surfaces, ray, except).hit.triangle != NONE,
+    )
+}
+
+/// What of light comes along the ray, for a mode of [`Skin::meets`]; `except` as for [`any_hit`].
+#[inline]
+#[must_use]
+pub fn through<const MODE: u32, S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray, except: u32) -> S::Through {
+    widest(
+        #[inline(always)]
+        || {
+            let found = walk::<MODE, S>(surfaces, ray, except);
+            if found.hit.triangle == NONE {
+                found.through
+            } else {
+                S::Through::NOTHING
+            }
+        },
     )
 }
 
 /// Visits each node once at most, and a block of triangles for each of its children, whatever the words in the buffers.
 #[inline(always)]
-fn walk<const ANY: bool>(surfaces: &Surfaces<'_>, ray: &Ray, except: u32) -> Hit {
+fn walk<const MODE: u32, S: Skin>(surfaces: &Surfaces<'_, S>, ray: &Ray, except: u32) -> Found<S::Through> {
     let nodes = surfaces.nodes;
     let end = nodes.len() as u32;
-    let mut hit = Hit {
-        triangle: NONE,
-        t: ray.t_max,
+    let mut found = Found {
+        hit: Hit {
+            triangle: NONE,
+            t: ray.t_max,
+        },
+        through: S::Through::ALL,
     };
     // Nodes on the path to `index` whose later children are still to be visited: which node, and which children.
     let mut path = [0_u32; MAX_DEPTH];
@@ -205,19 +249,19 @@ fn walk<const ANY: bool>(surfaces: &Surfaces<'_>, ray: &Ray, except: u32) -> Hit
         let first = child >> LEAF_BITS;
         let count = child & ((1 << LEAF_BITS) - 1);
         if count != 0 {
-            hit = hit_leaf::<ANY>(surfaces.blocks, first, count, ray, except, hit);
+            found = hit_leaf::<MODE, S>(surfaces, first, count, ray, except, found);
         }
         if count == 0 && first >= next && first < end {
             next = first + 1;
-            let found = hit_boxes(nodes, first, ray, hit.t);
-            if found != 0 {
+            let met = hit_boxes(nodes, first, ray, found.hit.t);
+            if met != 0 {
                 if left != 0 && depth < MAX_DEPTH {
                     path[depth] = index;
                     path_left[depth] = left;
                     depth += 1;
                 }
                 index = first;
-                left = found;
+                left = met;
             }
         }
         if left == 0 && depth > 0 {
@@ -225,14 +269,14 @@ fn walk<const ANY: bool>(surfaces: &Surfaces<'_>, ray: &Ray, except: u32) -> Hit
             index = path[depth];
             left = path_left[depth];
         }
-        go = left != 0 && !(ANY && hit.triangle != NONE);
+        go = left != 0 && !(MODE == SHADOW && found.hit.triangle != NONE);
         if go {
             let k = left.trailing_zeros() as usize & (WIDTH - 1);
             child = nodes[index as usize].children[k];
             left &= left - 1;
         }
     }
-    hit
+    found
 }
 
 /// The nearest of `hit` and what the ray meets among the triangles of a block, which are tested all at once. Lanes without a triangle
@@ -242,16 +286,16 @@ fn walk<const ANY: bool>(surfaces: &Surfaces<'_>, ray: &Ray, except: u32) -> Hit
 #[cfg(not(target_arch = "spirv"))]
 #[allow(clippy::needless_range_loop)]
 #[inline(always)]
-fn hit_leaf<const ANY: bool>(
-    blocks: &[TriangleBlock],
+fn hit_leaf<const MODE: u32, S: Skin>(
+    surfaces: &Surfaces<'_, S>,
     index: u32,
     _count: u32,
     ray: &Ray,
     except: u32,
-    hit: Hit,
-) -> Hit {
-    let mut hit = hit;
-    if let Some(block) = blocks.get(index as usize) {
+    found: Found<S::Through>,
+) -> Found<S::Through> {
+    let mut found = found;
+    if let Some(block) = surfaces.blocks.get(index as usize) {
         let corner =
             |k: usize, lane: usize| Vec3::new(block.p[k][0][lane], block.p[k][1][lane], block.p[k][2][lane]);
         let (mut t, mut determinant, mut near) = ([0.0; LANES], [0.0; LANES], [0; LANES]);
@@ -259,7 +303,7 @@ fn hit_leaf<const ANY: bool>(
             let met = ray.meet(corner(0, lane), corner(1, lane), corner(2, lane));
             t[lane] = met.t;
             determinant[lane] = met.determinant;
-            near[lane] = u32::from(met.inside & (met.t < hit.t * met.determinant)) << lane;
+            near[lane] = u32::from(met.inside & (met.t < found.hit.t * met.determinant)) << lane;
         }
         let mut left = 0;
         for lane in 0..LANES {
@@ -274,24 +318,25 @@ fn hit_leaf<const ANY: bool>(
                 inside: true,
             };
             let triangle = index * LANES as u32 + lane as u32;
-            hit = nearer::<ANY>(hit, met, block.light[lane], except, triangle);
+            found = nearer::<MODE, S>(surfaces, ray, found, met, block.light[lane], except, triangle);
         }
     }
-    hit
+    found
 }
 
 /// The same one by one: an invocation of a device is a lane itself.
 #[cfg(target_arch = "spirv")]
 #[inline(always)]
-fn hit_leaf<const ANY: bool>(
-    blocks: &[TriangleBlock],
+fn hit_leaf<const MODE: u32, S: Skin>(
+    surfaces: &Surfaces<'_, S>,
     index: u32,
     count: u32,
     ray: &Ray,
     except: u32,
-    hit: Hit,
-) -> Hit {
-    let mut hit = hit;
+    found: Found<S::Through>,
+) -> Found<S::Through> {
+    let mut found = found;
+    let blocks = surfaces.blocks;
     if index < blocks.len() as u32 {
         let i = index as usize;
         let lanes = if count < LANES as u32 { count } else { LANES as u32 };
@@ -302,22 +347,37 @@ fn hit_leaf<const ANY: bool>(
                 vertex(blocks, triangle, 1),
                 vertex(blocks, triangle, 2),
             );
-            hit = nearer::<ANY>(hit, met, blocks[i].light[lane as usize], except, triangle);
+            let light = blocks[i].light[lane as usize];
+            found = nearer::<MODE, S>(surfaces, ray, found, met, light, except, triangle);
         }
     }
-    hit
+    found
 }
 
-/// The nearer of `hit` and a triangle that is `light`.
+/// The nearer of what was found and a triangle that is `light`.
 #[inline(always)]
-fn nearer<const ANY: bool>(hit: Hit, met: Meeting, light: u32, except: u32, triangle: u32) -> Hit {
-    let t = met.before(hit.t);
-    let excepted = ANY && except != NONE && light == except;
+fn nearer<const MODE: u32, S: Skin>(
+    surfaces: &Surfaces<'_, S>,
+    ray: &Ray,
+    found: Found<S::Through>,
+    met: Meeting,
+    light: u32,
+    except: u32,
+    triangle: u32,
+) -> Found<S::Through> {
+    let t = met.before(found.hit.t);
+    let excepted = MODE == SHADOW && except != NONE && light == except;
+    let mut nearer = found;
     if t != MISS && !excepted {
-        Hit { triangle, t }
-    } else {
-        hit
+        let (stops, through) = surfaces
+            .skin
+            .meets::<MODE>(surfaces.blocks, ray, triangle, found.through);
+        nearer.through = through;
+        if stops {
+            nearer.hit = Hit { triangle, t };
+        }
     }
+    nearer
 }
 
 /// The children of a node whose boxes the ray comes through before `nearest`, a bit for each. Never misses a box that the ray touches

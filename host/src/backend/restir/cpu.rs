@@ -59,7 +59,7 @@ pub(in crate::backend) fn resample<L: SceneLight, P: PickLight + Sync>(
         reservoirs = match options.combination {
             Combination::Unbiased => {
                 let combine = Unbiased {
-                    surfaces: last.scene.rays.surfaces(),
+                    surfaces: last.scene.surfaces(),
                     emitters: Emitters {
                         triangles: &left.triangles,
                         instances: &left.instances,

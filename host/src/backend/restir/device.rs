@@ -76,8 +76,13 @@ fn render<C: Choice<W, Light: SceneLight>, const W: usize>(
     };
 
     let inputs = scene.with_lights(options.source, &backend.tree);
-    let sky = scene.sky();
-    let bindings = [inputs.as_slice(), &[gbuffer.bind(), reservoirs.bind()], &sky].concat();
+    let surroundings = scene.surroundings();
+    let bindings = [
+        inputs.as_slice(),
+        &[gbuffer.bind(), reservoirs.bind()],
+        &surroundings,
+    ]
+    .concat();
     let kernel = kernel_name::<C, W>("restir_initial", options.source);
     passes.run(backend, &kernel, &bindings, &params, tree, options.candidates)?;
 
@@ -109,7 +114,7 @@ fn render<C: Choice<W, Light: SceneLight>, const W: usize>(
         let (kernel, bindings) = match options.combination {
             Combination::Unbiased => (
                 "restir_temporal_unbiased",
-                [then.as_slice(), common.as_slice()].concat(),
+                [then.as_slice(), common.as_slice(), &left.scene.skin()].concat(),
             ),
             Combination::Biased => ("restir_temporal_biased", common.to_vec()),
         };
@@ -122,18 +127,18 @@ fn render<C: Choice<W, Light: SceneLight>, const W: usize>(
         let pixel_buffers = [gbuffer.bind(), reservoirs.bind(), merged.bind()];
         let all = [scene.view().as_slice(), &pixel_buffers].concat();
         let (kernel, bindings) = match options.combination {
-            Combination::Unbiased => ("restir_spatial_unbiased", all.as_slice()),
+            Combination::Unbiased => ("restir_spatial_unbiased", [all, scene.skin()].concat()),
             // No rays, no buffers to trace them through.
-            Combination::Biased => ("restir_spatial_biased", &all[2..]),
+            Combination::Biased => ("restir_spatial_biased", all[2..].to_vec()),
         };
         let work = options.neighbors.saturating_add(1).saturating_mul(2);
-        passes.run(backend, &of_lights(kernel), bindings, &params, none, work)?;
+        passes.run(backend, &of_lights(kernel), &bindings, &params, none, work)?;
         reservoirs = merged;
     }
     let output = device.buffer::<Shaded>(pixels, 0)?;
     passes.pass.clear(&output);
     let pixel_buffers = [gbuffer.bind(), reservoirs.bind(), output.bind()];
-    let bindings = [scene.view().as_slice(), &pixel_buffers, &sky].concat();
+    let bindings = [scene.view().as_slice(), &pixel_buffers, &surroundings].concat();
     passes.run(backend, &of_lights("restir_shade"), &bindings, &params, none, 2)?;
     let submitted = passes.end(backend)?;
     let shaded = output.read()?;

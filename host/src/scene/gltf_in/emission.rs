@@ -10,11 +10,11 @@ use super::material::Look;
 use super::texture::Placed;
 use super::{Document, RADIANCE_ATTRIBUTE};
 
-/// Texels looked at for one primitive, about: 2^26.
-const MAX_LOOKUPS: u32 = 1 << 26;
+/// Texels looked at for one primitive, about: 2^24.
+const MAX_LOOKUPS: u32 = 1 << 24;
 
 /// Finest subdivision of one triangle for the mean of a texture.
-const MAX_STEPS: f64 = 64.0;
+const MAX_STEPS: f64 = 4096.0;
 
 /// The texture that the last primitive glowed by, with its material: neighbours often share it.
 pub(super) type Shared = Option<(usize, Option<Rc<Placed>>)>;

@@ -1,12 +1,14 @@
 //! Pictures, decoded within limits. One that is not there, or cannot be decoded, is noted and counts as white, as what glows as black.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::io::Cursor;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use gltf::json;
 use image::{ImageReader, Limits, RgbaImage};
 
+use super::super::paint::Picture;
 use super::{Document, container, ktx2};
 
 /// Largest width or height.
@@ -27,8 +29,35 @@ pub(super) struct Pictures {
     failed: HashSet<usize>,
     /// Means by picture, and whether its channels are colours.
     pub means: HashMap<(usize, bool), [f32; 4]>,
+    /// Those that the scene keeps, by number in the file: their numbers in the scene.
+    kept: BTreeMap<usize, (u32, Rc<RgbaImage>)>,
     /// Pixels decoded so far.
     pixels: u64,
+}
+
+impl Pictures {
+    /// Keeps a picture; returns its number in the scene.
+    pub(super) fn keep(&mut self, index: usize, pixels: Rc<RgbaImage>) -> u32 {
+        let next = self.kept.len() as u32;
+        self.kept.entry(index).or_insert((next, pixels)).0
+    }
+
+    /// What is kept, by number in the scene.
+    pub(super) fn into_kept(mut self) -> Vec<Picture> {
+        self.last = None;
+        let mut kept: Vec<_> = self.kept.into_values().collect();
+        kept.sort_by_key(|&(number, _)| number);
+        let pictures = kept.into_iter().map(|(_, pixels)| {
+            let (width, height) = pixels.dimensions();
+            let pixels = Rc::try_unwrap(pixels).unwrap_or_else(|shared| (*shared).clone());
+            Picture {
+                width,
+                height,
+                texels: Arc::new(pixels.into_raw()),
+            }
+        });
+        pictures.collect()
+    }
 }
 
 impl Document<'_> {
@@ -36,6 +65,9 @@ impl Document<'_> {
     pub(super) fn picture(&self, index: usize) -> Option<Rc<RgbaImage>> {
         {
             let pictures = self.pictures.borrow();
+            if let Some((_, pixels)) = pictures.kept.get(&index) {
+                return Some(Rc::clone(pixels));
+            }
             match &pictures.last {
                 Some((last, pixels)) if *last == index => return Some(Rc::clone(pixels)),
                 _ if pictures.failed.contains(&index) => return None,

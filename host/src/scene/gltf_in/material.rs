@@ -9,13 +9,16 @@ use serde_json::{Map, Value};
 
 use super::super::error::SceneError;
 use super::super::model::Material;
-use super::Document;
+use super::super::paint::{Opacity, Paint};
+use super::{Document, paint};
 
 /// A material, and the texture that its radiance is multiplied by, triangle by triangle.
 #[derive(Default)]
 pub(super) struct Look<'a> {
     pub material: Material,
     pub glow: Option<&'a Info>,
+    /// By which set of coordinates what is painted on it lies.
+    pub set: u32,
 }
 
 /// `KHR_materials_transmission`.
@@ -86,11 +89,15 @@ fn look<'a>(
         (out.metallic, out.roughness) = (0.0, 1.0 - glossiness.glossiness_factor);
     } else if pbr.metallic_roughness_texture.is_some() {
         // A textured metallic factor of 1 (the default) says nothing about the surface; most of such surfaces are not
-        // metal.
-        document.warn(format!(
-            "{element}: the metallic-roughness texture is ignored, metallic taken as 0"
-        ));
+        // metal. This is what stands for the texture where it is not shown.
         out.metallic = 0.0;
+    }
+
+    // Exporters round: 1.0000001 is 1. NaN stays, to be reported with the material.
+    for factor in factor.iter_mut().chain([&mut out.metallic, &mut out.roughness]) {
+        if (1.0..1.001).contains(factor) {
+            *factor = 1.0;
+        }
     }
 
     // A texture that cannot be had counts as white.
@@ -106,12 +113,7 @@ fn look<'a>(
             // NaN stays, to be reported with the material.
             out.transmission = if opacity > 1.0 { 0.0 } else { 1.0 - opacity };
         }
-        _ => {
-            out.masked = true;
-            document.warn(format!(
-                "{element}: the alpha mode is ignored, the surface taken as opaque"
-            ));
-        }
+        _ => out.masked = true,
     }
     if unlit {
         // It shows its colour whatever light falls on it: what glows so, and reflects nothing.
@@ -129,21 +131,45 @@ fn look<'a>(
         ));
     } else {
         out.base_color = [r, g, b];
-        if texture.is_some() {
-            // Reflection is not textured in the reference renderer; the mean keeps the surface's overall colour.
-            document.warn(format!(
-                "{element}: the base colour texture is replaced by its mean"
-            ));
-        }
     }
-    out.transmission = out.transmission.max(transmission(document, others, &element)?);
-    if out.is_clear() {
-        document.warn(format!(
-            "{element} lets {:.0} % of light through: its surfaces are left out unless they emit",
-            100.0 * out.transmission
-        ));
-    }
-    Ok(Look { material: out, glow })
+    let glass = transmission(document, others, &element)?;
+    out.transmission = out.transmission.max(glass);
+    let rough = pbr.metallic_roughness_texture.as_ref();
+    let named = paint::Named {
+        base: texture,
+        rough: rough.filter(|_| glossiness.is_none() && !unlit),
+        glow,
+    };
+    let lit = if unlit { 0.0 } else { 1.0 };
+    let textured = named.rough.is_some();
+    let factors = Paint {
+        base: [factor[0] * lit, factor[1] * lit, factor[2] * lit, factor[3]],
+        metallic: if textured {
+            pbr.metallic_factor.0
+        } else {
+            out.metallic
+        },
+        roughness: out.roughness,
+        bump: 0.0,
+        radiance: if unlit {
+            [factor[0], factor[1], factor[2]]
+        } else {
+            out.radiance
+        },
+        base_texture: None,
+        rough_texture: None,
+        bump_texture: None,
+        glow_texture: None,
+        opacity: Opacity::Opaque,
+        transmission: glass,
+    };
+    let painted = paint::read(document, &element, material, &named, factors, opacity)?;
+    out.paint = painted.map(|painted| painted.paint);
+    Ok(Look {
+        material: out,
+        glow,
+        set: painted.map_or(0, |painted| painted.set),
+    })
 }
 
 /// The mean share of light that goes through.

@@ -86,6 +86,7 @@ fn one<'a>(
             limit: MAX_TRIANGLES,
         });
     }
+    let coordinates = coordinates(document, &attributes, &looks[material], positions.len())?;
     let look = (material, &looks[material]);
     let radiance = emission::radiance(document, &attributes, look, &triangles, &mut shared.emission)?;
     let targets = bend::targets(document, primitive, positions.len(), element)?;
@@ -97,6 +98,7 @@ fn one<'a>(
         triangles,
         material: material as u32,
         radiance,
+        coordinates: coordinates.map(|all| pick(&all, kept)),
         targets: targets
             .into_iter()
             .map(|target| {
@@ -132,6 +134,37 @@ fn positions(
         shared.positions = Some((index.value(), Rc::clone(&positions)));
     }
     Ok(positions)
+}
+
+/// Where the vertices lie on the textures of a material; `None` where it has none, or the primitive does not say.
+fn coordinates(
+    document: &Document<'_>,
+    attributes: &Attributes<'_, '_>,
+    look: &Look<'_>,
+    vertices: usize,
+) -> Result<Option<Vec<[f32; 2]>>, SceneError> {
+    let paint = look.material.paint.as_ref();
+    if paint.is_none_or(|paint| paint.textures().next().is_none()) {
+        return Ok(None);
+    }
+    let Some(mut values) = attributes.floats::<2>(Semantic::TexCoords(look.set))? else {
+        document.warn(format!(
+            "{}: its textures are replaced by their means, as TEXCOORD_{} is missing",
+            attributes.element, look.set
+        ));
+        return Ok(None);
+    };
+    // What is missing, or no number, lies at the origin.
+    values.resize(vertices, [0.0; 2]);
+    for value in values.as_flattened_mut() {
+        let far = f32::from_bits((127 + 20) << 23);
+        *value = if value.is_nan() {
+            0.0
+        } else {
+            value.clamp(-far, far)
+        };
+    }
+    Ok(Some(values))
 }
 
 /// Vertex indices in threes, all below `vertices`.

@@ -8,12 +8,12 @@
 //! - triangles, strips and fans, in plain, sparse and quantised accessors (`KHR_mesh_quantization`), compressed views
 //!   (`EXT_meshopt_compression`, `KHR_meshopt_compression`) and Draco streams (`KHR_draco_mesh_compression`);
 //! - instances, animation of nodes and of weights in all interpolations, skins and morph targets, perspective cameras;
-//! - metallic-roughness factors, or specular-glossiness ones; emission by factor, texture averaged per triangle, and
-//!   `KHR_materials_emissive_strength`; `doubleSided`;
+//! - metallic-roughness factors and textures, or specular-glossiness factors; normal textures; emission by factor, texture (averaged per
+//!   triangle where lights are chosen) and `KHR_materials_emissive_strength`; `doubleSided`; alpha that cuts out or blends;
 //! - pictures in PNG, JPEG, WebP (`EXT_texture_webp`) and KTX 2 (`KHR_texture_basisu`: eight bits a channel, plain or by Zstandard,
 //!   and what Basis Universal makes), placed by `KHR_texture_transform`. One that cannot be had is noted and counts as white, and where it is what glows as black;
-//! - `KHR_materials_transmission` and blended alpha, as the share of light that goes through: surfaces with half or more of it are
-//!   left out unless they emit ([`super::Material::is_clear`]), as the reference renderer has no glass and lamps behind it burn;
+//! - `KHR_materials_transmission`, by its factor and the mean of its texture: from a half on, light goes straight through and is tinted.
+//!   Where [`super::Paint`] is not shown, such surfaces, and blended ones, are left out unless they emit ([`super::Material::is_clear`]);
 //! - `KHR_materials_unlit`: the colour is emitted, so that it is seen as it is, and nothing is reflected. It lights what is near;
 //! - `KHR_lights_punctual`: points and spots are lights of the tree, suns stand beside it. Ranges are not looked at.
 //!
@@ -35,6 +35,7 @@ mod material;
 mod mesh;
 mod meshopt;
 mod node;
+mod paint;
 mod punctual;
 mod texture;
 
@@ -108,6 +109,7 @@ impl Scene {
         bend::skins(&document, &order, &mut data)?;
         punctual::read(&document, &order, &mut data)?;
         data.animations = animation::read(&document, &order)?;
+        data.pictures = document.pictures.take().into_kept();
         data.warnings = document.into_warnings();
         Self::new(data)
     }

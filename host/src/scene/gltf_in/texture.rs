@@ -1,5 +1,6 @@
 //! Textures: a picture with its wrapping and its place on the surface, and means over triangles.
 
+use std::cell::OnceCell;
 use std::rc::Rc;
 
 use gltf::json;
@@ -9,11 +10,15 @@ use image::RgbaImage;
 use serde::Deserialize;
 
 use super::super::error::SceneError;
+use super::super::paint::IN_PLACE;
+use super::super::srgb::linear_from_srgb;
 use super::Document;
 
 /// A picture with its wrapping, in linear RGB.
 pub(super) struct Texture {
     pixels: Rc<RgbaImage>,
+    /// Where it is not black, once that is asked for.
+    glowing: OnceCell<Sums>,
     wrap: [WrappingMode; 2],
     to_linear: [f32; 256],
 }
@@ -29,11 +34,23 @@ pub(super) struct Placed {
 /// `KHR_texture_transform`: scaled, then turned, then moved.
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
-struct Transform {
+pub(super) struct Transform {
     offset: [f32; 2],
     rotation: f32,
     scale: [f32; 2],
-    tex_coord: Option<u32>,
+    pub tex_coord: Option<u32>,
+}
+
+impl Transform {
+    /// What each coordinate adds, and where the origin goes. Against the clock as seen: the second axis points down.
+    pub(super) fn columns(&self) -> [[f32; 2]; 3] {
+        let (sine, cosine) = (
+            libm::sin(f64::from(self.rotation)) as f32,
+            libm::cos(f64::from(self.rotation)) as f32,
+        );
+        let [x, y] = self.scale;
+        [[cosine * x, -sine * x], [sine * y, cosine * y], self.offset]
+    }
 }
 
 impl Default for Transform {
@@ -80,6 +97,7 @@ impl Document<'_> {
         Ok(Some(Placed {
             texture: Texture {
                 pixels,
+                glowing: OnceCell::new(),
                 wrap,
                 to_linear: std::array::from_fn(|encoded| linear_from_srgb(encoded as u8)),
             },
@@ -124,6 +142,18 @@ impl Document<'_> {
         let mean = mean(&pixels, color);
         self.pictures.borrow_mut().means.insert((picture, color), mean);
         Ok(Some(mean))
+    }
+
+    /// Where among the scene's pictures the one of a texture is, which is kept; `None` as for [`placed`](Self::placed).
+    pub(super) fn kept(
+        &self,
+        index: json::Index<json::Texture>,
+        element: &str,
+    ) -> Result<Option<u32>, SceneError> {
+        let Some((picture, pixels)) = self.pixels_of(index, element)? else {
+            return Ok(None);
+        };
+        Ok(Some(self.pictures.borrow_mut().keep(picture, pixels)))
     }
 
     /// The pictures that a texture names, best first.
@@ -181,27 +211,12 @@ impl Document<'_> {
 impl Placed {
     /// Mean over the triangle with these texture coordinates; see [`Texture::mean_over`].
     pub(super) fn mean_over(&self, corners: [[f32; 2]; 3], max_steps: u32) -> [f32; 3] {
-        let Transform {
-            offset,
-            rotation,
-            scale,
-            ..
-        } = self.transform;
-        if rotation == 0.0 && offset == [0.0; 2] && scale == [1.0; 2] {
+        let columns = self.transform.columns();
+        if columns == IN_PLACE {
             return self.texture.mean_over(corners, max_steps);
         }
-        let (sine, cosine) = (
-            libm::sin(f64::from(rotation)) as f32,
-            libm::cos(f64::from(rotation)) as f32,
-        );
-        // Against the clock as seen: the second axis points down.
-        let moved = corners.map(|[u, v]| {
-            let [u, v] = [u * scale[0], v * scale[1]];
-            [
-                cosine * u + sine * v + offset[0],
-                cosine * v - sine * u + offset[1],
-            ]
-        });
+        let [x, y, origin] = columns;
+        let moved = corners.map(|[u, v]| [0, 1].map(|k| x[k] * u + y[k] * v + origin[k]));
         self.texture.mean_over(moved, max_steps)
     }
 }
@@ -242,7 +257,33 @@ impl Texture {
                 }
             }
         }
-        sum.map(|channel| (channel / (f64::from(steps) * f64::from(steps))) as f32)
+        let mean = sum.map(|channel| (channel / (f64::from(steps) * f64::from(steps))) as f32);
+        self.with_traces([a, b, c], mean)
+    }
+
+    /// A mean, and where a channel of it is zero while any texel at the triangle is not black, a trace: what glows anywhere is a light.
+    fn with_traces(&self, corners: [[f32; 2]; 3], mean: [f32; 3]) -> [f32; 3] {
+        if mean.iter().all(|&channel| channel > 0.0) || !self.glows_within(corners) {
+            return mean;
+        }
+        mean.map(|channel| if channel > 0.0 { channel } else { TRACE })
+    }
+
+    /// Whether any texel that shows on the triangle or beside it may be other than black.
+    fn glows_within(&self, corners: [[f32; 2]; 3]) -> bool {
+        let sums = self.glowing.get_or_init(|| Sums::of(&self.pixels));
+        let size = [self.pixels.width(), self.pixels.height()];
+        // Texels from one before the triangle to one after it; all of them where it goes beyond the picture.
+        let range = |axis: usize| {
+            let along = corners.map(|corner| f64::from(corner[axis]) * f64::from(size[axis]));
+            let low = along.iter().fold(f64::MAX, |a, &b| a.min(b)).floor() - 1.0;
+            let high = along.iter().fold(f64::MIN, |a, &b| a.max(b)).ceil() + 1.0;
+            match low >= 0.0 && high <= f64::from(size[axis]) {
+                true => (low as u32, high as u32),
+                false => (0, size[axis]),
+            }
+        };
+        sums.count(range(0), range(1)) > 0
     }
 
     fn texel(&self, uv: [f32; 2]) -> [f32; 3] {
@@ -252,6 +293,37 @@ impl Texture {
             let [r, g, b, _] = pixel.0;
             [r, g, b].map(|channel| self.to_linear[usize::from(channel)])
         })
+    }
+}
+
+/// What a channel of a mean counts as at least where something glows: half of the least that a texel can be.
+const TRACE: f32 = 0.5 / (255.0 * 12.92);
+
+/// How many texels are not black, from the upper left to each (F. Crow, "Summed-area tables for texture mapping", 1984).
+struct Sums {
+    columns: usize,
+    sums: Vec<u32>,
+}
+
+impl Sums {
+    fn of(pixels: &RgbaImage) -> Self {
+        let columns = pixels.width() as usize + 1;
+        let mut sums = vec![0; columns * (pixels.height() as usize + 1)];
+        for (y, row) in pixels.rows().enumerate() {
+            let mut sum = 0;
+            for (x, pixel) in row.enumerate() {
+                let [r, g, b, _] = pixel.0;
+                sum += u32::from(r | g | b != 0);
+                sums[(y + 1) * columns + x + 1] = sums[y * columns + x + 1] + sum;
+            }
+        }
+        Self { columns, sums }
+    }
+
+    /// Among columns and rows from one to before another.
+    fn count(&self, (left, right): (u32, u32), (top, bottom): (u32, u32)) -> u32 {
+        let upto = |x: u32, y: u32| self.sums[y as usize * self.columns + x as usize];
+        upto(right, bottom) + upto(left, top) - upto(left, bottom) - upto(right, top)
     }
 }
 
@@ -282,15 +354,4 @@ fn wrapped(coordinate: f32, size: u32, mode: WrappingMode) -> u32 {
     };
     // The cast saturates at zero.
     ((inside * size as f32) as u32).min(size.saturating_sub(1))
-}
-
-/// IEC 61966-2-1, the transfer function that glTF names for colour textures.
-fn linear_from_srgb(encoded: u8) -> f32 {
-    let x = f64::from(encoded) / 255.0;
-    let linear = if x <= 0.04045 {
-        x / 12.92
-    } else {
-        libm::pow((x + 0.055) / 1.055, 2.4)
-    };
-    linear as f32
 }

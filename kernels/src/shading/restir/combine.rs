@@ -40,9 +40,9 @@ pub struct Answer {
 
 /// Algorithm 6 with the weights of ReSTIR section 4.3: no bias; a shadow ray for each other receiver.
 #[derive(Clone, Copy)]
-pub struct Unbiased<'a, L = EmissiveTriangle> {
+pub struct Unbiased<'a, L: Emitter = EmissiveTriangle> {
     /// What shadow rays met in the receivers' frame.
-    pub surfaces: Surfaces<'a>,
+    pub surfaces: Surfaces<'a, L::Skin<'a>>,
     /// The lights of the receivers' frame.
     pub emitters: Emitters<'a, L>,
 }

@@ -32,6 +32,7 @@
 
 pub mod combine;
 pub mod initial;
+pub mod painted;
 pub mod shade;
 pub mod spatial;
 pub mod surface;

@@ -4,10 +4,13 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::super::emitter::Emitter;
-use super::super::pixel::{Scene, load_material};
+use super::super::grid::{TINY, flush_vector};
+use super::super::pixel::Scene;
+use super::super::skin::Skin;
 use super::super::sky::{Sky, sky_sample};
+use super::painted::seen_again;
 use super::surface::Surface;
-use super::target::{lit, visible, weighted};
+use super::target::{as_painted, lit, visible, weighted};
 use super::{PixelReservoir, RestirParams, SHADE, step_seed};
 
 /// A pixel of the image; 16 bytes.
@@ -35,6 +38,7 @@ pub fn shade<L: Emitter>(
 ) -> (Shaded, PixelReservoir) {
     let mut kept = *last;
     let mut reflected = Vec3::ZERO;
+    let (material, tint) = seen_again(scene, surface);
     if last.reservoir.weight > 0.0 {
         let sample = last.reservoir.sample;
         let arriving = lit(scene.materials, &scene.emitters, surface, &sample);
@@ -44,7 +48,8 @@ pub fn shade<L: Emitter>(
             seen = visible(&scene.surfaces, surface, arriving.end, sample.light);
         }
         if seen {
-            reflected = weighted(arriving.contribution, last.reservoir.weight);
+            let contribution = as_painted(scene, surface, &material, &sample, &arriving);
+            reflected = weighted(contribution, last.reservoir.weight);
         }
         if !seen && params.drops_occluded != 0 {
             kept.reservoir = last.reservoir.occluded();
@@ -53,10 +58,12 @@ pub fn shade<L: Emitter>(
     if <L::Sky<'_> as Sky>::IS_SAMPLED && surface.is_lit() && surface.material < scene.materials.len() as u32
     {
         // Reservoirs hold lights of the tree; what is without end is sampled anew.
-        let material = load_material(scene.materials, surface.material);
         let seed = step_seed(params, pixel, SHADE);
         reflected += sky_sample(scene, &surface.point, surface.wo(), &material, seed, 0);
         kept.shadow_rays = kept.shadow_rays.wrapping_add(1);
+    }
+    if <L::Skin<'_> as Skin>::IS_PAINTED {
+        reflected = flush_vector(reflected * tint, TINY);
     }
     let shaded = Shaded {
         radiance: [

@@ -9,9 +9,10 @@ use super::super::emitter::Emitter;
 use super::super::emitters::Emitters;
 use super::super::grid::{TINY, bounded_quotient};
 use super::super::material::Material;
-use super::super::pixel::load_material;
+use super::super::pixel::{Scene, load_material};
 use super::super::ray::Ray;
-use super::super::trace::{NONE, Surfaces, any_hit};
+use super::super::skin::{SHADOW, Skin, Through};
+use super::super::trace::{NONE, Surfaces, any_hit, through};
 use super::surface::Surface;
 
 /// Contributions count as at most this, W/(m² sr), so that their product with any weight is finite.
@@ -35,7 +36,8 @@ pub struct Lit {
     pub on: Vec3,
 }
 
-/// The light of `sample` at `surface`; nothing for a light or material that is not there.
+/// The light of `sample` at `surface`; nothing for a light or material that is not there. Both have the means of what is painted on them: a
+/// target need not be exact, and [`as_painted`] is.
 #[inline]
 #[must_use]
 pub fn lit<L: Emitter>(
@@ -85,10 +87,37 @@ fn scattered(connection: &Connection) -> f32 {
 /// Whether nothing lies between the surface and the point of `light` that `end` is just before: one shadow ray.
 #[inline]
 #[must_use]
-pub fn visible(surfaces: &Surfaces<'_>, surface: &Surface, end: Vec3, light: u32) -> bool {
+pub fn visible<S: Skin>(surfaces: &Surfaces<'_, S>, surface: &Surface, end: Vec3, light: u32) -> bool {
     let origin = surface.point.position();
     let ray = Ray::new(origin, end - origin, 1.0);
     !any_hit(surfaces, &ray, light)
+}
+
+/// What `sample` contributes to `surface`, which it is seen from: as painted, through what lets light through. `mean` is what [`lit`] says.
+#[inline]
+#[must_use]
+pub fn as_painted<L: Emitter>(
+    scene: &Scene<'_, L>,
+    surface: &Surface,
+    material: &Material,
+    sample: &LightSample,
+    mean: &Lit,
+) -> Vec3 {
+    let mut contribution = mean.contribution;
+    if <L::Skin<'_> as Skin>::IS_PAINTED {
+        let uv = [sample.uv[0], sample.uv[1]];
+        let light = scene.emitters.light(sample.light, sample.instance);
+        let light = scene.glowing(light, sample.light, uv);
+        contribution = light
+            .connect(&surface.point, surface.wo(), material, 1.0, uv)
+            .contribution;
+        if scene.surfaces.skin.has_veils() {
+            let origin = surface.point.position();
+            let ray = Ray::new(origin, mean.end - origin, 1.0);
+            contribution = through::<SHADOW, _>(&scene.surfaces, &ray, sample.light).of(contribution);
+        }
+    }
+    contribution
 }
 
 /// A contribution times a reservoir's weight, by components.

@@ -1,0 +1,230 @@
+//! What is painted on a scene, as the kernels' buffers hold it.
+
+use std::sync::Arc;
+
+use bytemuck::cast_slice;
+use lightbvh_kernels::shading::picture::PictureWords;
+use lightbvh_kernels::shading::skin::{
+    Corner, HAS_GLASS, HAS_VEILS, HEADER_WORDS, PaintWords, SRGB_WORDS, SkinView,
+};
+use lightbvh_kernels::shading::trace::NONE;
+
+use super::model::SceneData;
+use super::paint::{Opacity, Paint, Picture, Texture, Wrap};
+use super::srgb::linear_from_srgb;
+
+/// Most texels of all pictures: 2^24, so that they fit the smallest storage buffers seen (128 MiB) with room to spare. Larger pictures are
+/// halved until they fit.
+const MAX_TEXELS: u64 = 1 << 24;
+
+/// A frame's paint.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SkinArrays {
+    /// [`SkinView::corners`].
+    pub corners: Vec<Corner>,
+    /// [`SkinView::words`].
+    pub words: Arc<Vec<u32>>,
+}
+
+impl SkinArrays {
+    /// As the kernels' functions take it.
+    pub fn view(&self) -> SkinView<'_> {
+        SkinView {
+            corners: &self.corners,
+            words: &self.words,
+        }
+    }
+}
+
+/// The words of everything that is painted; none where nothing is.
+pub(super) fn words(data: &SceneData) -> Vec<u32> {
+    if !data.is_painted() {
+        return Vec::new();
+    }
+    let pictures = fitted(&data.pictures);
+    let count = data.materials.len() as u32;
+    let mut words = vec![0; HEADER_WORDS as usize];
+    words[0] = count;
+    words.extend((0..SRGB_WORDS).map(|byte| linear_from_srgb(byte as u8).to_bits()));
+    let first = words.len();
+    words.resize(first + (PaintWords::COUNT * count) as usize, 0);
+    let texels: Vec<u32> = pictures
+        .iter()
+        .map(|picture| {
+            let at = words.len() as u32;
+            words.extend(
+                picture
+                    .texels
+                    .chunks_exact(4)
+                    .map(|rgba| u32::from_le_bytes([rgba[0], rgba[1], rgba[2], rgba[3]])),
+            );
+            at
+        })
+        .collect();
+    let mut paints = Vec::new();
+    for material in &data.materials {
+        let own = material.paint.as_ref().filter(|paint| paint.is_seen());
+        let paint = own.map_or(NOTHING, |paint| {
+            let mut put = |texture: Option<Texture>| {
+                texture.map_or(NONE, |texture| {
+                    let at = words.len() as u32;
+                    let picture = &pictures[texture.picture as usize];
+                    let own = picture_words(&texture, picture, texels[texture.picture as usize]);
+                    words.extend_from_slice(cast_slice(&[own]));
+                    at
+                })
+            };
+            paint_words(paint, &mut put)
+        });
+        words[1] |= match paint.flags {
+            flags if flags & PaintWords::CLEAR != 0 => HAS_GLASS | HAS_VEILS,
+            flags if flags & (PaintWords::CUT | PaintWords::BLENDED) != 0 => HAS_VEILS,
+            _ => 0,
+        };
+        paints.push(paint);
+    }
+    words[first..first + (PaintWords::COUNT * count) as usize].copy_from_slice(cast_slice(&paints));
+    words
+}
+
+/// Of a material without paint.
+const NOTHING: PaintWords = PaintWords {
+    flags: 0,
+    cutoff: 0.0,
+    base: [1.0; 4],
+    metallic: 0.0,
+    roughness: 1.0,
+    bump: 0.0,
+    emission: [0.0; 3],
+    transmission: 0.0,
+    base_picture: NONE,
+    rough_picture: NONE,
+    bump_picture: NONE,
+    emission_picture: NONE,
+};
+
+fn paint_words(paint: &Paint, put: &mut impl FnMut(Option<Texture>) -> u32) -> PaintWords {
+    let (opacity, cutoff) = match paint.opacity {
+        Opacity::Opaque => (0, 0.0),
+        Opacity::Cut(cutoff) => (PaintWords::CUT, cutoff),
+        Opacity::Blended => (PaintWords::BLENDED, 0.0),
+    };
+    let reflects = paint.base_texture.is_some() || paint.rough_texture.is_some();
+    PaintWords {
+        flags: opacity
+            | if reflects { PaintWords::REFLECTS } else { 0 }
+            | if paint.is_clear() { PaintWords::CLEAR } else { 0 },
+        cutoff,
+        base: paint.base,
+        metallic: paint.metallic,
+        roughness: paint.roughness,
+        bump: paint.bump,
+        emission: paint.radiance,
+        transmission: paint.transmission,
+        base_picture: put(paint.base_texture),
+        rough_picture: put(paint.rough_texture),
+        bump_picture: put(paint.bump_texture),
+        emission_picture: put(paint.glow_texture),
+    }
+}
+
+fn picture_words(texture: &Texture, picture: &Picture, texels: u32) -> PictureWords {
+    let wrap = |wrap| match wrap {
+        Wrap::Repeat => PictureWords::REPEAT,
+        Wrap::Clamp => PictureWords::CLAMP,
+        Wrap::Mirror => PictureWords::MIRROR,
+    };
+    let [columns, rows] = texture.wrap.map(wrap);
+    let bit = |is_set, flag| if is_set { flag } else { 0 };
+    let [x, y, origin] = texture.transform;
+    PictureWords {
+        width: picture.width,
+        height: picture.height,
+        flags: bit(texture.is_color, PictureWords::SRGB)
+            | bit(texture.is_nearest, PictureWords::NEAREST)
+            | (columns << PictureWords::WRAP_COLUMNS)
+            | (rows << PictureWords::WRAP_ROWS),
+        transform: [x[0], x[1], y[0], y[1], origin[0], origin[1]],
+        texels,
+    }
+}
+
+/// The pictures, the largest halved until all fit.
+fn fitted(pictures: &[Picture]) -> Vec<Picture> {
+    let mut fitted = pictures.to_vec();
+    let texels = |picture: &Picture| u64::from(picture.width) * u64::from(picture.height);
+    while fitted.iter().map(texels).sum::<u64>() > MAX_TEXELS {
+        let most = fitted.iter().map(texels).max().unwrap_or(0);
+        if most <= 1 {
+            break;
+        }
+        for picture in fitted.iter_mut().filter(|picture| texels(picture) * 2 > most) {
+            *picture = halved(picture);
+        }
+    }
+    fitted
+}
+
+/// Half as wide and high: means of four texels, as they are encoded.
+fn halved(picture: &Picture) -> Picture {
+    let [width, height] = [picture.width, picture.height].map(|size| size.div_ceil(2));
+    let texel = |x: u32, y: u32, channel: usize| {
+        let (x, y) = (x.min(picture.width - 1), y.min(picture.height - 1));
+        u32::from(picture.texels[(y as usize * picture.width as usize + x as usize) * 4 + channel])
+    };
+    let mut texels = Vec::with_capacity(width as usize * height as usize * 4);
+    for y in 0..height {
+        for x in 0..width {
+            for channel in 0..4 {
+                let sum: u32 = [(0, 0), (1, 0), (0, 1), (1, 1)]
+                    .iter()
+                    .map(|(right, down)| texel(2 * x + right, 2 * y + down, channel))
+                    .sum();
+                texels.push(((sum + 2) / 4) as u8);
+            }
+        }
+    }
+    Picture {
+        width,
+        height,
+        texels: Arc::new(texels),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn picture(width: u32, height: u32) -> Picture {
+        Picture {
+            width,
+            height,
+            texels: Arc::new((0..width * height * 4).map(|k| k as u8).collect()),
+        }
+    }
+
+    #[test]
+    fn halves_are_means_of_four() {
+        let half = halved(&picture(4, 2));
+        assert_eq!((half.width, half.height), (2, 1));
+        // Red of texels 0, 1, 4 and 5: 0, 4, 16, 20.
+        assert_eq!(half.texels[..8], [10, 11, 12, 13, 18, 19, 20, 21]);
+        let odd = halved(&picture(3, 1));
+        assert_eq!(
+            (odd.width, odd.height, odd.texels[4]),
+            (2, 1, 8),
+            "the last one counts twice"
+        );
+    }
+
+    #[test]
+    fn only_as_many_are_halved_as_must_be() {
+        let side = 4096;
+        let fits = fitted(&[picture(side, side / 2), picture(8, 8), picture(side / 2, side)]);
+        assert_eq!(
+            [fits[0].width, fits[1].width, fits[2].width],
+            [side / 2, 8, side / 4],
+            "2^24 and 64 are too many"
+        );
+    }
+}
