@@ -23,6 +23,7 @@
 
 mod accessor;
 mod animation;
+mod asset;
 mod attributes;
 mod bend;
 mod container;
@@ -37,6 +38,8 @@ mod meshopt;
 mod node;
 mod punctual;
 mod texture;
+
+pub use asset::Asset;
 
 use std::borrow::Cow;
 use std::cell::{Cell, OnceCell, RefCell};

@@ -1,0 +1,250 @@
+//! The contact sheet of a scene: the reference above, and one part of it by every method below, all at one exposure.
+
+use std::path::Path;
+
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder};
+
+use super::measure::Shown;
+use super::report::figure;
+use crate::cli::compare::crops::choose;
+use crate::error::HostError;
+use crate::metrics::{Judge, Judged, Region, mean};
+use crate::plot::{Canvas, text_size};
+use crate::render::{FilmError, write_whole};
+
+/// Most bytes of a sheet.
+pub(super) const MOST_BYTES: usize = 60_000;
+/// Most that colours are rounded by to reach that: to multiples of 2^5 of 255.
+const MOST_DROPPED: u32 = 5;
+/// Columns of close-ups.
+const COLUMNS: u32 = 4;
+/// Least width of a close-up: a line of a method's name must fit.
+const CELL: u32 = 240;
+/// A close-up's share of the image's width and height.
+const SHARE: u32 = 4;
+const MARGIN: u32 = 10;
+const TEXT: u32 = 2;
+const PAPER: [u8; 3] = [255; 3];
+const INK: [u8; 3] = [32; 3];
+const MARK: [u8; 3] = [255, 64, 64];
+
+/// A close-up and the words around it.
+struct Cell {
+    names: Vec<String>,
+    pixels: Vec<[u8; 3]>,
+    below: [String; 2],
+}
+
+/// Writes the sheet; returns the region that is shown, and the MSE of each method in it.
+pub(super) fn write(
+    path: &Path,
+    title: &str,
+    judge: &Judge,
+    shown: &[Shown],
+) -> Result<Option<(Region, Vec<f64>)>, HostError> {
+    let mut columns = Vec::new();
+    for of in shown {
+        columns.push((of.method, judge.judge(&of.film)?));
+    }
+    let Some(region) = choose(judge, &columns, SHARE, 1).first().copied() else {
+        return Ok(None);
+    };
+    let errors = columns
+        .iter()
+        .map(|(_, judged)| judged.region(region).map(|quality| quality.mse));
+    let errors = errors.collect::<Result<Vec<f64>, _>>()?;
+    let canvas = draw(title, judge, shown, &columns, region);
+    let bytes = small(&canvas).map_err(|source| FilmError::Encode {
+        path: path.to_owned(),
+        source,
+    })?;
+    write_whole(path, &bytes).map_err(|source| HostError::Store {
+        path: path.to_owned(),
+        source,
+    })?;
+    Ok(Some((region, errors)))
+}
+
+fn draw(
+    title: &str,
+    judge: &Judge,
+    shown: &[Shown],
+    columns: &[(crate::method::Method, Judged<'_>)],
+    region: Region,
+) -> Canvas {
+    let (width, height) = judge.size();
+    let cut = |bytes: &[u8]| region.cut(bytes.as_chunks::<3>().0, width);
+    let mut cells = vec![Cell {
+        names: vec![String::from("reference")],
+        pixels: cut(judge.shown()),
+        below: [String::from("the part marked above"), String::new()],
+    }];
+    for (of, (method, judged)) in shown.iter().zip(columns) {
+        let times: Vec<f64> = of.images.iter().map(|image| image.ms).collect();
+        let errors: Vec<f64> = of.images.iter().map(|image| image.quality.mse).collect();
+        cells.push(Cell {
+            names: wrapped(method.name(), CELL),
+            pixels: cut(judged.shown()),
+            below: [
+                format!("MSE {}", figure(mean(&errors))),
+                format!("{} rays, {:.0} ms", of.chosen.samples, mean(&times)),
+            ],
+        });
+    }
+    let line = text_size("", TEXT).1 + 6;
+    let zoom = (CELL / region.width).max(1);
+    let cell = (CELL.max(region.width * zoom), region.height * zoom);
+    let inside = (COLUMNS * (cell.0 + MARGIN) - MARGIN).max(width);
+    let overview = (inside / width).max(1);
+    let top = MARGIN + line + 4;
+    let cells_top = top + height * overview + MARGIN;
+    let cell_height = 4 * line + cell.1 + MARGIN;
+    let rows = (cells.len() as u32).div_ceil(COLUMNS);
+    let mut canvas = Canvas::new(inside + 2 * MARGIN, cells_top + rows * cell_height, PAPER);
+
+    canvas.text((MARGIN, MARGIN), &fitting(title, inside), TEXT, INK);
+    let left = MARGIN + (inside - width * overview) / 2;
+    canvas.image((left, top), judge.shown().as_chunks::<3>().0, width, overview);
+    let corner = (left + region.x * overview, top + region.y * overview);
+    let size = (region.width * overview, region.height * overview);
+    canvas.outline(corner, size, MARK);
+    if size.0 > 2 && size.1 > 2 {
+        canvas.outline((corner.0 + 1, corner.1 + 1), (size.0 - 2, size.1 - 2), MARK);
+    }
+    for (at, of) in (0..).zip(&cells) {
+        let x = MARGIN + at % COLUMNS * (cell.0 + MARGIN);
+        let y = cells_top + at / COLUMNS * cell_height;
+        // Names of one line stand next to their pictures.
+        let free = 2 - (of.names.len() as u32).min(2);
+        for (k, name) in (free..).zip(&of.names) {
+            canvas.text((x, y + k * line), name, TEXT, INK);
+        }
+        let picture = y + 2 * line;
+        canvas.image((x, picture), &of.pixels, region.width, zoom);
+        for (k, words) in (0..).zip(&of.below) {
+            canvas.text(
+                (x, picture + cell.1 + 5 + k * line),
+                &fitting(words, cell.0),
+                TEXT,
+                INK,
+            );
+        }
+    }
+    canvas
+}
+
+/// A name in lines that fit, broken after hyphens.
+fn wrapped(name: &str, width: u32) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for part in name.split_inclusive('-') {
+        let last = lines.len() - 1;
+        let longer = format!("{}{part}", lines[last]);
+        if text_size(&longer, TEXT).0 <= width || lines[last].is_empty() {
+            lines[last] = longer;
+        } else {
+            lines.push(part.to_owned());
+        }
+    }
+    lines
+}
+
+/// As much of a text as fits, in letters that can be drawn: others are left out.
+fn fitting(text: &str, width: u32) -> String {
+    let drawn = |c: &char| c.is_ascii_alphanumeric() || " -+.,:/%".contains(*c);
+    let mut out: String = text.chars().filter(drawn).collect();
+    while text_size(&out, TEXT).0 > width {
+        out.pop();
+    }
+    out
+}
+
+/// The canvas as PNG of [`MOST_BYTES`] at most if its colours, rounded alike everywhere, allow it.
+fn small(canvas: &Canvas) -> Result<Vec<u8>, image::ImageError> {
+    let mut bytes = Vec::new();
+    for dropped in 0..=MOST_DROPPED {
+        bytes = encoded(canvas, dropped)?;
+        if bytes.len() <= MOST_BYTES {
+            break;
+        }
+    }
+    Ok(bytes)
+}
+
+/// Colours in steps of 2^`dropped`, white and black kept.
+fn encoded(canvas: &Canvas, dropped: u32) -> Result<Vec<u8>, image::ImageError> {
+    let half = (1_u16 << dropped) / 2;
+    let rounded = |c: u8| match c {
+        255 => 255,
+        c => ((u16::from(c) + half) >> dropped << dropped).min(255) as u8,
+    };
+    let pixels: Vec<u8> = canvas.pixels().iter().flatten().map(|&c| rounded(c)).collect();
+    let (width, height) = canvas.size();
+    let mut best: Option<Vec<u8>> = None;
+    for filter in [FilterType::NoFilter, FilterType::Up, FilterType::Adaptive] {
+        let mut bytes = Vec::new();
+        PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, filter).write_image(
+            &pixels,
+            width,
+            height,
+            ExtendedColorType::Rgb8,
+        )?;
+        if best.as_ref().is_none_or(|best| bytes.len() < best.len()) {
+            best = Some(bytes);
+        }
+    }
+    Ok(best.unwrap_or_default())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::method::Method;
+
+    #[test]
+    fn every_method_fits_in_two_lines() {
+        for method in Method::ALL {
+            let lines = wrapped(method.name(), CELL);
+            assert_eq!(lines.concat(), method.name());
+            assert!(lines.len() <= 2, "{lines:?}");
+            assert!(
+                lines.iter().all(|line| text_size(line, TEXT).0 <= CELL),
+                "{lines:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn texts_are_cut_where_they_do_not_fit() {
+        assert_eq!(fitting("Lämp (a)", 1000), "Lmp a");
+        // Two letters take 2 x (2 x 6) - 2 = 22 columns.
+        assert_eq!(fitting("abc", 22), "ab");
+        assert_eq!(fitting("abc", 21), "a");
+    }
+
+    #[test]
+    fn noise_is_rounded_until_it_fits() {
+        // Numbers without a pattern: 32 bits of a multiplicative generator (Lehmer), its upper byte.
+        let mut state = 1_u64;
+        let mut canvas = Canvas::new(256, 256, [0; 3]);
+        for i in 0..256 * 256 {
+            let mut byte = || {
+                state = state * 48_271 % 0x7fff_ffff;
+                (state >> 23) as u8
+            };
+            let color = [byte(), byte(), byte()];
+            canvas.fill((i % 256, i / 256), (1, 1), color);
+        }
+        let whole = encoded(&canvas, 0).expect("a picture");
+        // Noise of eight bits does not get smaller.
+        assert!(whole.len() > 3 * 256 * 256);
+        let bytes = small(&canvas).expect("a picture");
+        let image = image::load_from_memory(&bytes).expect("a picture").into_rgb8();
+        // Three bits are left of each channel: no step is smaller than 32.
+        let steps: std::collections::BTreeSet<u8> = image.iter().map(|c| c % 32).collect();
+        assert!(steps.iter().all(|&step| step == 0 || step == 31), "{steps:?}");
+        for (shown, drawn) in image.iter().zip(canvas.pixels().iter().flatten()) {
+            assert!(shown.abs_diff(*drawn) <= 16, "{shown} for {drawn}");
+        }
+    }
+}
