@@ -15,14 +15,15 @@ use crate::render::{FilmError, write_whole};
 
 /// Most bytes of a sheet.
 pub(super) const MOST_BYTES: usize = 60_000;
-/// Most that colours are rounded by to reach that: to multiples of 2^5 of 255.
-const MOST_DROPPED: u32 = 5;
+/// Most that colours are rounded by to reach that: to multiples of 2^4.
+const MOST_DROPPED: u32 = 4;
 /// Columns of close-ups.
 const COLUMNS: u32 = 4;
 /// Least width of a close-up: a line of a method's name must fit.
 const CELL: u32 = 240;
-/// A close-up's share of the image's width and height.
-const SHARE: u32 = 4;
+/// A close-up's share of the image's width and height, and how many pixels of the image are one in the overview, each way: the first of
+/// them by which the sheet is small enough.
+const SHARES: [(u32, u32); 4] = [(4, 1), (6, 2), (8, 4), (16, 8)];
 const MARGIN: u32 = 10;
 const TEXT: u32 = 2;
 const PAPER: [u8; 3] = [255; 3];
@@ -47,23 +48,61 @@ pub(super) fn write(
     for of in shown {
         columns.push((of.method, judge.judge(&of.film)?));
     }
-    let Some(region) = choose(judge, &columns, SHARE, 1).first().copied() else {
+    let mut made = None;
+    for (share, step) in SHARES {
+        let Some(region) = choose(judge, &columns, share, 1).first().copied() else {
+            return Ok(None);
+        };
+        let canvas = draw(title, judge, shown, &columns, region, step);
+        let bytes = small(&canvas).map_err(|source| FilmError::Encode {
+            path: path.to_owned(),
+            source,
+        })?;
+        let fits = bytes.len() <= MOST_BYTES;
+        made = Some((region, bytes));
+        if fits {
+            break;
+        }
+    }
+    let Some((region, bytes)) = made else {
         return Ok(None);
     };
     let errors = columns
         .iter()
         .map(|(_, judged)| judged.region(region).map(|quality| quality.mse));
     let errors = errors.collect::<Result<Vec<f64>, _>>()?;
-    let canvas = draw(title, judge, shown, &columns, region);
-    let bytes = small(&canvas).map_err(|source| FilmError::Encode {
-        path: path.to_owned(),
-        source,
-    })?;
     write_whole(path, &bytes).map_err(|source| HostError::Store {
         path: path.to_owned(),
         source,
     })?;
     Ok(Some((region, errors)))
+}
+
+/// An image of which each pixel is the mean of `step` x `step`, and its columns; what is left over at the edges joins the last ones.
+fn reduced(pixels: &[[u8; 3]], width: u32, step: u32) -> (Vec<[u8; 3]>, u32) {
+    let (width, step) = (width.max(1) as usize, step as usize);
+    let height = pixels.len() / width;
+    let (columns, rows) = ((width / step).max(1), (height / step).max(1));
+    let ends =
+        |at: usize, of: usize, all: usize| (at * step, if at + 1 == of { all } else { (at + 1) * step });
+    let mut out = Vec::with_capacity(columns * rows);
+    for row in 0..rows {
+        let (top, bottom) = ends(row, rows, height);
+        for column in 0..columns {
+            let (left, right) = ends(column, columns, width);
+            let mut sum = [0_usize; 3];
+            for y in top..bottom {
+                for pixel in &pixels[y * width + left..y * width + right] {
+                    for (sum, &channel) in sum.iter_mut().zip(pixel) {
+                        *sum += usize::from(channel);
+                    }
+                }
+            }
+            let count = (bottom - top) * (right - left);
+            out.push(sum.map(|sum| ((sum + count / 2) / count) as u8));
+        }
+    }
+    (out, columns as u32)
 }
 
 fn draw(
@@ -72,13 +111,14 @@ fn draw(
     shown: &[Shown],
     columns: &[(crate::method::Method, Judged<'_>)],
     region: Region,
+    step: u32,
 ) -> Canvas {
-    let (width, height) = judge.size();
+    let width = judge.size().0;
     let cut = |bytes: &[u8]| region.cut(bytes.as_chunks::<3>().0, width);
     let mut cells = vec![Cell {
         names: vec![String::from("reference")],
         pixels: cut(judge.shown()),
-        below: [String::from("the part marked above"), String::new()],
+        below: [String::from("the marked part"), String::new()],
     }];
     for (of, (method, judged)) in shown.iter().zip(columns) {
         let times: Vec<f64> = of.images.iter().map(|image| image.ms).collect();
@@ -95,19 +135,22 @@ fn draw(
     let line = text_size("", TEXT).1 + 6;
     let zoom = (CELL / region.width).max(1);
     let cell = (CELL.max(region.width * zoom), region.height * zoom);
-    let inside = (COLUMNS * (cell.0 + MARGIN) - MARGIN).max(width);
-    let overview = (inside / width).max(1);
+    let (small, small_width) = reduced(judge.shown().as_chunks::<3>().0, width, step);
+    let small_height = small.len() as u32 / small_width;
+    let inside = (COLUMNS * (cell.0 + MARGIN) - MARGIN).max(small_width);
+    let overview = (inside / small_width).max(1);
     let top = MARGIN + line + 4;
-    let cells_top = top + height * overview + MARGIN;
+    let cells_top = top + small_height * overview + MARGIN;
     let cell_height = 4 * line + cell.1 + MARGIN;
     let rows = (cells.len() as u32).div_ceil(COLUMNS);
     let mut canvas = Canvas::new(inside + 2 * MARGIN, cells_top + rows * cell_height, PAPER);
 
     canvas.text((MARGIN, MARGIN), &fitting(title, inside), TEXT, INK);
-    let left = MARGIN + (inside - width * overview) / 2;
-    canvas.image((left, top), judge.shown().as_chunks::<3>().0, width, overview);
-    let corner = (left + region.x * overview, top + region.y * overview);
-    let size = (region.width * overview, region.height * overview);
+    let left = MARGIN + (inside - small_width * overview) / 2;
+    canvas.image((left, top), &small, small_width, overview);
+    let scaled = |pixels: u32| pixels * overview / step;
+    let corner = (left + scaled(region.x), top + scaled(region.y));
+    let size = (scaled(region.width), scaled(region.height));
     canvas.outline(corner, size, MARK);
     if size.0 > 2 && size.1 > 2 {
         canvas.outline((corner.0 + 1, corner.1 + 1), (size.0 - 2, size.1 - 2), MARK);
@@ -223,6 +266,20 @@ mod tests {
     }
 
     #[test]
+    fn a_reduced_image_has_the_means_of_its_pixels() {
+        let pixels: Vec<[u8; 3]> = (0..15).map(|i| [10 * i, 0, 255]).collect();
+        // Three rows of five: the third row and the fifth column join those before them.
+        let (small, columns) = reduced(&pixels, 5, 2);
+        assert_eq!(columns, 2);
+        let mean = |of: &[u32]| (of.iter().sum::<u32>() as f64 * 10.0 / of.len() as f64).round() as u8;
+        let left = mean(&[0, 1, 5, 6, 10, 11]);
+        let right = mean(&[2, 3, 4, 7, 8, 9, 12, 13, 14]);
+        assert_eq!(small, [[left, 0, 255], [right, 0, 255]]);
+        assert_eq!(reduced(&pixels, 5, 1), (pixels, 5));
+        assert_eq!(reduced(&[[9; 3]; 2], 2, 8), (vec![[9; 3]], 1));
+    }
+
+    #[test]
     fn noise_is_rounded_until_it_fits() {
         // Numbers without a pattern: 32 bits of a multiplicative generator (Lehmer), its upper byte.
         let mut state = 1_u64;
@@ -240,11 +297,11 @@ mod tests {
         assert!(whole.len() > 3 * 256 * 256);
         let bytes = small(&canvas).expect("a picture");
         let image = image::load_from_memory(&bytes).expect("a picture").into_rgb8();
-        // Three bits are left of each channel: no step is smaller than 32.
-        let steps: std::collections::BTreeSet<u8> = image.iter().map(|c| c % 32).collect();
-        assert!(steps.iter().all(|&step| step == 0 || step == 31), "{steps:?}");
+        // Four bits are left of each channel: no step is smaller than 16, but for white.
+        let steps: std::collections::BTreeSet<u8> = image.iter().map(|c| c % 16).collect();
+        assert!(steps.iter().all(|&step| step == 0 || step == 15), "{steps:?}");
         for (shown, drawn) in image.iter().zip(canvas.pixels().iter().flatten()) {
-            assert!(shown.abs_diff(*drawn) <= 16, "{shown} for {drawn}");
+            assert!(shown.abs_diff(*drawn) <= 8, "{shown} for {drawn}");
         }
     }
 }
