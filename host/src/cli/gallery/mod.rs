@@ -5,6 +5,7 @@ mod job;
 mod list;
 mod measure;
 mod page;
+mod palette;
 mod plan;
 mod reference;
 mod report;

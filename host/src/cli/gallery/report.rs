@@ -112,7 +112,7 @@ pub(super) const NOTES: [&str; 5] = [
     "References come from the two-level light BVH with random numbers of their own. Their own noise, estimated from two halves, is in every \
      error.",
     "All methods look at the same points in the pixels, the references too. The close-up is where the methods' errors lie furthest apart. \
-     Colours of the sheets are rounded so that the files stay small.",
+     A sheet has few colours, so that its file stays small.",
 ];
 
 impl Spread {

@@ -2,21 +2,19 @@
 
 use std::path::Path;
 
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder};
-
 use super::measure::Shown;
+use super::palette::palette;
 use super::report::figure;
 use crate::cli::compare::crops::choose;
 use crate::error::HostError;
 use crate::metrics::{Judge, Judged, Region, mean};
 use crate::plot::{Canvas, text_size};
-use crate::render::{FilmError, write_whole};
+use crate::render::write_whole;
 
 /// Most bytes of a sheet.
 pub(super) const MOST_BYTES: usize = 60_000;
-/// Most that colours are rounded by to reach that: to multiples of 2^4.
-const MOST_DROPPED: u32 = 4;
+/// Colours of a sheet, the first of them by which it is small enough.
+const COLORS: [usize; 5] = [256, 192, 128, 96, 64];
 /// Columns of close-ups.
 const COLUMNS: u32 = 4;
 /// Least width of a close-up: a line of a method's name must fit.
@@ -54,9 +52,9 @@ pub(super) fn write(
             return Ok(None);
         };
         let canvas = draw(title, judge, shown, &columns, region, step);
-        let bytes = small(&canvas).map_err(|source| FilmError::Encode {
+        let bytes = small(&canvas).map_err(|error| HostError::Store {
             path: path.to_owned(),
-            source,
+            source: std::io::Error::other(error),
         })?;
         let fits = bytes.len() <= MOST_BYTES;
         made = Some((region, bytes));
@@ -128,7 +126,7 @@ fn draw(
             pixels: cut(judged.shown()),
             below: [
                 format!("MSE {}", figure(mean(&errors))),
-                format!("{} rays, {:.0} ms", of.chosen.samples, mean(&times)),
+                format!("rays {}, {:.0} ms", of.chosen.samples, mean(&times)),
             ],
         });
     }
@@ -202,11 +200,11 @@ fn fitting(text: &str, width: u32) -> String {
     out
 }
 
-/// The canvas as PNG of [`MOST_BYTES`] at most if its colours, rounded alike everywhere, allow it.
-fn small(canvas: &Canvas) -> Result<Vec<u8>, image::ImageError> {
+/// The canvas as PNG of [`MOST_BYTES`] at most if few colours allow it. All pictures share them.
+fn small(canvas: &Canvas) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
-    for dropped in 0..=MOST_DROPPED {
-        bytes = encoded(canvas, dropped)?;
+    for colors in COLORS {
+        bytes = encoded(canvas, colors)?;
         if bytes.len() <= MOST_BYTES {
             break;
         }
@@ -214,29 +212,21 @@ fn small(canvas: &Canvas) -> Result<Vec<u8>, image::ImageError> {
     Ok(bytes)
 }
 
-/// Colours in steps of 2^`dropped`, white and black kept.
-fn encoded(canvas: &Canvas, dropped: u32) -> Result<Vec<u8>, image::ImageError> {
-    let half = (1_u16 << dropped) / 2;
-    let rounded = |c: u8| match c {
-        255 => 255,
-        c => ((u16::from(c) + half) >> dropped << dropped).min(255) as u8,
-    };
-    let pixels: Vec<u8> = canvas.pixels().iter().flatten().map(|&c| rounded(c)).collect();
+fn encoded(canvas: &Canvas, colors: usize) -> Result<Vec<u8>, png::EncodingError> {
+    let (palette, indices) = palette(canvas.pixels(), colors);
     let (width, height) = canvas.size();
-    let mut best: Option<Vec<u8>> = None;
-    for filter in [FilterType::NoFilter, FilterType::Up, FilterType::Adaptive] {
-        let mut bytes = Vec::new();
-        PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, filter).write_image(
-            &pixels,
-            width,
-            height,
-            ExtendedColorType::Rgb8,
-        )?;
-        if best.as_ref().is_none_or(|best| bytes.len() < best.len()) {
-            best = Some(bytes);
-        }
-    }
-    Ok(best.unwrap_or_default())
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Indexed);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_palette(palette.as_flattened());
+    encoder.set_compression(png::Compression::High);
+    // Neighbouring indices have nothing in common.
+    encoder.set_filter(png::Filter::NoFilter);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&indices)?;
+    writer.finish()?;
+    Ok(bytes)
 }
 
 #[cfg(test)]
@@ -280,28 +270,37 @@ mod tests {
     }
 
     #[test]
-    fn noise_is_rounded_until_it_fits() {
-        // Numbers without a pattern: 32 bits of a multiplicative generator (Lehmer), its upper byte.
+    fn noise_has_fewer_colours_and_a_flat_sheet_keeps_its_own() {
+        // Numbers without a pattern: a multiplicative generator (Lehmer) of 31 bits, its upper byte.
         let mut state = 1_u64;
-        let mut canvas = Canvas::new(256, 256, [0; 3]);
-        for i in 0..256 * 256 {
+        let mut canvas = Canvas::new(240, 240, [255; 3]);
+        for i in 0..240 * 200 {
             let mut byte = || {
                 state = state * 48_271 % 0x7fff_ffff;
                 (state >> 23) as u8
             };
-            let color = [byte(), byte(), byte()];
-            canvas.fill((i % 256, i / 256), (1, 1), color);
+            canvas.fill((i % 240, i / 240), (1, 1), [byte(), byte(), byte()]);
         }
-        let whole = encoded(&canvas, 0).expect("a picture");
-        // Noise of eight bits does not get smaller.
-        assert!(whole.len() > 3 * 256 * 256);
+        let bytes = small(&canvas).expect("a picture");
+        // 48000 pixels of 8 bits fit; they would not of 24.
+        assert!(
+            bytes.len() <= MOST_BYTES && bytes.len() > 30_000,
+            "{}",
+            bytes.len()
+        );
+        let image = image::load_from_memory(&bytes).expect("a picture").into_rgb8();
+        assert_eq!(image.dimensions(), (240, 240));
+        assert_eq!(image.get_pixel(120, 220).0, [255; 3]);
+
+        let mut canvas = Canvas::new(100, 20, [255; 3]);
+        canvas.text((2, 2), "MSE 1.5", 2, INK);
         let bytes = small(&canvas).expect("a picture");
         let image = image::load_from_memory(&bytes).expect("a picture").into_rgb8();
-        // Four bits are left of each channel: no step is smaller than 16, but for white.
-        let steps: std::collections::BTreeSet<u8> = image.iter().map(|c| c % 16).collect();
-        assert!(steps.iter().all(|&step| step == 0 || step == 15), "{steps:?}");
-        for (shown, drawn) in image.iter().zip(canvas.pixels().iter().flatten()) {
-            assert!(shown.abs_diff(*drawn) <= 8, "{shown} for {drawn}");
-        }
+        assert!(
+            image
+                .pixels()
+                .zip(canvas.pixels())
+                .all(|(shown, drawn)| shown.0 == *drawn)
+        );
     }
 }
