@@ -13,8 +13,8 @@
 use std::fs;
 use std::path::Path;
 
+use serde::Deserialize;
 use serde::de::{Deserializer, Error as _};
-use serde::{Deserialize, Serialize};
 
 use super::plan::MAX_FRAME;
 use crate::error::HostError;
@@ -24,8 +24,7 @@ use crate::scene::{BUILT_IN, STAGE};
 const MOST_LETTERS: usize = 300;
 
 /// A scene of a list.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Raw")]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entry {
     /// A built-in name, or a path from the list's folder.
     pub scene: String,
@@ -50,7 +49,7 @@ pub(super) struct Entry {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Whole {
-    scenes: Vec<Entry>,
+    scenes: Vec<Raw>,
 }
 
 /// An entry as it stands in the file, each value checked by itself.
@@ -83,7 +82,7 @@ impl TryFrom<Raw> for Entry {
 
     fn try_from(raw: Raw) -> Result<Self, String> {
         let scene = raw.scene;
-        let problem = |words: &str| Err(format!("the entry of `{scene}` that ends here {words}"));
+        let problem = |words: &str| Err(format!("the entry of `{scene}` that begins here {words}"));
         if raw.may_be_shown && !is_built_in(&scene) && (raw.author.is_none() || raw.licence.is_none()) {
             return problem(
                 "may be shown, but has no `author` or no `licence`; add both, or set `may_be_shown` to false",
@@ -178,7 +177,33 @@ fn parse(text: &str) -> Result<Vec<Entry>, String> {
             "line 1: `scenes` is empty; add an entry, or leave --list out for the built-in scenes",
         ));
     }
-    Ok(whole.scenes)
+    let entries = whole.scenes.into_iter().zip(entry_lines(text));
+    entries
+        .map(|(raw, line)| Entry::try_from(raw).map_err(|problem| format!("line {line}: {problem}")))
+        .collect()
+}
+
+/// The lines in which the entries of a sound list begin: the third level of brackets.
+fn entry_lines(text: &str) -> Vec<usize> {
+    let (mut lines, mut line, mut depth) = (Vec::new(), 1, 0);
+    let (mut in_text, mut escaped) = (false, false);
+    for c in text.chars() {
+        match c {
+            '\n' => line += 1,
+            _ if escaped => escaped = false,
+            '\\' if in_text => escaped = true,
+            '"' => in_text = !in_text,
+            '{' | '[' if !in_text => {
+                if depth == 2 {
+                    lines.push(line);
+                }
+                depth += 1;
+            }
+            '}' | ']' if !in_text => depth -= 1,
+            _ => {}
+        }
+    }
+    lines
 }
 
 /// Text of one line.

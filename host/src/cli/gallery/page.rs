@@ -141,6 +141,10 @@ fn body(exhibit: &Exhibit, measured: &Measured) -> String {
     for warning in &measured.warnings {
         out += &format!("\n- {}", plain(warning));
     }
+    // A table does not belong to the list before it.
+    if !measured.warnings.is_empty() {
+        out.push('\n');
+    }
     out += "\n| method | rays per pixel | image ms | update ms | MSE | FLIP | linear MSE |\n|---|---|---|---|---|---|---|\n";
     for row in &measured.methods {
         out += &format!(

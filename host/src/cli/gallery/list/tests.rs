@@ -57,22 +57,24 @@ fn errors_name_the_line_and_what_to_do() {
 }
 
 #[test]
-fn what_an_entry_lacks_is_told_where_it_ends() {
+fn what_an_entry_lacks_is_told_where_it_is() {
     let said = refused("{ \"scenes\": [\n  { \"scene\": \"a.glb\"\n  }\n] }");
     assert!(
         said.starts_with("line 3: ") && said.contains("may_be_shown"),
         "{said}"
     );
-    let said = refused(
-        "{ \"scenes\": [\n  { \"scene\": \"a.glb\", \"author\": \"A\",\n    \"may_be_shown\": true }\n] }",
-    );
+    // The second entry begins in the third line; brackets in texts are no brackets.
+    let second = |rest: &str| {
+        refused(&format!(
+            "{{ \"scenes\": [\n  {{ \"scene\": \"[\\\"{{\", \"may_be_shown\": false }},\n  {{ {rest} }}\n] }}"
+        ))
+    };
+    let said = second("\"scene\": \"a.glb\",\n\"author\": \"A\",\n\"may_be_shown\": true");
     assert!(
         said.starts_with("line 3: ") && said.contains("`licence`"),
         "{said}"
     );
-    let said = refused(
-        "{ \"scenes\": [\n  { \"scene\": \"stage\", \"may_be_shown\": true,\n    \"environment_scale\": 2 }\n] }",
-    );
+    let said = second("\"scene\": \"stage\",\n\"may_be_shown\": true,\n\"environment_scale\": 2");
     assert!(
         said.starts_with("line 3: ") && said.contains("without an `environment`"),
         "{said}"
