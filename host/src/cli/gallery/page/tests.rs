@@ -169,3 +169,13 @@ fn a_scene_that_failed_is_a_row_with_its_error() {
     );
     assert!(page.contains("](gallery/lamp.png)"), "{page}");
 }
+
+#[test]
+fn warnings_stand_before_the_table_and_not_in_it() {
+    let mut of = exhibit(&lamp(true), true);
+    if let Some(measured) = &mut of.measured {
+        measured.warnings = vec![String::from("dark")];
+    }
+    let page = page_of(vec![of]);
+    assert!(page.contains("\n\n- dark\n\n| method |"), "{page}");
+}
