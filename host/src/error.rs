@@ -100,6 +100,14 @@ pub enum HostError {
         /// What it needs.
         needs: &'static str,
     },
+    /// A list of scenes.
+    #[error("the list {path}: {problem}")]
+    List {
+        /// The file.
+        path: PathBuf,
+        /// Where, what, and what to do.
+        problem: String,
+    },
     /// A model that is not sufficient for a scene.
     #[error("{0}")]
     Model(#[from] ModelError),

@@ -7,6 +7,7 @@ mod demo;
 mod devices;
 mod export;
 mod frames;
+mod gallery;
 mod info;
 mod inspect;
 mod numbers;
@@ -67,6 +68,9 @@ enum Command {
     Numbers(numbers::Args),
     /// Compare the methods over an animation as the paper does: errors, times, graphs and close-ups.
     Compare(compare::Args),
+    /// Render scenes by every method in equal time, next to references: a page with a sheet of pictures for each scene. Exit status 1: a scene
+    /// could not be rendered, and the page says which.
+    Gallery(gallery::Args),
     /// Check every extreme that the light BVH must survive, on the CPU and every device, against stated bounds.
     Stability(stability::Args),
     /// Run many frames of random edits beside rebuilds, each held against its bound, and compare every device with the CPU.
@@ -128,6 +132,7 @@ pub fn main() -> ExitCode {
         Command::Inspect(args) => inspect::run(&context, args),
         Command::Numbers(args) => numbers::run(&context, args),
         Command::Compare(args) => compare::run(&context, args),
+        Command::Gallery(args) => gallery::run(&context, args),
         Command::Stability(args) => stability::run(&context, args),
         Command::Soak(args) => soak::run(&context, args),
         Command::Info => info::run(&context),

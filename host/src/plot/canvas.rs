@@ -31,6 +31,11 @@ impl Canvas {
         }
     }
 
+    /// Columns and rows.
+    pub fn size(&self) -> (u32, u32) {
+        (self.width, self.height)
+    }
+
     /// The pixels by rows from the upper left.
     pub fn pixels(&self) -> &[[u8; 3]] {
         &self.pixels

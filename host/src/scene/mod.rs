@@ -54,6 +54,7 @@ pub use deform::{Influence, MorphChannel, Skin};
 pub use environment::read_environment;
 pub use error::SceneError;
 pub use frame::{FRAMES_PER_SECOND, Frame, MeshRange};
+pub use gltf_in::Asset;
 pub use instances::Instances;
 pub use load::{BUILT_IN, STAGE};
 pub use model::{

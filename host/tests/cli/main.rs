@@ -3,6 +3,7 @@
 mod animate;
 mod checks;
 mod compare;
+mod gallery;
 mod inspect;
 mod program;
 mod refusals;

@@ -53,7 +53,7 @@ pub(super) fn write(
             columns.push((method, judge.judge(film)?));
         }
     }
-    let regions = choose(judge, &columns);
+    let regions = choose(judge, &columns, SHARE, REGIONS);
     let mut crops = Vec::new();
     for (method, judged) in &columns {
         for &region in &regions {
@@ -72,10 +72,16 @@ pub(super) fn write(
     Ok(crops)
 }
 
-/// The regions where the methods' errors are furthest apart, without overlap: the greatest MSE less the least.
-fn choose(judge: &Judge, columns: &[(Method, Judged<'_>)]) -> Vec<Region> {
+/// The `count` regions where the methods' errors are furthest apart, without overlap: the greatest MSE less the least. Each has one part in
+/// `share` of the image's width and height.
+pub(in crate::cli) fn choose(
+    judge: &Judge,
+    columns: &[(Method, Judged<'_>)],
+    share: u32,
+    count: usize,
+) -> Vec<Region> {
     let (width, height) = judge.size();
-    let (across, down) = (width.div_ceil(SHARE), height.div_ceil(SHARE));
+    let (across, down) = (width.div_ceil(share), height.div_ceil(share));
     let steps = |all: u32, size: u32| (0..=all - size).step_by((size as usize / 4).max(1));
     let mut found: Vec<(f64, Region)> = Vec::new();
     for y in steps(height, down) {
@@ -101,7 +107,7 @@ fn choose(judge: &Judge, columns: &[(Method, Judged<'_>)]) -> Vec<Region> {
     found.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut chosen: Vec<Region> = Vec::new();
     for (_, region) in found {
-        if chosen.len() < REGIONS && chosen.iter().all(|other| !other.overlaps(&region)) {
+        if chosen.len() < count && chosen.iter().all(|other| !other.overlaps(&region)) {
             chosen.push(region);
         }
     }

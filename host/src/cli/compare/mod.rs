@@ -1,7 +1,7 @@
 //! `lightbvh compare`: the paper's comparison. Table 1 (errors), Figures 4 and 5 (errors over frames), Figure 6
 //! (close-ups) and Table 2 (times), for every method that there is.
 
-mod crops;
+pub(super) mod crops;
 mod frames;
 mod graphs;
 mod job;
@@ -9,7 +9,7 @@ mod measure;
 mod plan;
 mod reference;
 mod report;
-mod store;
+pub(super) mod store;
 mod summary;
 
 use std::path::Path;

@@ -17,13 +17,13 @@ use crate::render::{Film, write_whole};
 const FORMAT: u32 = 1;
 
 /// A folder of results.
-pub(super) struct Store {
+pub(in crate::cli) struct Store {
     folder: PathBuf,
 }
 
 /// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo) over words of eight bytes, with a shift so that their upper bits count as much
 /// as the lower: tells files and scenes apart, not more.
-pub(super) fn fingerprint(bytes: &[u8]) -> String {
+pub(in crate::cli) fn fingerprint(bytes: &[u8]) -> String {
     let step = |state: u64, word: u64| {
         let product = (state ^ word).wrapping_mul(0x0000_0100_0000_01b3);
         product ^ (product >> 32)
@@ -37,7 +37,7 @@ pub(super) fn fingerprint(bytes: &[u8]) -> String {
 }
 
 /// A name for files: that of a scene or of a scene's file, with nothing in it that a file system minds.
-pub(super) fn stem(name: &str) -> String {
+pub(in crate::cli) fn stem(name: &str) -> String {
     let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
     let plain = |c: char| {
         if c.is_ascii_alphanumeric() {

@@ -11,7 +11,7 @@ mod pick;
 mod prepare;
 pub(super) mod quantile;
 mod reach;
-mod report;
+pub(super) mod report;
 mod reservoirs;
 mod steps;
 mod structure;
@@ -216,7 +216,7 @@ fn scene_points(name: &str, args: &Args, budget: &Budget) -> Result<(Vec<Point>,
 }
 
 /// A finite number above zero.
-fn positive(text: &str) -> Result<f64, String> {
+pub(super) fn positive(text: &str) -> Result<f64, String> {
     let number = text.parse().ok();
     number
         .filter(|&number: &f64| number.is_finite() && number > 0.0)
@@ -224,7 +224,7 @@ fn positive(text: &str) -> Result<f64, String> {
 }
 
 /// `WxH`, pixels.
-fn size(text: &str) -> Result<(u32, u32), String> {
+pub(super) fn size(text: &str) -> Result<(u32, u32), String> {
     let range = 1..=4096;
     let parsed = text
         .split_once('x')

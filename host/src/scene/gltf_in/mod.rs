@@ -23,6 +23,7 @@
 
 mod accessor;
 mod animation;
+mod asset;
 mod attributes;
 mod bend;
 mod container;
@@ -38,6 +39,8 @@ mod node;
 mod paint;
 mod punctual;
 mod texture;
+
+pub use asset::Asset;
 
 use std::borrow::Cow;
 use std::cell::{Cell, OnceCell, RefCell};

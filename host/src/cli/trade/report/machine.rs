@@ -8,7 +8,7 @@ use serde::Serialize;
 
 /// The head of a report.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct Made {
+pub(in crate::cli) struct Made {
     /// The processor's name where the system tells it, its family and the system elsewhere.
     pub machine: String,
     /// Threads that images and trees have.
@@ -41,7 +41,7 @@ impl Made {
 }
 
 /// The command line, by the program's name alone: where it lies is nobody's business.
-fn command(mut args: impl Iterator<Item = String>) -> String {
+pub(in crate::cli) fn command(mut args: impl Iterator<Item = String>) -> String {
     let program = args.next().unwrap_or_default();
     let program = Path::new(&program).file_stem().unwrap_or_default();
     let plain = |c: char| c.is_alphanumeric() || "-_./:=,+@%".contains(c);

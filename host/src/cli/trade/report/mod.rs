@@ -1,6 +1,6 @@
 //! What was measured as one page, `trade.html`, which needs no network and no other file; as JSON; as Markdown and plots for documents.
 
-mod machine;
+pub(in crate::cli) mod machine;
 mod page;
 mod pictures;
 mod tables;
