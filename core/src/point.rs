@@ -1,8 +1,10 @@
 //! The receiver of light.
 
 mod glossy;
+mod linked;
 
 pub use glossy::GlossyPoint;
+pub use linked::LinkedPoint;
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
