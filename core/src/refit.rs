@@ -14,8 +14,10 @@ use crate::light::{Light, LightSlots};
 use crate::node::{Node, kind};
 use crate::summary::{Lanes, SUMMARY_WORDS, Summary};
 
+#[cfg(feature = "alloc")]
+pub(crate) use masks::mask_of_root;
+pub(crate) use masks::masks_below;
 use masks::masks_of_top;
-pub(crate) use masks::{mask_of_root, masks_below};
 
 /// Node `index` of a bottom level with the summaries of its triangles and of the nodes below it.
 #[inline]

@@ -16,8 +16,10 @@ mod moments;
 mod pbrt;
 mod phi;
 mod sight;
+mod subtended;
 #[cfg(test)]
 mod tests;
+mod transmissive;
 
 pub use cycles::Cycles;
 pub use eq4::{Cluster, Eq4};
@@ -34,11 +36,13 @@ pub use moments::Moments;
 pub(crate) use moments::{Lobe, dot_by, frame, side, weight};
 pub use pbrt::Pbrt;
 pub use phi::Flux;
+pub use subtended::Subtended;
+pub use transmissive::Transmissive;
 
 use crate::exact;
 use crate::point::ShadingPoint;
 #[doc(inline)]
-pub use crate::point::{GlossyPoint, LinkedPoint, Receiver};
+pub use crate::point::{GlossyPoint, LinkedPoint, RaySegment, Receiver, SegmentSample, TransmissivePoint};
 
 /// A measure of what the lights below each child of a node may contribute at a point. A type chooses it, so that kernels
 /// contain one only.
