@@ -355,6 +355,8 @@ fn places_have_their_density() {
         let d = length(cross(minus(c, from), chord)) / len;
         let [a, b] = [minus(from, c), minus(to, c)];
         let angle = length(cross(a, b)).atan2(dot(a, b));
+        let foot = dot(minus(c, from), chord) / len;
+        let angle_at = |part: f64| ((part * len - foot) / d).atan();
         let mut before = 0.0;
         for k in 1..=STEPS {
             let u = k as f32 / STEPS as f32;
@@ -364,15 +366,20 @@ fn places_have_their_density() {
                 sample.density.to_bits(),
                 segment.density(center, sample.part).to_bits()
             );
-            // Simpson's rule over 64 pieces of the step: at the end of a long segment the density falls steeply.
+            // Simpson's rule over the angle of the step, over which the density has hardly a slope.
             let end = f64::from(sample.part);
+            let (first, last) = (angle_at(before), angle_at(end));
             let mut sum = 0.0;
             for piece in 0..64 {
-                let [x, y] = [0, 1].map(|i| before + (end - before) * f64::from(piece + i) / 64.0);
-                let at = |x: f64| f64::from(segment.density(center, x as f32));
+                let [x, y] = [0, 1].map(|i| first + (last - first) * f64::from(piece + i) / 64.0);
+                let at = |angle: f64| {
+                    let tangent = angle.tan();
+                    let part = ((tangent * d + foot) / len) as f32;
+                    f64::from(segment.density(center, part)) * d * (1.0 + tangent * tangent)
+                };
                 sum += (at(x) + 4.0 * at(0.5 * (x + y)) + at(y)) * (y - x) / 6.0;
             }
-            let found = sum * len * f64::from(STEPS);
+            let found = sum * f64::from(STEPS);
             // Parts are numbers of 24 bits, and those between them are rounded.
             let rounding = 1e-6 / (end - before);
             assert!(

@@ -143,14 +143,13 @@ fn weights_are_sums<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>()
                 let of = |slot: usize| {
                     f64::from(front) * f64::from(w[slot]) + f64::from(back) * f64::from(v[slot])
                 };
-                for slot in 0..W {
-                    assert_eq!(found[slot] > 0.0, node.kind(slot) != 0);
+                for (slot, &found) in found.iter().enumerate() {
+                    assert_eq!(found > 0.0, node.kind(slot) != 0);
                     let scale = f64::from(front.max(back));
                     let expected = of(slot) / scale;
                     assert!(
-                        (f64::from(found[slot]) - expected).abs() <= 4e-7 * expected,
-                        "{} and {expected}",
-                        found[slot]
+                        (f64::from(found) - expected).abs() <= 4e-7 * expected,
+                        "{found} and {expected}"
                     );
                     compared += u32::from(expected > 0.0);
                 }
