@@ -623,6 +623,31 @@ fn masks_that_allow_all_change_nothing() {
     }
 }
 
+/// A least share of each child is a least probability of each light, of those that are allowed.
+#[test]
+fn least_shares_bound_probabilities() {
+    const LEAST: f64 = 1.0 / 512.0;
+    let random = &mut Random(12);
+    let all = Lights::new(lights(600, random, triangle)).expect("in the domain");
+    let bvh = Tree::<LinkedTriangle>::single_level(&all, &BuildParams::default());
+    // What is raised adds to the sum; shares are whole numbers of 2^21 at least.
+    let of_node = LEAST / (1.0 + 8.0 * LEAST) - 2f64.powi(-20);
+    let bound = of_node.powi(bvh.depth() as i32);
+    let mut below = 0;
+    for _ in 0..40 {
+        let receiver = random.receiver(6.0);
+        for light in 0..600 {
+            let plain = bvh.tree().pmf_for(&receiver, light, 0);
+            let tree = bvh.by::<Linked<Leveled<Moments, 9>>>();
+            let pmf = f64::from(tree.pmf_for(&receiver, light, 0));
+            assert_eq!(plain > 0.0, pmf > 0.0);
+            assert!(pmf == 0.0 || pmf >= bound, "{pmf} of {bound}");
+            below += u32::from(plain > 0.0 && f64::from(plain) < bound);
+        }
+    }
+    assert!(below > 0, "nothing is tested");
+}
+
 /// What is not used costs nothing.
 #[test]
 fn nodes_without_masks_are_what_they_were() {
