@@ -4,8 +4,9 @@
 
 use glam::Vec3;
 use lightbvh::exact::{hash, pow2, unit_f32};
-use lightbvh::importance::{ImportanceModel, RaySegment, Receiver, Subtended};
-use lightbvh::node::kind;
+use lightbvh::importance::{ImportanceModel, Linked, LinkedPoint, RaySegment, Receiver, Subtended};
+use lightbvh::light::LinkedTriangle;
+use lightbvh::node::{LinkedMomentNode, Lit, kind};
 use lightbvh::{
     BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, FullMomentNode, FullNode, LightMoments,
     LightNode, Lights, MomentNode, Moments, Node, ShadingPoint, Transform,
@@ -532,6 +533,31 @@ fn estimates_converge() {
             "nothing is tested: {deviation} of {expected}"
         );
     }
+}
+
+/// Masks and segments together.
+#[test]
+fn masks_go_with_it() {
+    type Tree = Bvh<Lit<LinkedMomentNode<8>, LinkedTriangle>, Linked<Subtended<Moments>>, 8>;
+    let random = &mut Random(9);
+    let own = room(random);
+    let linked = own.triangles().iter().zip(0..).map(|(&light, k)| LinkedTriangle {
+        light,
+        mask: 1 << (k % 3),
+    });
+    let linked = Lights::new(linked.collect()).expect("in the domain");
+    let bvh = Tree::two_level(&linked, &BuildParams::default());
+    let receiver = LinkedPoint {
+        point: random.segment(5.0, 4.0),
+        mask: 0b100,
+    };
+    let mut sum = 0.0;
+    for (light, own) in (0..).zip(own.triangles()) {
+        let pmf = bvh.tree().pmf_for(&receiver, light, own.mesh);
+        assert_eq!(pmf > 0.0, light % 3 == 2);
+        sum += f64::from(pmf);
+    }
+    assert!((sum - 1.0).abs() < 1e-5, "{sum}");
 }
 
 #[test]

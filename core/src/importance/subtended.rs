@@ -13,7 +13,7 @@ use crate::vector::{dot, length_squared};
 use line::Line;
 
 /// What a [`RaySegment`] receives: flux times the angle under which the lights see the segment, over their least distance from its line (Conty
-/// Estevez & Kulla 2018, section 4.1: what 1/d² comes to along a line), times the emitters' cosine, a mean of two places on
+/// Estevez & Kulla 2018, their Eq. 4: what 1/d² comes to along a line), times the emitters' cosine, a mean of two places on
 /// the segment. `Subtended<Moments>` on the layouts of [`Moments`], `Subtended<Eq4>` on those of [`Eq4`].
 ///
 /// - ∫ 1/(d² + s²) dt over the segment of length L is θ/D, with D² = the squared least distance + s², and θ the angle of the segment
