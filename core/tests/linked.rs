@@ -10,7 +10,7 @@ use lightbvh::light::{AnyLight, Light, LinkedAny, LinkedTriangle, PointLight, Sp
 use lightbvh::node::{LinkedMomentNode, Lit, Node, PackedMomentNode};
 use lightbvh::tree::LightTree;
 use lightbvh::{
-    BuildParams, Bvh, EmissiveTriangle, Flux, Glossy, GlossyPoint, ImportanceModel, Lights, MomentNode,
+    BuildParams, Bvh, Edit, EmissiveTriangle, Flux, Glossy, GlossyPoint, ImportanceModel, Lights, MomentNode,
     Moments, Random64, Rebuilder, Receiver, SampledLight, ShadingPoint, Transform, TwoSidedMomentNode,
 };
 
@@ -469,6 +469,50 @@ fn two_levels_of_triangles() {
 #[test]
 fn two_levels_of_any_lights() {
     two_levels(any);
+}
+
+/// So many instances that the top level is rebuilt part by part, beside the frames, and keeps subtrees.
+#[test]
+fn parts_of_large_top_levels() {
+    let random = &mut Random(31);
+    let mut bvh = Tree::<LinkedTriangle>::default();
+    let meshes: Vec<_> = (0..40)
+        .map(|_| bvh.add_mesh(lights(2, random, triangle)).expect("in the domain"))
+        .collect();
+    let wide_place = |random: &mut Random| Transform {
+        translation: random.vector(500.0),
+        ..place(random)
+    };
+    let edits = (0..3000).map(|k| Edit::AddInstance {
+        mesh: meshes[k % 40],
+        transform: wide_place(random),
+        radiance: 1.0,
+    });
+    let edits = edits.collect();
+    let ids = bvh.apply(edits).expect("in the domain").instances;
+    bvh.refit();
+    let mut rebuilder = Rebuilder::new(RebuilderParams {
+        swap: Swap::Deterministic,
+        ..RebuilderParams::default()
+    });
+    let mut seen = Seen::default();
+    for frame in 0..60 {
+        rebuilder.begin_frame(&mut bvh).expect("no panic");
+        for _ in 0..40 {
+            let id = ids[random.below(3000) as usize];
+            bvh.set_transform(id, wide_place(random)).expect("in the domain");
+        }
+        let mesh = meshes[random.below(40) as usize];
+        bvh.set_triangles(mesh, lights(2, random, triangle))
+            .expect("as many");
+        bvh.refit();
+        rebuilder.end_frame(&bvh);
+        bvh.validate().expect("nodes are what refit makes");
+        if frame % 20 == 19 {
+            check_all(&bvh, 2, random, &mut seen);
+        }
+    }
+    assert!(seen.partial > 3, "{seen:?}");
 }
 
 /// A large mesh among small ones is opened: parts of it are leaves of the top level.
