@@ -11,6 +11,7 @@
 //! | [`PointLight`], [`SpotLight`] | from a place without size, in every direction or into a cone |
 //! | [`BoxLight`] | from every place within it in every direction |
 //! | [`AnyLight`] | as the one of these that it is, for trees over several kinds |
+//! | [`LinkedTriangle`], [`LinkedAny`] | as that, to the receivers that its mask allows: [`Linked`](crate::importance::Linked) |
 //!
 //! [`Light::point_for`] gives a [`LightPoint`] on each of them, [`LightPoint::irradiance`] what that sends. Builders, refits, samples, pmfs,
 //! instances, edits, rebuilds and files are the same for all; so are mirrors on devices:
@@ -25,6 +26,7 @@
 mod any;
 mod flat;
 pub mod infinite;
+mod linked;
 mod point;
 mod punctual;
 mod record;
@@ -39,6 +41,7 @@ use glam::Vec3;
 
 pub use any::AnyLight;
 pub use flat::{DiscLight, RectangleLight};
+pub use linked::{LinkedAny, LinkedTriangle};
 pub use point::{LightPoint, uniform_point};
 pub use punctual::{PointLight, SpotLight};
 pub use record::{Light, LightSlots};

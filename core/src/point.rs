@@ -1,8 +1,14 @@
 //! The receiver of light.
 
 mod glossy;
+mod linked;
+mod segment;
+mod transmissive;
 
 pub use glossy::GlossyPoint;
+pub use linked::LinkedPoint;
+pub use segment::{RaySegment, SegmentSample};
+pub use transmissive::TransmissivePoint;
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
@@ -129,6 +135,11 @@ pub enum PointError {
         /// What was found.
         value: f32,
     },
+    /// A part of a [`TransmissivePoint`] is NaN.
+    Part {
+        /// What was found.
+        value: f32,
+    },
 }
 
 impl core::fmt::Display for PointError {
@@ -152,6 +163,10 @@ impl core::fmt::Display for PointError {
             Self::Reflectance { value } => write!(
                 f,
                 "a reflectance or exponent of a glossy point is {value}, expected a number; compute it anew"
+            ),
+            Self::Part { value } => write!(
+                f,
+                "a part of a transmissive point is {value}, expected a number from 0 to 1; compute it anew"
             ),
         }
     }

@@ -5,12 +5,19 @@
 //! levels to their roots; [`root`] for each bottom level; [`top`] from the deepest level of the top level to its root.
 //! Children are merged in an order of the slots, so no order of execution shows in the bits.
 
+mod masks;
+
 use bytemuck::{Pod, Zeroable};
 
 pub use crate::instance::{Instance, world_light};
 use crate::light::{Light, LightSlots};
 use crate::node::{Node, kind};
 use crate::summary::{Lanes, SUMMARY_WORDS, Summary};
+
+#[cfg(feature = "alloc")]
+pub(crate) use masks::mask_of_root;
+pub(crate) use masks::masks_below;
+use masks::masks_of_top;
 
 /// Node `index` of a bottom level with the summaries of its triangles and of the nodes below it.
 #[inline]
@@ -20,6 +27,7 @@ pub fn bottom<N: Node<W>, const W: usize>(nodes: &[N], triangles: &[N::Light], i
     let mut room = Room::<N::Light, W>::new();
     below(nodes, 0, triangles, &node, &mut room);
     node.set_lanes(&room.children);
+    node.set_masks(&masks_below(nodes, 0, triangles, &node));
     node
 }
 
@@ -110,6 +118,7 @@ pub fn top<N: Node<W>, const W: usize>(
         }
     }
     node.set_lanes(&children);
+    node.set_masks(&masks_of_top(nodes, instances, roots, &node));
     node
 }
 

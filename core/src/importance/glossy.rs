@@ -29,6 +29,7 @@ pub struct Glossy<I>(PhantomData<I>);
 
 impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W, GlossyPoint> for Glossy<I> {
     const UNIFORM_HALVINGS: u32 = I::UNIFORM_HALVINGS;
+    const IS_PARTIAL: bool = I::IS_PARTIAL;
 
     #[inline(always)]
     fn weights(node: &N, receiver: &GlossyPoint) -> [f32; W] {

@@ -9,13 +9,17 @@ mod falcor;
 mod flux;
 mod gaussian;
 mod glossy;
+mod leveled;
+mod linked;
 mod math;
 mod moments;
 mod pbrt;
 mod phi;
 mod sight;
+mod subtended;
 #[cfg(test)]
 mod tests;
+mod transmissive;
 
 pub use cycles::Cycles;
 pub use eq4::{Cluster, Eq4};
@@ -23,6 +27,8 @@ pub use falcor::Falcor;
 pub use flux::FluxOverDistance;
 pub use gaussian::SphericalGaussian;
 pub use glossy::Glossy;
+pub use leveled::Leveled;
+pub use linked::Linked;
 #[cfg(any(feature = "std", target_arch = "spirv"))]
 pub use math::NativeMath;
 pub use math::{ExactMath, Math};
@@ -30,11 +36,13 @@ pub use moments::Moments;
 pub(crate) use moments::{Lobe, dot_by, frame, side, weight};
 pub use pbrt::Pbrt;
 pub use phi::Flux;
+pub use subtended::Subtended;
+pub use transmissive::Transmissive;
 
 use crate::exact;
 use crate::point::ShadingPoint;
 #[doc(inline)]
-pub use crate::point::{GlossyPoint, Receiver};
+pub use crate::point::{GlossyPoint, LinkedPoint, RaySegment, Receiver, SegmentSample, TransmissivePoint};
 
 /// A measure of what the lights below each child of a node may contribute at a point. A type chooses it, so that kernels
 /// contain one only.
@@ -44,6 +52,9 @@ pub trait ImportanceModel<N, const W: usize, P = ShadingPoint> {
     /// Share of samples that choose among all lights alike, as the number of times that 1 is halved: 5 for 1/32. 0 is for none
     /// and costs nothing. See [`Defensive`].
     const UNIFORM_HALVINGS: u32;
+    /// Whether lights with flux may have weight zero: such an importance takes no share of uniform choice.
+    #[doc(hidden)]
+    const IS_PARTIAL: bool = false;
 
     /// The weights of the children of `node` at `point`, a point in the node's space: each zero where the child has no flux,
     /// else positive and at most 2^120. Hostile words may give anything.
@@ -75,6 +86,10 @@ impl<N, I: ImportanceModel<N, W, P>, P, const HALVINGS: u32, const W: usize> Imp
         assert!(
             1 <= HALVINGS && HALVINGS <= 20,
             "a share of uniform choice from 1/2 to 2^-20"
+        );
+        assert!(
+            !I::IS_PARTIAL,
+            "uniform choice goes to lights that this importance leaves out; `Leveled` takes its place"
         );
         HALVINGS
     };

@@ -34,7 +34,7 @@ impl<M: Math, N: MomentLayout<W>, const W: usize> ImportanceModel<N, W> for Mome
 }
 
 /// Least cosine that the soft ones are spread by: no light is ever quite out of sight. Its square is the ε of the tables.
-const SOFT: f32 = 0.031_622_78;
+pub(super) const SOFT: f32 = 0.031_622_78;
 /// What the height of a box above the horizon counts as at least: what is left of a set all below it.
 const FLOOR: f32 = 1.0e-4;
 /// Variance of all three axes in squared breadths: 1 for a flat set, 1.5 for a round one.
@@ -122,7 +122,7 @@ pub(crate) struct Lobe {
 /// root and without its cancellation. As numerator and denominator, for one reciprocal serves both cosines and the
 /// distance; `a` comes doubled.
 #[inline(always)]
-fn soft<M: Math>(doubled: f32, s: f32, cut: f32) -> (f32, f32) {
+pub(super) fn soft<M: Math>(doubled: f32, s: f32, cut: f32) -> (f32, f32) {
     let below = exact::abs(doubled) + s;
     (M::add_product(exact::max(doubled, 0.0) * below, s, cut), below)
 }

@@ -9,6 +9,7 @@ mod flux;
 mod gaussian;
 #[cfg(feature = "alloc")]
 mod glossy;
+mod linked;
 mod moments;
 #[cfg(feature = "alloc")]
 mod trees;

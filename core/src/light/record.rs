@@ -57,6 +57,12 @@ pub trait Light: Pod + PartialEq + Debug + Send + Sync {
     fn flux_power(&self) -> u32 {
         Self::FLUX_POWER
     }
+    /// Which receivers it lights, as bits: those whose mask has one of them ([`LinkedPoint`](crate::importance::LinkedPoint)). All, unless a
+    /// kind says otherwise. Read by [`Linked`](crate::importance::Linked) on nodes that store masks, and by nothing else.
+    #[inline(always)]
+    fn mask(&self) -> u32 {
+        u32::MAX
+    }
     /// Bounds of its emission.
     fn bounds(&self) -> LightBounds;
     /// Moments of its emission; its flux is that of [`bounds`](Self::bounds).

@@ -33,6 +33,7 @@ impl<N: Node<W>, L: Light, const W: usize> Node<W> for Lit<N, L> {
         lights: PhantomData,
     };
     const NAME: &'static str = N::NAME;
+    const HAS_MASKS: bool = N::HAS_MASKS;
 
     #[inline(always)]
     fn kind(&self, slot: usize) -> u32 {
@@ -60,6 +61,16 @@ impl<N: Node<W>, L: Light, const W: usize> Node<W> for Lit<N, L> {
     #[inline(always)]
     fn set_lanes(&mut self, summaries: &Lanes<W>) {
         self.node.set_lanes(summaries);
+    }
+
+    #[inline(always)]
+    fn mask(&self, slot: usize) -> u32 {
+        self.node.mask(slot)
+    }
+
+    #[inline(always)]
+    fn set_masks(&mut self, masks: &[u32; W]) {
+        self.node.set_masks(masks);
     }
 
     #[inline(always)]

@@ -15,7 +15,7 @@ pub(crate) use codes::BREADTH_BIAS;
 pub use compact::CompactNode;
 pub use full::FullNode;
 pub use lit::Lit;
-pub use moment::{MomentNode, PackedMomentNode, TwoSidedMomentNode};
+pub use moment::{LinkedMomentNode, MomentNode, PackedMomentNode, TwoSidedMomentNode};
 pub use moment_full::FullMomentNode;
 pub use moment_lean::LeanMomentNode;
 
@@ -62,6 +62,8 @@ pub trait Node<const W: usize>: Holds {
     const EMPTY: Self;
     /// Name for tables.
     const NAME: &'static str;
+    /// Whether it stores a mask of each child, as [`LinkedMomentNode`] does.
+    const HAS_MASKS: bool = false;
 
     /// One of [`kind`].
     fn kind(&self, slot: usize) -> u32;
@@ -76,6 +78,27 @@ pub trait Node<const W: usize>: Holds {
     /// Sets the summaries of all children, since they may share a frame; kinds and links stay. Empty slots take
     /// [`Summary::EMPTY`].
     fn set_lanes(&mut self, summaries: &Lanes<W>);
+
+    /// The union of the masks of the child's lights, of those that have flux; all bits where the layout stores none. Never zero where a light
+    /// below has flux and a bit.
+    #[inline(always)]
+    fn mask(&self, _slot: usize) -> u32 {
+        u32::MAX
+    }
+
+    /// Sets the masks of all children, after their summaries: a child without flux has none. Does nothing where the layout stores none.
+    #[inline(always)]
+    fn set_masks(&mut self, _masks: &[u32; W]) {}
+
+    /// The union of the masks of all children.
+    #[inline(always)]
+    fn merged_mask(&self) -> u32 {
+        let mut all = 0;
+        for slot in 0..W {
+            all |= self.mask(slot);
+        }
+        all
+    }
 
     /// [`set_lanes`](Self::set_lanes), child by child.
     #[inline(always)]

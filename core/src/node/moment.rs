@@ -1,4 +1,5 @@
-//! The default layout: quantised moments, 24 bytes per child; and the same for lights that shine from both sides, 20 bytes.
+//! The default layout: quantised moments, 24 bytes per child; the same for lights that shine from both sides, 20 bytes; and with masks,
+//! 28 bytes.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
@@ -16,14 +17,15 @@ use crate::moments::{Frame, Framed, LightMoments, row};
 use crate::summary::{Lanes, SUMMARY_WORDS};
 use crate::vector::abs3;
 
-/// Words of a node: row 0 is the header (origin x, y, z, exponents), the others hold a word of each child. The last two are its box
-/// and its link; a row of normals stands before them, where there is one.
+/// Words of a node: row 0 is the header (origin x, y, z, exponents), the others hold a word of each child. After the first ones come its
+/// box and its link; a row of normals stands before them, a row of masks after them, where there is one.
 const WORD_0: usize = 1;
 const WORD_1: usize = 2;
 const WORD_2: usize = 3;
-/// Rows with normals, and without.
+/// Rows with normals, without, and with normals and masks.
 const ORIENTED: usize = 6;
 const TWO_SIDED: usize = 5;
+const LINKED: usize = 7;
 /// What the row of normals holds for a mean normal of zero: all fields at their nearest, the spread at its greatest.
 const NO_NORMAL: u32 = !0;
 
@@ -41,7 +43,15 @@ pub type MomentNode<const W: usize> = PackedMomentNode<W, ORIENTED>;
 /// A light that shines from one side is taken as if it shone from both with the same flux: that costs variance, never a light.
 pub type TwoSidedMomentNode<const W: usize> = PackedMomentNode<W, TWO_SIDED>;
 
-/// What [`MomentNode`] (`ROWS` is 6) and [`TwoSidedMomentNode`] (`ROWS` is 5, without word 2) are; `W` is at least 4.
+/// A node of 28 bytes per child that knows which lights a receiver may take: the words of [`MomentNode`], and the union of the masks of the
+/// child's lights ([`Light::mask`](crate::light::Light::mask)). What [`Linked`](crate::importance::Linked) needs; any other importance
+/// chooses as by [`MomentNode`], to the bit.
+///
+/// `Bvh<Lit<LinkedMomentNode<8>, LinkedTriangle>, Linked<Moments>, 8>` is a tree over [`LinkedTriangle`](crate::light::LinkedTriangle)s.
+pub type LinkedMomentNode<const W: usize> = PackedMomentNode<W, LINKED>;
+
+/// What [`MomentNode`] (`ROWS` is 6), [`TwoSidedMomentNode`] (`ROWS` is 5, without word 2) and [`LinkedMomentNode`] (`ROWS` is 7) are;
+/// `W` is at least 4.
 ///
 /// | word | content |
 /// |---|---|
@@ -51,18 +61,21 @@ pub type TwoSidedMomentNode<const W: usize> = PackedMomentNode<W, TWO_SIDED>;
 /// | 2 | mean normal 3 × 8, spread of normals 8 |
 /// | 3 | half extents 3 × 8, breadth (√2 times the deviation across) 8 |
 /// | 4 | link |
+/// | 5 | mask |
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
 pub struct PackedMomentNode<const W: usize, const ROWS: usize>([[u32; W]; ROWS]);
 
 impl<const W: usize, const ROWS: usize> PackedMomentNode<W, ROWS> {
-    const WORD_3: usize = ROWS - 2;
-    const LINK: usize = ROWS - 1;
+    const WORD_3: usize = if ROWS == TWO_SIDED { WORD_2 } else { WORD_2 + 1 };
+    const LINK: usize = Self::WORD_3 + 1;
+    /// The last row, which is that of masks where there is one.
+    const MASK: usize = ROWS - 1;
 
     /// Word 2 of a child with flux; where no normals are stored, that of none.
     #[inline(always)]
     fn normal_word(&self, slot: usize) -> u32 {
-        if ROWS == ORIENTED {
+        if ROWS != TWO_SIDED {
             self.0[WORD_2][slot]
         } else {
             NO_NORMAL
@@ -120,7 +133,7 @@ impl<const W: usize, const ROWS: usize> PackedMomentNode<W, ROWS> {
             let used = exact::mask(kind) & exact::mask_of(s.phi > 0.0);
             self.0[WORD_0][i] = exact::masked_u32(used, w0, kind);
             self.0[WORD_1][i] = w1 & used;
-            if ROWS == ORIENTED {
+            if ROWS != TWO_SIDED {
                 self.0[WORD_2][i] = w2 & used;
             }
             self.0[Self::WORD_3][i] = w3 & used;
@@ -181,16 +194,19 @@ impl<const W: usize, const ROWS: usize> Node<W> for PackedMomentNode<W, ROWS> {
             "the header of a packed node takes four words: it has 4 to 16 children"
         );
         assert!(
-            ROWS == ORIENTED || ROWS == TWO_SIDED,
-            "a packed node of moments has six rows, or five without normals"
+            ROWS == ORIENTED || ROWS == TWO_SIDED || ROWS == LINKED,
+            "a packed node of moments has six rows, five without normals, or seven with masks"
         );
         Self([[0; W]; ROWS])
     };
     const NAME: &'static str = if ROWS == ORIENTED {
         "moments"
-    } else {
+    } else if ROWS == TWO_SIDED {
         "two-sided moments"
+    } else {
+        "linked moments"
     };
+    const HAS_MASKS: bool = ROWS == LINKED;
 
     #[inline(always)]
     fn kind(&self, slot: usize) -> u32 {
@@ -223,6 +239,25 @@ impl<const W: usize, const ROWS: usize> Node<W> for PackedMomentNode<W, ROWS> {
             along: across * (fraction(w1, 15) * WORD_UNIT + 1.0),
             m: Vec3::new(fraction(w2, 0), fraction(w2, 8), fraction(w2, 16)) * WORD_UNIT,
             h: h * (breadth * EXTENT_RANGE),
+        }
+    }
+
+    #[inline(always)]
+    fn mask(&self, slot: usize) -> u32 {
+        if ROWS == LINKED {
+            self.0[Self::MASK][slot]
+        } else {
+            u32::MAX
+        }
+    }
+
+    #[inline(always)]
+    fn set_masks(&mut self, masks: &[u32; W]) {
+        if ROWS == LINKED {
+            for slot in 0..W {
+                let shines = exact::mask(self.0[WORD_1][slot] & PHI_MASK);
+                self.0[Self::MASK][slot] = masks[slot] & shines;
+            }
         }
     }
 

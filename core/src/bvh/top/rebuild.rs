@@ -12,7 +12,7 @@ use crate::bvh::{Bvh, Trails, opened};
 use crate::instance::Instance;
 use crate::levels::Levels;
 use crate::node::{Node, kind};
-use crate::refit::BlasRoot;
+use crate::refit::{self, BlasRoot};
 use crate::summary::{Lanes, Summary};
 
 /// Most leaves of a part: copied in 0.1 ms, put in place in 0.2 ms (measured: `docs/dynamics.md`).
@@ -36,6 +36,8 @@ pub(crate) struct TopCopy<N> {
     /// The same, and the roots of their bottom levels.
     instances: Vec<Instance>,
     roots: Vec<BlasRoot>,
+    /// The unions of the masks below them, where nodes store masks.
+    masks: Vec<u32>,
     /// The subtrees that stay, with the variance of their lights' centers, and the nodes that are to be replaced, from the root down.
     kept: Vec<(Part, N, f32)>,
     inner: Vec<Part>,
@@ -119,6 +121,7 @@ impl<N> TopCopy<N> {
         for &index in Levels::gather(topology.leveled(0)).nodes() {
             let mut node = topology.nodes[index as usize];
             let mut lanes = Lanes::<W>::all(&N::Summary::EMPTY);
+            let mut masks = [0; W];
             let mut below = [0.0; W];
             for slot in 0..W {
                 let (to, link) = (node.kind(slot), node.link(slot));
@@ -126,19 +129,23 @@ impl<N> TopCopy<N> {
                     let child = topology.nodes[link as usize].merged();
                     below[slot] = apart[link as usize];
                     lanes.set(slot, &child);
+                    masks[slot] = topology.nodes[link as usize].merged_mask();
                 } else if to == kind::MESH {
                     lanes.set(slot, &leaves[link as usize]);
+                    masks[slot] = self.masks.get(link as usize).map_or(0, |&mask| mask);
                     if let Some(&name) = tree.names.get(link as usize) {
                         node.relink(slot, name);
                     } else {
                         let stays = link - tree.names.len() as u32;
                         node.set_child(slot, kind::INNER, stays);
                         below[slot] = self.kept[stays as usize].2;
+                        masks[slot] = self.kept[stays as usize].1.merged_mask();
                         tree.keeps[index as usize] |= 1 << slot;
                     }
                 }
             }
             node.set_lanes(&lanes);
+            node.set_masks(&masks);
             topology.nodes[index as usize] = node;
             let spread = Spread::of(&node, |slot| below[slot]);
             apart[index as usize] = (spread.apart() / spread.phi.max(f64::MIN_POSITIVE)) as f32;
@@ -217,6 +224,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             pays: f64::INFINITY,
             instances: Vec::with_capacity(cut.names.len()),
             roots: Vec::with_capacity(cut.names.len()),
+            masks: Vec::new(),
             names: Vec::new(),
             kept: Vec::with_capacity(cut.kept.len()),
             inner: Vec::with_capacity(cut.inner.len()),
@@ -226,7 +234,11 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         };
         for &name in &cut.names {
             let own = self.instances[name as usize];
-            copy.roots.push(self.roots[own.blas as usize]);
+            let root = self.roots[own.blas as usize];
+            copy.roots.push(root);
+            if N::HAS_MASKS {
+                copy.masks.push(refit::mask_of_root(&self.nodes, &root));
+            }
             copy.instances.push(own);
         }
         for &node in &cut.kept {

@@ -1,0 +1,111 @@
+//! Light that a thin fog sends along a ray: one lamp and one place for each trial.
+//!
+//! `cargo run --release -p lightbvh --example fog` (seconds). Prints the squared error of a lamp chosen for the middle of the ray and a place
+//! anywhere on it, and of a lamp chosen by the ray and a place for that lamp; checks that the means are right.
+
+use glam::Vec3;
+use lightbvh::exact::{hash, unit_f32};
+use lightbvh::importance::{RaySegment, SegmentSample, Subtended};
+use lightbvh::light::LightPoint;
+use lightbvh::{Defensive, EmissiveTriangle, LightBvh, Moments, SampledLight, ShadingPoint, Transform};
+
+const TRIALS: u32 = 200_000;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    // A street of lamps that shine down, and a view along it.
+    let lamp = EmissiveTriangle {
+        p: [[0.0, 4.0, 0.0], [0.1, 4.0, 0.0], [0.0, 4.0, 0.1]],
+        radiance: [9.0; 3],
+        mesh: 0,
+        flags: 0,
+    };
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(vec![lamp])?;
+    for k in 0..100_u8 {
+        let side = if k % 2 == 0 { -2.0 } else { 2.0 };
+        bvh.add_instance(mesh, Transform::at([f32::from(k), 0.0, side]))?;
+    }
+    bvh.refit();
+    let ray = RaySegment {
+        from: [0.0, 1.7, 0.3],
+        to: [60.0, 3.0, 0.0],
+    }
+    .checked()?;
+
+    // The sum over all lamps, small as they are, at 20,000 places.
+    let lights = bvh.world_lights();
+    let length = distance(ray.from, ray.to);
+    let mut right = 0.0;
+    for light in &lights {
+        let on = light.point([0.5; 2]);
+        for k in 0..20_000_u16 {
+            right += sent(&on, ray.at((f32::from(k) + 0.5) / 20_000.0)) * length / 20_000.0;
+        }
+    }
+
+    let middle = ShadingPoint {
+        p: ray.at(0.5),
+        n: [0.0; 3],
+    };
+    let by_middle = report("for the middle, anywhere", right, &lights, &ray, |number, _| {
+        let place = SegmentSample {
+            part: unit_f32(hash(number ^ 1)),
+            density: (1.0 / length) as f32,
+        };
+        (bvh.sample(&middle, number), place)
+    });
+    let told = bvh.by::<Defensive<Subtended<Moments>, 6>>();
+    let by_ray = report(
+        "by the ray, for the lamp",
+        right,
+        &lights,
+        &ray,
+        |number, lights| {
+            let sampled = told.sample_for(&ray, number);
+            let on = lights[sampled.light as usize].point([0.5; 2]);
+            let place = ray.sample(Vec3::from_array(on.p), unit_f32(hash(number ^ 1)));
+            (sampled, place)
+        },
+    );
+    assert!(by_ray < by_middle);
+    Ok(())
+}
+
+fn distance(a: [f32; 3], b: [f32; 3]) -> f64 {
+    (0..3)
+        .map(|k| (f64::from(a[k]) - f64::from(b[k])).powi(2))
+        .sum::<f64>()
+        .sqrt()
+}
+
+/// What a metre of fog at `p` gets, over the density of the lamp's point: alike in all directions, unattenuated, without shadow.
+fn sent(on: &LightPoint, p: [f32; 3]) -> f64 {
+    let d = distance(on.p, p);
+    let cosine: f64 = (0..3)
+        .map(|k| f64::from(on.normal[k]) * f64::from(p[k] - on.p[k]))
+        .sum();
+    f64::from(on.radiance[0]) * (cosine / d).max(0.0) / (d * d * f64::from(on.density))
+}
+
+fn report(
+    name: &str,
+    right: f64,
+    lights: &[EmissiveTriangle],
+    ray: &RaySegment,
+    sample: impl Fn(u32, &[EmissiveTriangle]) -> (SampledLight, SegmentSample),
+) -> f64 {
+    let (mut mean, mut square) = (0.0, 0.0);
+    for trial in 0..TRIALS {
+        let (sampled, place) = sample(hash(trial), lights);
+        let on = lights[sampled.light as usize].point([0.5; 2]);
+        // Trace the shadow ray here, from the place to the lamp.
+        let value =
+            sent(&on, ray.at(place.part)) / (f64::from(sampled.pmf) * f64::from(place.density)) / right;
+        mean += value / f64::from(TRIALS);
+        square += (value - 1.0).powi(2) / f64::from(TRIALS);
+    }
+    let sure = 5.0 * (square / f64::from(TRIALS)).sqrt() + 1e-3;
+    println!("{name}: squared error {square:.4}, mean {mean:.4} ± {sure:.4}");
+    assert!((mean - 1.0).abs() < sure, "biased");
+    square
+}

@@ -1,0 +1,87 @@
+//! Any importance, over the lights that a receiver may take alone.
+
+use core::marker::PhantomData;
+
+use super::ImportanceModel;
+use crate::exact::{self, exponent, pow2};
+use crate::node::Node;
+use crate::point::LinkedPoint;
+
+/// Light linking: the importance `I` over the lights of which [`LinkedPoint`] has a bit. On layouts that store masks, as
+/// [`LinkedMomentNode`](crate::node::LinkedMomentNode); another does not compile.
+///
+/// The weight of a child is zero where the union of its lights' masks has no bit of the receiver's. Lights without flux are in no union. So a
+/// light has a positive probability just where it has flux and a common bit; all these probabilities sum to one; no walk comes to a dead end;
+/// and where no light is left, none is chosen. That costs one word per child.
+///
+/// Where all masks have a bit of the receiver's, light and probability are those of `I`, to the bit.
+///
+/// A share of uniform choice goes to all lights, those without a common bit among them. So neither `Linked<Defensive<_, _>>` nor
+/// `Defensive<Linked<_>, _>` compiles. [`Leveled`](super::Leveled) takes its place.
+///
+/// ```
+/// # use lightbvh::importance::{Leveled, Linked, LinkedPoint};
+/// # use lightbvh::light::LinkedTriangle;
+/// # use lightbvh::node::{LinkedMomentNode, Lit};
+/// # use lightbvh::{Bvh, Moments, ShadingPoint};
+/// type Layout = Lit<LinkedMomentNode<8>, LinkedTriangle>;
+/// # let receiver = LinkedPoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, mask: 1 };
+/// let sampled = Bvh::<Layout, Linked<Leveled<Moments, 9>>, 8>::default().sample_for(&receiver, 1_u32);
+/// ```
+/// ```compile_fail
+/// # use lightbvh::importance::{Defensive, Linked, LinkedPoint};
+/// # use lightbvh::light::LinkedTriangle;
+/// # use lightbvh::node::{LinkedMomentNode, Lit};
+/// # use lightbvh::{Bvh, Moments, ShadingPoint};
+/// # type Layout = Lit<LinkedMomentNode<8>, LinkedTriangle>;
+/// # let receiver = LinkedPoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, mask: 1 };
+/// let sampled = Bvh::<Layout, Linked<Defensive<Moments, 6>>, 8>::default().sample_for(&receiver, 1_u32);
+/// ```
+/// ```compile_fail
+/// # use lightbvh::importance::{Defensive, Linked, LinkedPoint};
+/// # use lightbvh::light::LinkedTriangle;
+/// # use lightbvh::node::{LinkedMomentNode, Lit};
+/// # use lightbvh::{Bvh, Moments, ShadingPoint};
+/// # type Layout = Lit<LinkedMomentNode<8>, LinkedTriangle>;
+/// # let receiver = LinkedPoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, mask: 1 };
+/// let sampled = Bvh::<Layout, Defensive<Linked<Moments>, 6>, 8>::default().sample_for(&receiver, 1_u32);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Linked<I>(PhantomData<I>);
+
+impl<N: Node<W>, I: ImportanceModel<N, W, P>, P, const W: usize> ImportanceModel<N, W, LinkedPoint<P>>
+    for Linked<I>
+{
+    const UNIFORM_HALVINGS: u32 = {
+        assert!(N::HAS_MASKS, "masks are stored by `LinkedMomentNode`");
+        assert!(
+            I::UNIFORM_HALVINGS == 0,
+            "a share of uniform choice would go to lights that are masked out; `Leveled` takes its place"
+        );
+        0
+    };
+    const IS_PARTIAL: bool = true;
+
+    #[inline(always)]
+    fn weights(node: &N, receiver: &LinkedPoint<P>) -> [f32; W] {
+        let mut weights = I::weights(node, &receiver.point);
+        let mut greatest = 0.0;
+        for slot in 0..W {
+            let is_common = exact::mask_of(node.mask(slot) & receiver.mask != 0);
+            weights[slot] = exact::masked(is_common, weights[slot]);
+            greatest = exact::max(greatest, weights[slot]);
+        }
+        // What is left may be all far below the child that set the scale. A power of two changes no share.
+        let e = exponent(greatest);
+        let up = pow2(if e < 0 { -e } else { 0 });
+        for slot in 0..W {
+            weights[slot] *= up;
+        }
+        weights
+    }
+
+    #[inline(always)]
+    fn quotient(a: f32, b: f32) -> f32 {
+        I::quotient(a, b)
+    }
+}

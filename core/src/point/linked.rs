@@ -1,0 +1,25 @@
+//! A receiver that some lights light alone.
+
+use super::Receiver;
+use crate::instance::Instance;
+
+/// A receiver with a mask, for [`Linked`](crate::importance::Linked): lit by the lights of which the mask has a bit
+/// ([`Light::mask`](crate::light::Light::mask)), and by no other. Around a [`ShadingPoint`](super::ShadingPoint), or any other receiver.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkedPoint<P> {
+    /// Where, and what else is known of it.
+    pub point: P,
+    /// Its bits. With 0 no light lights it.
+    pub mask: u32,
+}
+
+impl<P: Receiver> Receiver for LinkedPoint<P> {
+    /// The mask stays.
+    #[inline(always)]
+    fn to_local(&self, instance: &Instance) -> Self {
+        Self {
+            point: self.point.to_local(instance),
+            mask: self.mask,
+        }
+    }
+}
