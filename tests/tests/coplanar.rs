@@ -70,6 +70,8 @@ fn agree(what: &str, lamps: &[Corners], dark: &[Corners]) {
             wo: Vec3::new(0.1, 1.0, 0.2).normalize(),
             material: 0,
             direct: Vec3::ZERO,
+            spot: Spot { triangle: NONE, at: [0.0; 2] },
+            tint: Vec3::ONE,
         };
         let mean_of = |candidates: u32, scattered: u32| {
             let mut mean = Mean::default();

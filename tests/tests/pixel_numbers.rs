@@ -69,6 +69,8 @@ fn samples_of_all_images_have_a_stratum_each() {
         wo: Vec3::Y,
         material: 0,
         direct: Vec3::ZERO,
+        spot: Spot { triangle: NONE, at: [0.0; 2] },
+        tint: Vec3::ONE,
     };
     for candidates in [1, 2, 8] {
         // Images after one another of uneven sizes, each in parts between each other.

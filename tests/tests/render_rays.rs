@@ -4,6 +4,7 @@ use glam::Vec3;
 use lightbvh_host::render::{RayBvh, RayBvhError};
 use lightbvh_kernels::shading::grid::{MAX_COORDINATE, snap};
 use lightbvh_kernels::shading::ray::{FAR, MISS, Ray};
+use lightbvh_kernels::shading::skin::NoSkin;
 use lightbvh_kernels::shading::trace::{
     Hit, LANES, MAX_DEPTH, NONE, RayNode, SurfaceTriangle, Surfaces, WIDTH, any_hit, closest_hit,
 };
@@ -85,7 +86,7 @@ proptest! {
         }).collect();
         let mut random = Random::new(seed);
         let blocks = RayBvh::build(&soup(&mut random, 5, 1.0, 1.0, false)).unwrap().blocks;
-        let surfaces = Surfaces { nodes: &nodes, blocks: &blocks };
+        let surfaces = Surfaces { nodes: &nodes, blocks: &blocks, skin: NoSkin };
         for _ in 0..20 {
             let hit = closest_hit(&surfaces, &random_ray(&mut random, 1.0));
             prop_assert!(hit.triangle == NONE || hit.triangle < (LANES * blocks.len()) as u32);

@@ -180,6 +180,8 @@ fn surfaces_converge(seed: u32, walls: bool) {
             wo: Vec3::from(point.n),
             material: 0,
             direct: Vec3::ZERO,
+            spot: Spot { triangle: NONE, at: [0.0; 2] },
+            tint: Vec3::ONE,
         };
         each_picker(&lights, |name, pick| {
             for (count, candidates, scattered) in
@@ -268,6 +270,8 @@ fn scattered_candidates_agree_with_lights_as_picked() {
                 wo,
                 material: 0,
                 direct: Vec3::ZERO,
+                spot: Spot { triangle: NONE, at: [0.0; 2] },
+                tint: Vec3::ONE,
             };
             let mean_of = |samples: Samples| {
                 let mut mean = Mean::default();

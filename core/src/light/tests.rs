@@ -248,6 +248,25 @@ fn points_of_spheres_are_seen() {
     }
 }
 
+/// The cap that is seen from distance d has the area 2 π R² (1 - R / d), all of which is as likely.
+#[test]
+fn points_of_spheres_have_the_density_of_their_cap() {
+    let radius = f64::from(sphere().radius);
+    for away in [0.8, 1.0, 3.0, 100.0, 1e6] {
+        let from = Vec3::new(1.0, 2.0 + away, -1.0);
+        // As far as it is in the sphere's own numbers.
+        let distance = f64::from(from.y) - 2.0;
+        let expected = 1.0 / (core::f64::consts::TAU * radius * radius * (1.0 - radius / distance));
+        for uv in [[0.0, 0.0], [0.5, 0.3], [0.99, 0.9]] {
+            let found = f64::from(sphere().point_for(from, uv).density);
+            assert!(
+                (found / expected - 1.0).abs() < 2e-6,
+                "{away}: {found}, expected {expected}"
+            );
+        }
+    }
+}
+
 #[test]
 fn points_and_spots_send_their_intensity() {
     let point = PointLight {

@@ -44,6 +44,31 @@ fn densities_are_those_over_solid_angle() {
     assert!((all / (4.0 * core::f64::consts::PI) - 1.0).abs() < 1e-4, "{all}");
 }
 
+/// The mean, and the probability of a cap, are those of integrals over the sphere, which know nothing of octahedra.
+#[test]
+fn weights_are_integrals_over_the_sphere() {
+    // The mean of y² over a sphere is a third.
+    let bands = Environment::from_fn(64, |[_, y, _]| [1.0 + 3.0 * y * y; 3]).expect("a map");
+    let mean = f64::from(bands.mean_luminance());
+    assert!((mean - 2.0).abs() < 2e-3, "{mean}");
+    // What lies above y = 0.9 is a twentieth of the sphere, and so is what lies beyond x = 0.9.
+    let even = Environment::from_fn(256, |_| [1.0; 3]).expect("a map");
+    let map = even.map();
+    for axis in 0..3 {
+        let mut share = 0.0_f64;
+        let n = 1024;
+        for k in 0..n * n {
+            // Sixteen places in each texel.
+            let place = [k % n, k / n].map(|x| (x as f32 + 0.5) * 2.0 / n as f32 - 1.0);
+            let d = direction_at(place);
+            if d[axis] > 0.9 {
+                share += f64::from(map.pmf(map.texel_of(d))) / 16.0;
+            }
+        }
+        assert!((share - 0.05).abs() < 2e-4, "axis {axis}: {share}");
+    }
+}
+
 fn sky(size: u32) -> Environment {
     Environment::from_fn(size, |[x, y, z]| {
         let sun = if x * 0.6 + y * 0.8 > 0.99 { 1e4 } else { 0.0 };
