@@ -214,7 +214,7 @@ impl Loader<'_> {
                     &lexer.place(),
                     format!("directives `{}` are not known", shown(word)),
                 );
-                while !lexer.is_at_word_or_end() {
+                while !lexer.is_at_directive_or_end() {
                     lexer.next()?;
                 }
                 return Ok(());

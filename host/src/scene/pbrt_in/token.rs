@@ -78,10 +78,10 @@ impl<'a> Lexer<'a> {
         self.byte() == Some(b'[')
     }
 
-    /// Whether there is no token left, or the next is a word.
-    pub fn is_at_word_or_end(&mut self) -> bool {
+    /// Whether there is no token left, or the next looks like a directive.
+    pub fn is_at_directive_or_end(&mut self) -> bool {
         self.skip_space();
-        !matches!(self.byte(), Some(b'"' | b'[' | b']'))
+        self.byte().is_none_or(|byte| byte.is_ascii_uppercase())
     }
 
     /// The next token, `None` at the end.
