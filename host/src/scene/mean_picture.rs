@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, ImageReader, Limits};
 
+use super::pfm;
 use super::read_file::read_file;
 
 /// Most memory of one decoder.
@@ -55,6 +56,12 @@ impl Pictures {
     /// The pixels of a file.
     pub fn decode(&mut self, path: &Path) -> Result<DynamicImage, String> {
         let bytes = read_file(path).map_err(|error| error.to_string())?;
+        if let Some(picture) = pfm::read(&bytes) {
+            let picture =
+                picture.map_err(|problem| format!("cannot decode {}: {problem}", path.display()))?;
+            self.pixels += u64::from(picture.width()) * u64::from(picture.height());
+            return Ok(DynamicImage::ImageRgb32F(picture));
+        }
         let reader = || {
             let mut reader = ImageReader::new(Cursor::new(&bytes));
             if let Ok(format) = image::ImageFormat::from_path(path) {
@@ -64,7 +71,7 @@ impl Pictures {
         };
         let unread = |error: image::ImageError| {
             format!(
-                "cannot decode {}: {error}; use PNG, JPEG, WebP, HDR or EXR",
+                "cannot decode {}: {error}; use PNG, JPEG, WebP, TGA, PFM, HDR or EXR",
                 path.display()
             )
         };

@@ -37,6 +37,7 @@ mod motion_bounds;
 mod notes;
 mod obj_in;
 mod pbrt_in;
+mod pfm;
 mod ply_in;
 mod random;
 mod read_file;
