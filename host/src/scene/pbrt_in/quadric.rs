@@ -81,7 +81,7 @@ impl Loader<'_> {
 
     pub fn sphere(&mut self, params: &Params) -> Result<(), SceneError> {
         let radius = params.number("radius").unwrap_or(1.0);
-        if !(radius > 0.0) {
+        if radius <= 0.0 {
             self.note(&params.place, "shapes without area are left out");
             return Ok(());
         }
@@ -121,7 +121,7 @@ impl Loader<'_> {
     pub fn disk(&mut self, params: &Params) -> Result<(), SceneError> {
         let [height, radius, inner] = [("height", 0.0), ("radius", 1.0), ("innerradius", 0.0)]
             .map(|(name, default)| params.number(name).unwrap_or(default));
-        if !(radius > 0.0) {
+        if radius <= 0.0 {
             self.note(&params.place, "shapes without area are left out");
             return Ok(());
         }
