@@ -12,7 +12,7 @@ use super::super::notes::{Notes, Place};
 use super::super::read_file::read_unpacked;
 use super::lines::{Lines, numbers, shown, split};
 use super::mtl::Library;
-use super::{REPAIR, wrong};
+use super::{REPAIR, beside, wrong};
 use crate::vector::{cross, dot, sub};
 
 /// Most vertices of a polygon.
@@ -125,12 +125,12 @@ fn libraries(
         return Ok(());
     };
     let rest = rest.replace('\\', "/");
-    let whole = folder.join(rest.trim());
+    let whole = beside(folder, rest.trim());
     let paths = if whole.is_file() {
         vec![whole]
     } else {
         rest.split_ascii_whitespace()
-            .map(|name| folder.join(name))
+            .map(|name| beside(folder, name))
             .collect()
     };
     for path in paths {

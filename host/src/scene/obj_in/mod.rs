@@ -15,7 +15,7 @@ mod mtl;
 #[cfg(test)]
 mod tests;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use super::error::SceneError;
@@ -61,6 +61,16 @@ fn wrong(file: &str, line: u32, problem: impl Into<String>, advice: &'static str
         line,
         problem: problem.into(),
         advice,
+    }
+}
+
+/// A file by a path from `folder`, or by its name alone: exporters write paths of their own machine.
+fn beside(folder: &Path, name: &str) -> PathBuf {
+    let path = folder.join(name);
+    let alone = Path::new(name).file_name().map(|name| folder.join(name));
+    match alone {
+        Some(alone) if !path.is_file() && alone.is_file() => alone,
+        _ => path,
     }
 }
 

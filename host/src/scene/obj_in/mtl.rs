@@ -8,6 +8,7 @@ use super::super::error::SceneError;
 use super::super::mean_picture::{Encoding, Mean, Pictures};
 use super::super::model::Material;
 use super::super::notes::{Notes, Place};
+use super::beside;
 use super::lines::{Lines, numbers, split};
 
 /// What a library says of a material.
@@ -110,7 +111,7 @@ impl Library {
             notes.add(place, "pictures are left out, as there is no folder to look in");
             return None;
         };
-        match self.pictures.mean(&folder.join(name), Encoding::Srgb) {
+        match self.pictures.mean(&beside(folder, &name), Encoding::Srgb) {
             Ok(mean) => {
                 notes.add(place, "textures are replaced by their mean colours");
                 Some(mean)

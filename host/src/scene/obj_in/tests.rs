@@ -76,6 +76,14 @@ fn groups_materials_and_indices() {
 }
 
 #[test]
+fn libraries_lie_beside_the_file_where_their_path_leads_nowhere() {
+    for path in ["room.mtl", "somewhere/else/room.mtl", "C:\\scenes\\room.mtl"] {
+        let scene = read("beside", &ROOM.replace("room.mtl", path), LIBRARY).expect("valid");
+        assert_eq!(scene.emissive_count(), 2, "{path}");
+    }
+}
+
+#[test]
 fn materials_of_all_kinds() {
     let lines = |names: &[&str]| -> String {
         let faces = names.iter().map(|name| format!("usemtl {name}\nf 1 2 3\n"));
