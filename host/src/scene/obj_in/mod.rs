@@ -21,7 +21,7 @@ use std::rc::Rc;
 use super::error::SceneError;
 use super::model::{Scene, SceneData};
 use super::notes::Notes;
-use super::read_file::{read_unpacked, unpacked};
+use super::read_file::{read_file, unpacked};
 
 impl Scene {
     /// Reads an `.obj` file and the material libraries that it names, and checks it.
@@ -29,7 +29,7 @@ impl Scene {
     /// # Errors
     /// What [`Scene::new`] refuses, and unreadable, truncated or malformed files.
     pub fn read_obj(path: &Path) -> Result<Self, SceneError> {
-        let bytes = read_unpacked(path)?;
+        let bytes = read_file(path)?;
         Self::read_obj_slice(&path.display().to_string(), &bytes, path.parent())
     }
 
@@ -38,10 +38,7 @@ impl Scene {
     /// # Errors
     /// As [`Scene::read_obj`].
     pub fn read_obj_slice(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Self, SceneError> {
-        let bytes = unpacked(bytes.to_vec()).map_err(|source| SceneError::Read {
-            path: name.into(),
-            source,
-        })?;
+        let bytes = unpacked(name, bytes)?;
         let mut notes = Notes::default();
         let mut data = SceneData {
             name: name.to_owned(),

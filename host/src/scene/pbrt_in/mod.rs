@@ -40,7 +40,7 @@ use std::rc::Rc;
 use super::error::SceneError;
 use super::model::Scene;
 use super::notes::Place;
-use super::read_file::{read_unpacked, unpacked};
+use super::read_file::{read_file, unpacked};
 use state::Loader;
 use token::Lexer;
 
@@ -60,7 +60,7 @@ impl Scene {
     /// # Errors
     /// What [`Scene::new`] refuses, and unreadable, truncated or malformed files.
     pub fn read_pbrt(path: &Path) -> Result<Self, SceneError> {
-        let bytes = read_unpacked(path)?;
+        let bytes = read_file(path)?;
         Self::read_pbrt_slice(&path.display().to_string(), &bytes, path.parent())
     }
 
@@ -69,10 +69,7 @@ impl Scene {
     /// # Errors
     /// As [`Scene::read_pbrt`].
     pub fn read_pbrt_slice(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Self, SceneError> {
-        let bytes = unpacked(bytes.to_vec()).map_err(|source| SceneError::Read {
-            path: name.into(),
-            source,
-        })?;
+        let bytes = unpacked(name, bytes)?;
         let mut loader = Loader::new(name, folder);
         let mut lexer = Lexer::new(name.into(), &bytes);
         loader.file(&mut lexer, 0)?;

@@ -13,7 +13,7 @@ use std::path::Path;
 
 use super::error::SceneError;
 use super::model::{Material, Mesh, Node, Primitive, Scene, SceneData};
-use super::read_file::{read_unpacked, unpacked};
+use super::read_file::{read_file, read_unpacked, unpacked};
 
 /// Triangles of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -43,7 +43,7 @@ impl Scene {
     /// # Errors
     /// What [`Scene::new`] refuses, and unreadable, truncated or malformed files.
     pub fn read_ply(path: &Path) -> Result<Self, SceneError> {
-        Self::read_ply_slice(&path.display().to_string(), &read_unpacked(path)?)
+        Self::read_ply_slice(&path.display().to_string(), &read_file(path)?)
     }
 
     /// The same for a file in memory; `name` stands for the path in messages.
@@ -51,10 +51,7 @@ impl Scene {
     /// # Errors
     /// As [`Scene::read_ply`].
     pub fn read_ply_slice(name: &str, bytes: &[u8]) -> Result<Self, SceneError> {
-        let unpacked = unpacked(bytes.to_vec()).map_err(|source| SceneError::Read {
-            path: name.into(),
-            source,
-        })?;
+        let unpacked = unpacked(name, bytes)?;
         let mesh = PlyMesh::parse(name, &unpacked)?;
         Self::new(SceneData {
             name: name.to_owned(),

@@ -71,6 +71,13 @@ fn a_file_is_a_scene_without_emission_also_by_gzip() {
 }
 
 #[test]
+fn a_pointer_to_a_file_is_named() {
+    let error = Scene::read_ply_slice("t", b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n")
+        .expect_err("no file");
+    assert!(error.to_string().contains("git lfs pull"), "{error}");
+}
+
+#[test]
 fn what_is_announced_must_be_there() {
     let cases = [
         (
