@@ -24,6 +24,7 @@ mod light;
 mod material;
 mod matrix;
 mod metal;
+mod nesting;
 mod params;
 mod quadric;
 mod shape;
