@@ -6,6 +6,7 @@ use lightbvh_host::render::RayBvh;
 use lightbvh_kernels::shading::emitters::{Emitters, listed};
 use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::pixel::{Samples, Scene, Seen, reflected};
+use lightbvh_kernels::shading::skin::Spot;
 use lightbvh_kernels::shading::sky::NoSky;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 use lightbvh_tests::statistics::{Mean, normal_quantile};
@@ -70,7 +71,10 @@ fn agree(what: &str, lamps: &[Corners], dark: &[Corners]) {
             wo: Vec3::new(0.1, 1.0, 0.2).normalize(),
             material: 0,
             direct: Vec3::ZERO,
-            spot: Spot { triangle: NONE, at: [0.0; 2] },
+            spot: Spot {
+                triangle: NONE,
+                at: [0.0; 2],
+            },
             tint: Vec3::ONE,
         };
         let mean_of = |candidates: u32, scattered: u32| {

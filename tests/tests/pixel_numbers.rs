@@ -10,8 +10,9 @@ use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::numbers::Part;
 use lightbvh_kernels::shading::pick::PickLight;
 use lightbvh_kernels::shading::pixel::{Samples, Scene, Seen, reflected};
+use lightbvh_kernels::shading::skin::Spot;
 use lightbvh_kernels::shading::sky::NoSky;
-use lightbvh_kernels::shading::trace::SurfaceTriangle;
+use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 
 /// Picks the only light, and remembers by which numbers.
 struct Listens(RefCell<Vec<u32>>);
@@ -69,7 +70,10 @@ fn samples_of_all_images_have_a_stratum_each() {
         wo: Vec3::Y,
         material: 0,
         direct: Vec3::ZERO,
-        spot: Spot { triangle: NONE, at: [0.0; 2] },
+        spot: Spot {
+            triangle: NONE,
+            at: [0.0; 2],
+        },
         tint: Vec3::ONE,
     };
     for candidates in [1, 2, 8] {

@@ -11,6 +11,7 @@ use lightbvh_kernels::shading::material::Material;
 use lightbvh_kernels::shading::numbers::Part;
 use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use lightbvh_kernels::shading::pixel::{Samples, Scene, Seen, reflected};
+use lightbvh_kernels::shading::skin::Spot;
 use lightbvh_kernels::shading::sky::NoSky;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 use lightbvh_tests::direct::{arriving, brute_force};
@@ -180,7 +181,10 @@ fn surfaces_converge(seed: u32, walls: bool) {
             wo: Vec3::from(point.n),
             material: 0,
             direct: Vec3::ZERO,
-            spot: Spot { triangle: NONE, at: [0.0; 2] },
+            spot: Spot {
+                triangle: NONE,
+                at: [0.0; 2],
+            },
             tint: Vec3::ONE,
         };
         each_picker(&lights, |name, pick| {
@@ -270,7 +274,10 @@ fn scattered_candidates_agree_with_lights_as_picked() {
                 wo,
                 material: 0,
                 direct: Vec3::ZERO,
-                spot: Spot { triangle: NONE, at: [0.0; 2] },
+                spot: Spot {
+                    triangle: NONE,
+                    at: [0.0; 2],
+                },
                 tint: Vec3::ONE,
             };
             let mean_of = |samples: Samples| {

@@ -9,7 +9,7 @@ use crate::scene::{AnalyticKind, Scene};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// A built-in scene (street, square, carousel, stage) or a .gltf or .glb file.
+    /// A built-in scene (street, square, carousel, stage) or a .gltf, .glb, .pbrt, .obj or .ply file.
     scene: String,
     /// The .glb file to write.
     #[arg(short, long, value_name = "FILE.glb")]

@@ -35,7 +35,7 @@ const DEFAULT_BOUNCES: u32 = 8;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// A built-in scene (street, square, carousel, stage) or a .gltf or .glb file.
+    /// A built-in scene (street, square, carousel, stage) or a .gltf, .glb, .pbrt, .obj or .ply file.
     scene: String,
     /// Frame of the animation, 25 per second.
     #[arg(long, default_value_t = 0)]

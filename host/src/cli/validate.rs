@@ -16,7 +16,7 @@ const FRAMES: [u32; 4] = [0, 50, 100, 150];
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// A built-in scene (street, square, carousel) or a .gltf or .glb file.
+    /// A built-in scene (street, square, carousel) or a .gltf, .glb, .pbrt, .obj or .ply file.
     scene: String,
     /// What lights are chosen by: moments, or the paper's Eq. 4.
     #[arg(long, value_enum, default_value_t = Importance::Moments)]

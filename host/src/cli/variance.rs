@@ -32,7 +32,7 @@ const TRIALS: u32 = 64;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// Scenes: random, street, square, carousel, or .gltf and .glb files; the first four if none is named.
+    /// Scenes: random, street, square, carousel, or .gltf, .glb, .pbrt, .obj and .ply files; the first four if none is named.
     #[arg(long)]
     scene: Vec<String>,
     /// Points on the surfaces of each scene.

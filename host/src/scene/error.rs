@@ -8,7 +8,9 @@ use std::path::PathBuf;
 #[non_exhaustive]
 pub enum SceneError {
     /// The name is neither a built-in scene nor something that looks like a file.
-    #[error("unknown scene `{name}`: name a built-in scene ({built_in}) or a .gltf or .glb file")]
+    #[error(
+        "unknown scene `{name}`: name a built-in scene ({built_in}) or a .gltf, .glb, .pbrt, .obj or .ply file"
+    )]
     UnknownScene {
         /// What was asked for.
         name: String,
@@ -39,13 +41,25 @@ pub enum SceneError {
         /// What was expected and what was found.
         problem: String,
     },
-    /// An element of the file breaks a rule of glTF 2.0, or needs something that this loader does not do.
+    /// An element of the file breaks a rule of its format, glTF 2.0 or PLY, or needs something that this loader does not do.
     #[error("{path}: {element}: {problem}; {advice}")]
     Malformed {
         /// The file.
         path: String,
-        /// The element, as its place in the file's JSON.
+        /// The element, in glTF as its place in the file's JSON.
         element: String,
+        /// What was expected and what was found.
+        problem: String,
+        /// What to do about it.
+        advice: &'static str,
+    },
+    /// A text file, pbrt's or OBJ's, says what cannot be.
+    #[error("{path}, line {line}: {problem}; {advice}")]
+    Text {
+        /// The file: the one that is included, where it is.
+        path: String,
+        /// Counted from 1.
+        line: u32,
         /// What was expected and what was found.
         problem: String,
         /// What to do about it.
@@ -96,8 +110,8 @@ pub enum SceneError {
     /// The scene has nothing that emits light.
     #[error(
         "scene `{scene}` has no emissive triangle, and no light of another kind that this command knows (`lightbvh render` \
-         and `verify` know point, spot and directional lights); give a material an emissiveFactor above zero, or use one of \
-         the built-in scenes"
+         and `verify` know point, spot and directional lights); give a material an emissiveFactor above zero (glTF), a Ke (OBJ) \
+         or an AreaLightSource (pbrt), or use one of the built-in scenes"
     )]
     NoEmissive {
         /// The scene.

@@ -1,7 +1,7 @@
 //! Scenes: triangles, emissive materials, node animation and a camera, turned into world-space triangles per frame.
 //!
 //! ```text
-//! Scene::open("street" | "path.glb")      load.rs: a built-in name or a glTF 2.0 file
+//! Scene::open("street" | "path.glb")      load.rs: a built-in name, or a file of glTF 2.0, pbrt, OBJ or PLY
 //!   └─ Scene (checked)                    model.rs: nodes, meshes, materials, animations; check.rs: what is refused
 //!        ├─ Scene::frame(n) -> Frame      frame.rs: triangles, emissive triangles, mesh lights, camera at n / 25 s
 //!        └─ Scene::write_glb(path)        glb_out.rs: any scene as .glb
@@ -31,10 +31,17 @@ mod gltf_in;
 mod instances;
 mod lamps;
 mod load;
+mod mean_picture;
 mod model;
 mod motion_bounds;
+mod notes;
+mod obj_in;
 mod paint;
+mod pbrt_in;
+mod pfm;
+mod ply_in;
 mod random;
+mod read_file;
 mod scene_light;
 mod shapes;
 mod skin_words;

@@ -48,7 +48,7 @@ const MAX_FRAME: u64 = 10_000;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// Scenes: street, square, carousel, or .gltf and .glb files; the first three if none is named.
+    /// Scenes: street, square, carousel, or .gltf, .glb, .pbrt, .obj and .ply files; the first three if none is named.
     #[arg(long)]
     scene: Vec<String>,
     /// Only these axes, beside the default; all if none is named.

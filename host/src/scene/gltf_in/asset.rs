@@ -23,7 +23,7 @@ impl Asset {
     /// [`SceneError`] for a file that is unreadable, truncated or no glTF.
     pub fn read(path: &Path) -> Result<Self, SceneError> {
         let name = path.display().to_string();
-        let bytes = container::read_file(path)?;
+        let bytes = super::super::read_file::read_file(path)?;
         let (text, _) = container::split(&name, &bytes)?;
         let (root, _) = container::parse(&name, text)?;
         Ok(Self {

@@ -1,9 +1,7 @@
 //! Files, the GLB container, and the bytes of buffers.
 
 use std::borrow::Cow;
-use std::fs::File;
-use std::io::{self, Read};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Component, PathBuf};
 
 use gltf::json;
 use serde_json::Value;
@@ -12,36 +10,14 @@ use base64::Engine;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 
 use super::super::error::SceneError;
+use super::super::read_file::read_file;
 use super::Document;
-
-/// Largest file that is read: 2 GiB, half of what a GLB header can name.
-const MAX_FILE: u64 = 1 << 31;
 
 /// Exporters disagree about padding, so both forms are read.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
     &base64::alphabet::STANDARD,
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
 );
-
-/// Reads a regular file of bounded size: a pipe or device named by a hostile file could go on for ever.
-pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, SceneError> {
-    let read = || {
-        let metadata = std::fs::metadata(path)?;
-        if !metadata.is_file() {
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, "not a regular file"));
-        }
-        if metadata.len() > MAX_FILE {
-            return Err(io::Error::new(io::ErrorKind::FileTooLarge, "larger than 2 GiB"));
-        }
-        let mut bytes = Vec::new();
-        File::open(path)?.take(MAX_FILE).read_to_end(&mut bytes)?;
-        Ok(bytes)
-    };
-    read().map_err(|source| SceneError::Read {
-        path: path.to_owned(),
-        source,
-    })
-}
 
 pub(super) fn broken(path: &str, problem: impl Into<String>) -> SceneError {
     SceneError::Container {

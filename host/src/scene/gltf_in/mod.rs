@@ -50,6 +50,7 @@ use gltf::json;
 
 use super::error::SceneError;
 use super::model::{Scene, SceneData};
+use super::read_file::read_file;
 
 /// Attribute of vertices, without the underscore: radiance of the triangle that the vertex belongs to. Written by
 /// [`super::glb_out`] for emission that differs from triangle to triangle; glTF leaves names with `_` to applications.
@@ -71,7 +72,7 @@ impl Scene {
     /// # Errors
     /// What [`Scene::new`] refuses, and unreadable, truncated or malformed files.
     pub fn read_gltf(path: &Path) -> Result<Self, SceneError> {
-        let bytes = container::read_file(path)?;
+        let bytes = read_file(path)?;
         Self::read_gltf_slice(&path.display().to_string(), &bytes, path.parent())
     }
 

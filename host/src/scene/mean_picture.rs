@@ -1,0 +1,146 @@
+//! Mean colours of pictures, within limits.
+
+use std::collections::HashMap;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+
+use image::{DynamicImage, ImageReader, Limits};
+
+use super::pfm;
+use super::read_file::read_file;
+
+/// Most memory of one decoder.
+const MAX_ALLOCATION: u64 = 1 << 30;
+
+/// Most pixels decoded for one scene: 2^28.
+const MAX_PIXELS: u64 = 1 << 28;
+
+/// Largest width or height.
+const MAX_SIDE: u32 = 16_384;
+
+/// How numbers of a picture of whole numbers become light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Encoding {
+    /// IEC 61966-2-1.
+    Srgb,
+    /// As they are.
+    Linear,
+}
+
+/// The mean of a picture, linear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Mean {
+    pub rgb: [f64; 3],
+    pub alpha: f64,
+}
+
+/// What has been decoded, with what was wrong with it.
+#[derive(Debug, Default)]
+pub(super) struct Pictures {
+    means: HashMap<(PathBuf, Encoding), Result<Mean, String>>,
+    pixels: u64,
+}
+
+impl Pictures {
+    /// The mean colour of a file.
+    pub fn mean(&mut self, path: &Path, encoding: Encoding) -> Result<Mean, String> {
+        let key = (path.to_owned(), encoding);
+        if let Some(known) = self.means.get(&key) {
+            return known.clone();
+        }
+        let mean = self.decode(path).map(|picture| mean_of(&picture, encoding));
+        self.means.insert(key, mean.clone());
+        mean
+    }
+
+    /// The pixels of a file.
+    pub fn decode(&mut self, path: &Path) -> Result<DynamicImage, String> {
+        let bytes = read_file(path).map_err(|error| error.to_string())?;
+        if let Some(picture) = pfm::read(&bytes) {
+            let picture =
+                picture.map_err(|problem| format!("cannot decode {}: {problem}", path.display()))?;
+            self.pixels += u64::from(picture.width()) * u64::from(picture.height());
+            return Ok(DynamicImage::ImageRgb32F(picture));
+        }
+        let reader = || {
+            let mut reader = ImageReader::new(Cursor::new(&bytes));
+            if let Ok(format) = image::ImageFormat::from_path(path) {
+                reader.set_format(format);
+            }
+            reader.with_guessed_format().map_err(|error| error.to_string())
+        };
+        let unread = |error: image::ImageError| {
+            format!(
+                "cannot decode {}: {error}; use PNG, JPEG, WebP, TGA, PFM, HDR or EXR",
+                path.display()
+            )
+        };
+        let (width, height) = reader()?.into_dimensions().map_err(unread)?;
+        let pixels = self.pixels + u64::from(width) * u64::from(height);
+        if pixels > MAX_PIXELS || width == 0 || height == 0 {
+            return Err(format!(
+                "{} has {width} x {height} pixels, and all pictures of a scene may have {MAX_PIXELS} together",
+                path.display()
+            ));
+        }
+        self.pixels = pixels;
+        let mut limits = Limits::default();
+        limits.max_image_width = Some(MAX_SIDE);
+        limits.max_image_height = Some(MAX_SIDE);
+        limits.max_alloc = Some(MAX_ALLOCATION);
+        let mut reader = reader()?;
+        reader.limits(limits);
+        reader.decode().map_err(unread)
+    }
+}
+
+/// Light of a channel in [0, 1] that is encoded by sRGB.
+pub(super) fn from_srgb(x: f64) -> f64 {
+    if x <= 0.040_45 {
+        x / 12.92
+    } else {
+        libm::pow((x + 0.055) / 1.055, 2.4)
+    }
+}
+
+/// Whether its numbers are light already, as in EXR and HDR.
+pub(super) fn is_linear(picture: &DynamicImage) -> bool {
+    matches!(
+        picture,
+        DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_)
+    )
+}
+
+fn mean_of(picture: &DynamicImage, encoding: Encoding) -> Mean {
+    let pixels = f64::from(picture.width()) * f64::from(picture.height());
+    let mut sums = [0.0; 4];
+    if is_linear(picture) {
+        for pixel in picture.to_rgba32f().pixels() {
+            for (sum, channel) in sums.iter_mut().zip(pixel.0) {
+                *sum += f64::from(channel);
+            }
+        }
+    } else {
+        let mut light = [0.0; 256];
+        for (step, light) in (0..).zip(&mut light) {
+            let x = f64::from(step) / 255.0;
+            *light = if encoding == Encoding::Srgb {
+                from_srgb(x)
+            } else {
+                x
+            };
+        }
+        for pixel in picture.to_rgba8().pixels() {
+            let [r, g, b, a] = pixel.0;
+            for (sum, channel) in sums.iter_mut().zip([r, g, b]) {
+                *sum += light[usize::from(channel)];
+            }
+            sums[3] += f64::from(a) / 255.0;
+        }
+    }
+    let [r, g, b, alpha] = sums.map(|sum| sum / pixels);
+    Mean {
+        rgb: [r, g, b],
+        alpha,
+    }
+}

@@ -1,0 +1,74 @@
+//! Wavefront OBJ in, with its MTL libraries.
+//!
+//! Read:
+//! - polygons, cut into triangles around their first vertex; indices from 1, or negative ones from the end; lines that go on after `\`;
+//! - objects and groups, each a node of its own with a primitive for each material: a mesh light is what a group has of a material that emits;
+//! - `Kd`, `Ks` of mirrors (`illum` 3 and 5), `Ns` and `Pr` as roughness, `Pm` as metallic, `d` and `Tr`, glass (`illum` 4, 6, 7 and 9), `Ke`;
+//! - `map_Kd` and `map_Ke` as their mean colours.
+//!
+//! Where vertices of a face that emits have normals, they say which side emits; else its front does, as in glTF. The format has no unit and no
+//! camera: coordinates are metres, +Y is up, and `Ke` is radiance in W/(m² sr).
+
+mod faces;
+mod lines;
+mod mtl;
+#[cfg(test)]
+mod tests;
+
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use super::error::SceneError;
+use super::model::{Scene, SceneData};
+use super::notes::Notes;
+use super::read_file::{read_file, unpacked};
+
+impl Scene {
+    /// Reads an `.obj` file and the material libraries that it names, and checks it.
+    ///
+    /// # Errors
+    /// What [`Scene::new`] refuses, and unreadable, truncated or malformed files.
+    pub fn read_obj(path: &Path) -> Result<Self, SceneError> {
+        let bytes = read_file(path)?;
+        Self::read_obj_slice(&path.display().to_string(), &bytes, path.parent())
+    }
+
+    /// The same for a file in memory; `name` stands for the path in messages, `folder` is where material libraries lie (`None`: there are none).
+    ///
+    /// # Errors
+    /// As [`Scene::read_obj`].
+    pub fn read_obj_slice(name: &str, bytes: &[u8], folder: Option<&Path>) -> Result<Self, SceneError> {
+        let bytes = unpacked(name, bytes)?;
+        let mut notes = Notes::default();
+        let mut data = SceneData {
+            name: name.to_owned(),
+            ..SceneData::default()
+        };
+        let file: Rc<str> = name.into();
+        faces::read(&file, &bytes, folder, &mut data, &mut notes)?;
+        data.warnings = notes.into_warnings();
+        Self::new(data)
+    }
+}
+
+/// What is wrong with a line.
+fn wrong(file: &str, line: u32, problem: impl Into<String>, advice: &'static str) -> SceneError {
+    SceneError::Text {
+        path: file.to_owned(),
+        line,
+        problem: problem.into(),
+        advice,
+    }
+}
+
+/// A file by a path from `folder`, or by its name alone: exporters write paths of their own machine.
+fn beside(folder: &Path, name: &str) -> PathBuf {
+    let path = folder.join(name);
+    let alone = Path::new(name).file_name().map(|name| folder.join(name));
+    match alone {
+        Some(alone) if !path.is_file() && alone.is_file() => alone,
+        _ => path,
+    }
+}
+
+const REPAIR: &str = "repair the line, or export the file again";

@@ -1,0 +1,94 @@
+//! Cameras.
+
+use super::super::transform::Affine;
+use super::params::Params;
+use super::state::Loader;
+use super::{matrix, shown};
+
+/// Where frames are seen from.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Camera {
+    /// From the camera, which looks along its +z, +x right and +y up, to the world.
+    pub to_world: Affine,
+    /// Whether it shows things as we do; else only its handedness counts.
+    pub is_perspective: bool,
+    /// Of the picture's shorter side, radians.
+    pub fov: f64,
+    /// Least and greatest x, then y, in the plane where the shorter side goes from −1 to 1.
+    pub window: Option<[f64; 4]>,
+    /// Columns over rows, where the file says so.
+    pub aspect: Option<f64>,
+}
+
+impl Camera {
+    /// Vertical field of view, radians, for a picture of that many columns and rows.
+    pub fn yfov(&self, [columns, rows]: [f64; 2]) -> f64 {
+        let aspect = self.aspect.unwrap_or(columns / rows);
+        let half = match self.window {
+            Some([_, _, low, high]) => 0.5 * (high - low).abs(),
+            None if aspect < 1.0 => 1.0 / aspect,
+            None => 1.0,
+        };
+        2.0 * libm::atan(half * libm::tan(0.5 * self.fov))
+    }
+}
+
+impl Loader<'_> {
+    /// `Camera "kind"`.
+    pub fn camera(&mut self, kind: &str, params: &Params) {
+        let Some(to_world) = matrix::inverse(&self.graphics.ctm) else {
+            self.note(
+                &params.place,
+                "the camera's transform flattens space; the scene is seen from elsewhere",
+            );
+            return;
+        };
+        self.spaces.insert(String::from("camera"), to_world);
+        let mut degrees = params.number("fov").unwrap_or(90.0);
+        match kind {
+            "perspective" => {}
+            "orthographic" => self.note(
+                &params.place,
+                "an orthographic camera is left out; the scene is seen from elsewhere",
+            ),
+            _ => {
+                if kind == "realistic" {
+                    // A lens of 50 mm in front of film of 24 mm.
+                    degrees = 27.0;
+                }
+                let kind = format!(
+                    "a camera of kind `{}` is taken as one in perspective",
+                    shown(kind)
+                );
+                self.note(&params.place, kind);
+            }
+        }
+        if params.number("lensradius").is_some_and(|radius| radius > 0.0) {
+            self.note(&params.place, "the camera's lens is left out; all is sharp");
+        }
+        if let Some(half) = params.number("halffov") {
+            degrees = 2.0 * half;
+        }
+        let is_perspective = degrees > 0.0 && degrees < 180.0 && kind != "orthographic";
+        let window = params.numbers("screenwindow").first_chunk().copied();
+        let is_window = |[left, right, low, high]: &[f64; 4]| left != right && low != high;
+        self.camera = Some(Camera {
+            to_world,
+            is_perspective,
+            fov: degrees.to_radians(),
+            window: window.filter(is_window),
+            aspect: params.number("frameaspectratio").filter(|&aspect| aspect > 0.0),
+        });
+    }
+
+    /// `Film`.
+    pub fn film(&mut self, params: &Params) {
+        let size = |name: &str, default: f64| {
+            params
+                .number(name)
+                .filter(|&pixels| pixels >= 1.0)
+                .unwrap_or(default)
+        };
+        self.film = [size("xresolution", 1280.0), size("yresolution", 720.0)];
+    }
+}

@@ -1,0 +1,188 @@
+//! Infinite lights: constant, or by a picture.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use image::Rgb32FImage;
+use lightbvh::light::infinite::{Environment, MAX_LEVELS};
+
+use super::super::mean_picture::{from_srgb, is_linear};
+use super::super::transform::{Affine, unit_or};
+use super::params::Params;
+use super::state::Loader;
+use super::{equal_area, matrix, resolve};
+
+/// Most pictures of infinite lights, each as large as all pictures of a scene may be.
+const MAX_PICTURES: usize = 4;
+
+/// Texels each way of a map of lights without pictures.
+const CONSTANT: u32 = 32;
+
+/// An infinite light.
+pub(super) struct Infinite {
+    /// Factor on the picture, or radiance, W/(m² sr).
+    color: [f64; 3],
+    picture: Option<Picture>,
+}
+
+struct Picture {
+    pixels: Rgb32FImage,
+    is_equal_area: bool,
+    /// From directions of the world to those of the picture.
+    to_picture: Affine,
+}
+
+impl Picture {
+    fn at(&self, world: [f64; 3]) -> [f64; 3] {
+        let direction = unit_or(self.to_picture.vector(world), [0.0, 0.0, 1.0]);
+        let (width, height) = self.pixels.dimensions();
+        let [u, v] = if self.is_equal_area {
+            equal_area::square_of(direction)
+        } else {
+            longitude_latitude(direction)
+        };
+        let pixel = |part: f64, count: u32| ((part * f64::from(count)) as u32).min(count - 1);
+        let pixel = self.pixels.get_pixel(pixel(u, width), pixel(v, height));
+        pixel.0.map(|x| usable(f64::from(x)))
+    }
+
+    /// Irradiance of a patch that faces the picture's +z, W/m² where its numbers are W/(m² sr): the sum over the half of the sphere there.
+    fn upward(&self) -> f64 {
+        let (width, height) = self.pixels.dimensions();
+        let mut sum = 0.0;
+        let mut all = 0.0;
+        for (x, y, pixel) in self.pixels.enumerate_pixels() {
+            let square = [
+                (f64::from(x) + 0.5) / f64::from(width),
+                (f64::from(y) + 0.5) / f64::from(height),
+            ];
+            let (z, angle) = if self.is_equal_area {
+                (equal_area::direction_of(square)[2], 1.0)
+            } else {
+                let theta = std::f64::consts::PI * square[1];
+                (libm::cos(theta), libm::sin(theta))
+            };
+            let [r, g, b] = pixel.0.map(|x| usable(f64::from(x)));
+            sum += z.max(0.0) * angle * (0.2126 * r + 0.7152 * g + 0.0722 * b);
+            all += angle;
+        }
+        4.0 * std::f64::consts::PI * sum / all
+    }
+}
+
+/// Negative light and what is none count as none.
+fn usable(x: f64) -> f64 {
+    if x > 0.0 && x.is_finite() { x } else { 0.0 }
+}
+
+/// Where versions before the fourth have a direction: z up, columns counter-clockwise from +x.
+fn longitude_latitude([x, y, z]: [f64; 3]) -> [f64; 2] {
+    let turns = libm::atan2(y, x) / std::f64::consts::TAU;
+    let turns = if turns < 0.0 { turns + 1.0 } else { turns };
+    [turns, libm::acos(z.clamp(-1.0, 1.0)) / std::f64::consts::PI]
+}
+
+impl Loader<'_> {
+    pub fn infinite_light(&mut self, params: &Params) {
+        let scale = self.scale(params);
+        let lux = params.number("illuminance").filter(|&lux| lux > 0.0);
+        let color = self.light_color(params, &["L"]);
+        if params.find("portal").is_some() {
+            self.note(&params.place, "portals of infinite lights are left out");
+        }
+        let file = params.string("filename").or_else(|| params.string("mapname"));
+        let Some(file) = file else {
+            let by = lux.map_or(1.0, |lux| lux / std::f64::consts::PI);
+            self.infinite.push(Infinite {
+                color: [0, 1, 2].map(|i| color[i] * scale[i] * by),
+                picture: None,
+            });
+            return;
+        };
+        let found = match resolve(self.folder, file) {
+            None => Err(String::from("there is no folder to look in")),
+            Some(_) if self.pictures_of_sky() >= MAX_PICTURES => {
+                Err(format!("a scene may have {MAX_PICTURES}"))
+            }
+            Some(path) => self.sky_picture(&path),
+        };
+        match found {
+            Ok(picture) => {
+                if !picture.is_equal_area {
+                    self.note(
+                        &params.place,
+                        "pictures of infinite lights that are no squares are taken as by longitude and latitude",
+                    );
+                }
+                let by = match (lux, picture.upward()) {
+                    (Some(lux), there) if there > 0.0 => lux / there,
+                    _ => 1.0,
+                };
+                self.infinite.push(Infinite {
+                    color: [0, 1, 2].map(|i| color[i] * scale[i] * by),
+                    picture: Some(picture),
+                });
+            }
+            Err(problem) => self.note(
+                &params.place,
+                format!("an infinite light by a picture is left out: {problem}"),
+            ),
+        }
+    }
+
+    fn pictures_of_sky(&self) -> usize {
+        self.infinite
+            .iter()
+            .filter(|light| light.picture.is_some())
+            .count()
+    }
+
+    fn sky_picture(&mut self, path: &Path) -> Result<Picture, String> {
+        let map = &self.graphics.ctm;
+        let to_picture = matrix::inverse(map).ok_or_else(|| String::from("its transform flattens space"))?;
+        let picture = self.pictures.decode(path)?;
+        let is_light = is_linear(&picture);
+        let mut pixels = picture.into_rgb32f();
+        if !is_light {
+            for pixel in pixels.pixels_mut() {
+                pixel.0 = pixel.0.map(|x| from_srgb(f64::from(x)) as f32);
+            }
+        }
+        Ok(Picture {
+            is_equal_area: pixels.width() == pixels.height(),
+            pixels,
+            to_picture,
+        })
+    }
+
+    /// The sum of all of them; `to_world` leads from directions of the scene to those of the file's world.
+    pub fn environment(&self, to_world: &Affine) -> Option<Arc<Environment>> {
+        if self.infinite.is_empty() {
+            return None;
+        }
+        let side = |light: &Infinite| {
+            let picture = light.picture.as_ref()?;
+            let (width, height) = picture.pixels.dimensions();
+            Some((f64::from(width) * f64::from(height)).sqrt().ceil() as u32)
+        };
+        let side = self.infinite.iter().filter_map(side).max().unwrap_or(CONSTANT);
+        let size = side.clamp(1, 1 << MAX_LEVELS).next_power_of_two();
+        let mut constant = [0.0; 3];
+        for light in self.infinite.iter().filter(|light| light.picture.is_none()) {
+            constant = [0, 1, 2].map(|i| constant[i] + light.color[i]);
+        }
+        let radiance = |direction: [f32; 3]| {
+            let world = to_world.vector(direction.map(f64::from));
+            let mut sum = constant;
+            for light in &self.infinite {
+                if let Some(picture) = &light.picture {
+                    let pixel = picture.at(world);
+                    sum = [0, 1, 2].map(|i| sum[i] + light.color[i] * pixel[i]);
+                }
+            }
+            // The greatest radiance that there may be.
+            sum.map(|x| x.min(f64::from(lightbvh::light::MAX_RADIANCE)) as f32)
+        };
+        Environment::from_fn(size, radiance).ok().map(Arc::new)
+    }
+}

@@ -1,0 +1,117 @@
+//! Textures: their mean colours. A picture's place in a material would be kept here.
+
+use super::super::mean_picture::Encoding;
+use super::params::Params;
+use super::state::Loader;
+use super::{resolve, shown};
+
+/// What is known of a texture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Texture {
+    /// Linear RGB; all three the same of numbers.
+    pub mean: [f64; 3],
+}
+
+impl Loader<'_> {
+    /// `Texture "name" "kind" "class"`.
+    pub fn texture(&mut self, name: String, class: &str, params: &Params) {
+        let mean = self.mean_of(class, params);
+        self.textures.insert(name, Texture { mean });
+    }
+
+    fn mean_of(&mut self, class: &str, params: &Params) -> [f64; 3] {
+        let mixed = |a: [f64; 3], b: [f64; 3], t: f64| [0, 1, 2].map(|i| (1.0 - t) * a[i] + t * b[i]);
+        match class {
+            "constant" => self.unclamped(params, "value").unwrap_or([1.0; 3]),
+            "scale" => {
+                let tex = self
+                    .unclamped(params, "tex")
+                    .or_else(|| self.unclamped(params, "tex1"));
+                let scale = self
+                    .unclamped(params, "scale")
+                    .or_else(|| self.unclamped(params, "tex2"));
+                let (tex, scale) = (tex.unwrap_or([1.0; 3]), scale.unwrap_or([1.0; 3]));
+                [0, 1, 2].map(|i| tex[i] * scale[i])
+            }
+            "mix" => {
+                let a = self.unclamped(params, "tex1").unwrap_or([0.0; 3]);
+                let b = self.unclamped(params, "tex2").unwrap_or([1.0; 3]);
+                let amount = self.unclamped(params, "amount").unwrap_or([0.5; 3])[0];
+                mixed(a, b, amount)
+            }
+            "checkerboard" => {
+                self.note(
+                    &params.place,
+                    "textures of checkers are replaced by their mean colours",
+                );
+                let a = self.unclamped(params, "tex1").unwrap_or([1.0; 3]);
+                let b = self.unclamped(params, "tex2").unwrap_or([0.0; 3]);
+                mixed(a, b, 0.5)
+            }
+            "dots" => {
+                self.note(
+                    &params.place,
+                    "textures of dots are replaced by the colour around them",
+                );
+                self.unclamped(params, "outside").unwrap_or([0.0; 3])
+            }
+            "directionmix" => {
+                self.note(
+                    &params.place,
+                    "textures `directionmix` are replaced by their mean colours",
+                );
+                let a = self.unclamped(params, "tex1").unwrap_or([0.0; 3]);
+                let b = self.unclamped(params, "tex2").unwrap_or([1.0; 3]);
+                mixed(a, b, 0.5)
+            }
+            "imagemap" => self.picture(params),
+            _ => {
+                self.note(
+                    &params.place,
+                    format!("textures of class `{}` are taken as grey", shown(class)),
+                );
+                [0.5; 3]
+            }
+        }
+    }
+
+    /// A colour that may be above 1, as factors are.
+    fn unclamped(&mut self, params: &Params, name: &str) -> Option<[f64; 3]> {
+        let param = params.find(name)?;
+        if let Some(texture) = param.words.first().and_then(|name| self.textures.get(name)) {
+            return Some(texture.mean);
+        }
+        match (param.kind.as_str(), &param.numbers[..]) {
+            ("rgb" | "color", &[r, g, b]) => Some([r, g, b]),
+            ("float", &[x]) => Some([x; 3]),
+            _ => self.surface_color(params, &[name]),
+        }
+    }
+
+    fn picture(&mut self, params: &Params) -> [f64; 3] {
+        let file = params.string("filename").unwrap_or_default().to_owned();
+        let encoding = match params.string("encoding") {
+            Some("linear") => Encoding::Linear,
+            _ => Encoding::Srgb,
+        };
+        let scale = params.number("scale").unwrap_or(1.0);
+        let mean = match resolve(self.folder, &file) {
+            Some(path) => self.pictures.mean(&path, encoding),
+            None => Err(String::from("there is no folder to look in")),
+        };
+        match mean {
+            Ok(mean) => {
+                self.note(&params.place, "textures are replaced by their mean colours");
+                let is_inverted = params.flag("invert");
+                mean.rgb.map(|x| {
+                    let x = x * scale;
+                    if is_inverted { (1.0 - x).max(0.0) } else { x }
+                })
+            }
+            Err(problem) => {
+                self.note(&params.place, format!("a texture is taken as grey: {problem}"));
+                [0.5; 3]
+            }
+        }
+    }
+}
