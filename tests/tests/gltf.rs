@@ -121,7 +121,8 @@ fn emissive_textures_are_averaged_per_triangle() {
         "nodes": [{ "mesh": 0 }],
         "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0, "TEXCOORD_0": 1 }, "material": 0 }] }],
         "materials": [{ "emissiveFactor": [1.0, 1.0, 0.5], "emissiveTexture": { "index": 0 } }],
-        "textures": [{ "source": 0 }],
+        "textures": [{ "source": 0, "sampler": 0 }],
+        "samplers": [{ "magFilter": 9728 }],
         "images": [{ "uri": format!("data:image/png;base64,{}", base64(&png_white_black())) }],
         "accessors": [
             { "bufferView": 0, "componentType": 5126, "count": 9, "type": "VEC3" },

@@ -17,6 +17,9 @@ use lightbvh_kernels::bvh::{Kinds, WIDTH};
 use lightbvh_kernels::shading::picture::{Picture as Words, PictureWords};
 use lightbvh_kernels::shading::skin::{HEADER_WORDS, SRGB_WORDS};
 
+use lightbvh_tests::gltf_files::read_json;
+
+use crate::gltf_surfaces::textured;
 use crate::kinds_render::{SETTINGS, agree, arrays, at, down, mean, node, open_room, same_on_devices};
 
 /// What a painted floor reflects of the light that falls on it: its diffuse part, and at most this of gloss.
@@ -582,7 +585,7 @@ fn painted_room() -> Scene {
     let smooth = |picture, is_color, wrap| Texture {
         is_nearest: false,
         wrap: [wrap; 2],
-        transform: [[3.0, 0.5], [-0.5, 2.0], [0.1, 0.2]],
+        transform: [[2.4, -1.8], [1.2, 1.6], [0.1, 0.2]],
         ..lying(picture, is_color)
     };
     data.materials[0].paint = Some(Paint {
@@ -685,4 +688,66 @@ fn paint_survives_a_file() {
             .collect()
     };
     assert_eq!(coordinates(&scene), coordinates(&back));
+}
+
+/// The flux of a triangle that glows by a picture is that of an integral over it, to a hundredth, however it lies.
+#[test]
+fn textured_flux_is_an_integral() {
+    let (width, height) = (37_u32, 19_u32);
+    let texel = |x: u32, y: u32| hash(x + 64 * y).to_le_bytes();
+    let png = {
+        let pixels = image::RgbaImage::from_fn(width, height, |x, y| image::Rgba(texel(x, y)));
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        pixels
+            .write_to(&mut bytes, image::ImageFormat::Png)
+            .expect("encoded");
+        bytes.into_inner()
+    };
+    let linear = |byte: u8| {
+        let x = f64::from(byte) / 255.0;
+        if x <= 0.04045 {
+            x / 12.92
+        } else {
+            ((x + 0.055) / 1.055).powf(2.4)
+        }
+    };
+    for corners in [
+        [[0.1, 0.2], [0.9, 0.3], [0.2, 0.8]],
+        [[-1.3, 0.4], [2.7, 0.9], [0.3, 3.1]],
+        [[0.51, 0.52], [0.53, 0.52], [0.51, 0.55]],
+    ] {
+        let root = textured(corners, &png);
+        let mut root = root;
+        root["samplers"] = serde_json::json!([{ "magFilter": 9729 }]);
+        let scene = read_json(&root).expect("sound");
+        let found = scene.frame(0).emissive[0].radiance;
+        let mut sum = [0.0; 3];
+        let n = 1500;
+        for i in 0..n {
+            for j in 0..n - i {
+                let (v, w) = ((i as f64 + 0.5) / f64::from(n), (j as f64 + 0.5) / f64::from(n));
+                let at = |k: usize| {
+                    let [a, b, c] = corners.map(|corner| f64::from(corner[k]));
+                    a + (b - a) * v + (c - a) * w
+                };
+                let (x, y) = (at(0) * f64::from(width) - 0.5, at(1) * f64::from(height) - 0.5);
+                let (left, top) = (x.floor(), y.floor());
+                for (dx, dy) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+                    let weight = (1.0 - (x - left - dx).abs()) * (1.0 - (y - top - dy).abs());
+                    let wrap = |i: f64, size: u32| i.rem_euclid(f64::from(size)) as u32;
+                    let rgb = texel(wrap(left + dx, width), wrap(top + dy, height));
+                    for k in 0..3 {
+                        sum[k] += weight * linear(rgb[k]);
+                    }
+                }
+            }
+        }
+        let count = f64::from(n) * f64::from(n + 1) / 2.0;
+        let factor = scene.data().materials[0].radiance;
+        for k in 0..3 {
+            let expected = sum[k] / count * f64::from(factor[k]);
+            let ratio = f64::from(found[k]) / expected;
+            assert!((ratio - 1.0).abs() < 0.01, "{corners:?} channel {k}: {ratio}");
+        }
+    }
 }

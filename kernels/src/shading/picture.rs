@@ -135,13 +135,16 @@ impl Picture<'_> {
     #[inline]
     fn channel(&self, texel: u32, is_encoded: bool) -> f32 {
         let byte = texel & 255;
-        let mut number = byte as i32 as f32 * (1.0 / 255.0);
+        let mut number = byte as i32 as f32 * PER_BYTE;
         if is_encoded {
             number = f32::from_bits(word(self.words, HEADER_WORDS + byte));
         }
         number
     }
 }
+
+/// What a byte counts. A constant: a quotient of two numbers is a division on devices.
+const PER_BYTE: f32 = 1.0 / 255.0;
 
 /// Two texels beside each other, and the part of the second.
 #[derive(Clone, Copy, Debug)]

@@ -490,6 +490,9 @@ fn passed(through: Vec3, tint: Vec3) -> Vec3 {
     )
 }
 
+/// Least width of a lobe.
+const LEAST_ALPHA: f32 = 1.0 / 32.0;
+
 /// Metal and roughness as the two lobes have them.
 impl Material {
     /// The reflectance of a surface of this base colour; each number in [0, 1].
@@ -504,7 +507,7 @@ impl Material {
     pub fn of(base_color: [f32; 3], metallic: f32, roughness: f32) -> Self {
         let [r, g, b] = base_color;
         let luminance = (0.2126 * r + 0.7152 * g) + 0.0722 * b;
-        let alpha = max(roughness * roughness, 1.0 / 32.0);
+        let alpha = max(roughness * roughness, LEAST_ALPHA);
         let exponent = clamp(div(2.0, alpha * alpha) - 2.0, 1.0, 1024.0);
         Self {
             albedo: base_color,

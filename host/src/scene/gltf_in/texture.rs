@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 use std::rc::Rc;
 
 use gltf::json;
-use gltf::json::texture::{Info, WrappingMode};
+use gltf::json::texture::{Info, MagFilter, WrappingMode};
 use gltf::json::validation::Checked;
 use image::RgbaImage;
 use serde::Deserialize;
@@ -20,6 +20,7 @@ pub(super) struct Texture {
     /// Where it is not black, once that is asked for.
     glowing: OnceCell<Sums>,
     wrap: [WrappingMode; 2],
+    is_nearest: bool,
     to_linear: [f32; 256],
 }
 
@@ -80,9 +81,10 @@ impl Document<'_> {
             return Ok(None);
         };
         let texture = self.get(&self.root.textures, info.index, "texture", element)?;
-        let mut wrap = [WrappingMode::Repeat; 2];
+        let (mut wrap, mut is_nearest) = ([WrappingMode::Repeat; 2], false);
         if let Some(sampler) = texture.sampler {
             let sampler = self.get(&self.root.samplers, sampler, "sampler", element)?;
+            is_nearest = sampler.mag_filter == Some(Checked::Valid(MagFilter::Nearest));
             for (mode, checked) in wrap.iter_mut().zip([sampler.wrap_s, sampler.wrap_t]) {
                 if let Checked::Valid(valid) = checked {
                     *mode = valid;
@@ -99,6 +101,7 @@ impl Document<'_> {
                 pixels,
                 glowing: OnceCell::new(),
                 wrap,
+                is_nearest,
                 to_linear: std::array::from_fn(|encoded| linear_from_srgb(encoded as u8)),
             },
             set: transform.tex_coord.unwrap_or(info.tex_coord),
@@ -224,7 +227,7 @@ impl Placed {
 impl Texture {
     /// Mean over the triangle with these texture coordinates.
     ///
-    /// The triangle is cut into n² equal ones and the texel at the centre of each is taken; n grows with the number
+    /// The triangle is cut into n² equal ones and what shows at the centre of each is taken; n grows with the number
     /// of texels along the longest edge, up to `max_steps`.
     fn mean_over(&self, [a, b, c]: [[f32; 2]; 3], max_steps: u32) -> [f32; 3] {
         let size = [self.pixels.width() as f32, self.pixels.height() as f32];
@@ -243,7 +246,7 @@ impl Texture {
                 (j as f32 + third) / steps as f32,
             );
             let texel =
-                self.texel([0, 1].map(|axis| a[axis] + (b[axis] - a[axis]) * v + (c[axis] - a[axis]) * w));
+                self.shown([0, 1].map(|axis| a[axis] + (b[axis] - a[axis]) * v + (c[axis] - a[axis]) * w));
             for (sum, channel) in sum.iter_mut().zip(texel) {
                 *sum += f64::from(channel);
             }
@@ -273,17 +276,43 @@ impl Texture {
     fn glows_within(&self, corners: [[f32; 2]; 3]) -> bool {
         let sums = self.glowing.get_or_init(|| Sums::of(&self.pixels));
         let size = [self.pixels.width(), self.pixels.height()];
-        // Texels from one before the triangle to one after it; all of them where it goes beyond the picture.
+        // Half a texel more where means of four are shown; all of them where it goes beyond the picture.
+        let beyond = if self.is_nearest { 0.0 } else { 0.5 };
         let range = |axis: usize| {
             let along = corners.map(|corner| f64::from(corner[axis]) * f64::from(size[axis]));
-            let low = along.iter().fold(f64::MAX, |a, &b| a.min(b)).floor() - 1.0;
-            let high = along.iter().fold(f64::MIN, |a, &b| a.max(b)).ceil() + 1.0;
+            let low = along.iter().fold(f64::MAX, |a, &b| a.min(b)) - beyond;
+            let high = along.iter().fold(f64::MIN, |a, &b| a.max(b)) + beyond;
+            let (low, high) = (low.floor(), high.ceil());
             match low >= 0.0 && high <= f64::from(size[axis]) {
                 true => (low as u32, high as u32),
                 false => (0, size[axis]),
             }
         };
         sums.count(range(0), range(1)) > 0
+    }
+
+    /// What the renderer shows there: the nearest texel, or a mean of four.
+    fn shown(&self, uv: [f32; 2]) -> [f32; 3] {
+        if self.is_nearest {
+            return self.texel(uv);
+        }
+        let size = [self.pixels.width() as f32, self.pixels.height() as f32];
+        let at = [0, 1].map(|axis| uv[axis] * size[axis] - 0.5);
+        let first = at.map(f32::floor);
+        let part = [0, 1].map(|axis| at[axis] - first[axis]);
+        let mut shown = [0.0; 3];
+        for (x, y) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            let weight = |second: u8, part: f32| if second == 0 { 1.0 - part } else { part };
+            let weight = weight(x, part[0]) * weight(y, part[1]);
+            let center = [
+                (first[0] + f32::from(x) + 0.5) / size[0],
+                (first[1] + f32::from(y) + 0.5) / size[1],
+            ];
+            for (shown, channel) in shown.iter_mut().zip(self.texel(center)) {
+                *shown += weight * channel;
+            }
+        }
+        shown
     }
 
     fn texel(&self, uv: [f32; 2]) -> [f32; 3] {
