@@ -66,7 +66,8 @@ fn file(stream: &[u8]) -> Value {
             } },
         }] }],
         "materials": [{ "emissiveFactor": [1.0, 0.5, 0.25], "emissiveTexture": { "index": 0 } }],
-        "textures": [{ "source": 0 }],
+        "textures": [{ "source": 0, "sampler": 0 }],
+        "samplers": [{ "magFilter": 9728 }],
         "images": [{ "uri": embedded(&png_white_black()) }],
         "accessors": [
             { "componentType": 5126, "count": 4, "type": "VEC3" },

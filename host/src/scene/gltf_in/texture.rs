@@ -237,8 +237,8 @@ impl Texture {
                 .max(((to[1] - from[1]) * size[1]).abs())
         };
         // The cast saturates, and NaN becomes 0: any coordinates give a number of steps in range.
-        let steps = (2.0 * edge(a, b).max(edge(b, c)).max(edge(c, a))).ceil() as u32;
-        let steps = steps.clamp(1, max_steps.max(1));
+        let steps = (4.0 * edge(a, b).max(edge(b, c)).max(edge(c, a))).ceil() as u32;
+        let steps = steps.max(MIN_STEPS).clamp(1, max_steps.max(1));
         let mut sum = [0.0_f64; 3];
         let mut take = |i: u32, j: u32, third: f32| {
             let (v, w) = (
@@ -324,6 +324,9 @@ impl Texture {
         })
     }
 }
+
+/// Least subdivision of a triangle: within a texel what shows is not even.
+const MIN_STEPS: u32 = 16;
 
 /// What a channel of a mean counts as at least where something glows: half of the least that a texel can be.
 const TRACE: f32 = 0.5 / (255.0 * 12.92);
