@@ -36,6 +36,12 @@ pub(super) fn run(_: &Context, args: &Args) -> Result<Outcome, HostError> {
             scene.name()
         );
     }
+    if scene.data().environment.is_some() {
+        news!(
+            "{}: glTF has no word for environment maps: the sky is left out",
+            scene.name()
+        );
+    }
     scene.write_glb(&args.output)?;
     Ok(Outcome::Good)
 }

@@ -111,7 +111,7 @@ pub enum SceneError {
     #[error(
         "scene `{scene}` has no emissive triangle, and no light of another kind that this command knows (`lightbvh render` \
          and `verify` know point, spot and directional lights); give a material an emissiveFactor above zero (glTF), a Ke (OBJ) \
-         or an AreaLightSource (pbrt), or use one of the built-in scenes"
+         or an AreaLightSource (pbrt), give `lightbvh render` an --environment, or use one of the built-in scenes"
     )]
     NoEmissive {
         /// The scene.

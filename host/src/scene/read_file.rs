@@ -43,11 +43,15 @@ pub(super) fn read_unpacked(path: &Path) -> Result<Vec<u8>, SceneError> {
     let bytes = read_file(path)?;
     match unpacked(&path.display().to_string(), &bytes)? {
         Cow::Owned(unpacked) => Ok(unpacked),
-        Cow::Borrowed(_) => Ok(bytes),
+        Cow::Borrowed(kept) if kept.len() == bytes.len() => Ok(bytes),
+        Cow::Borrowed(kept) => Ok(kept.to_vec()),
     }
 }
 
-/// What `bytes` hold where they are of gzip, else `bytes`; `path` is for messages.
+/// Where a text says that it is of UTF-8.
+const MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// What `bytes` hold where they are of gzip, else `bytes`, without the mark that some editors put first; `path` is for messages.
 pub(super) fn unpacked<'a>(path: &str, bytes: &'a [u8]) -> Result<Cow<'a, [u8]>, SceneError> {
     let refused = |source: io::Error| SceneError::Read {
         path: path.into(),
@@ -58,7 +62,7 @@ pub(super) fn unpacked<'a>(path: &str, bytes: &'a [u8]) -> Result<Cow<'a, [u8]>,
         return Err(refused(io::Error::new(io::ErrorKind::InvalidData, problem)));
     }
     if !bytes.starts_with(&GZIP) {
-        return Ok(Cow::Borrowed(bytes));
+        return Ok(Cow::Borrowed(bytes.strip_prefix(MARK).unwrap_or(bytes)));
     }
     let mut out = Vec::new();
     let mut decoder = GzDecoder::new(bytes).take(MAX_FILE + 1);
@@ -66,6 +70,9 @@ pub(super) fn unpacked<'a>(path: &str, bytes: &'a [u8]) -> Result<Cow<'a, [u8]>,
     if out.len() as u64 > MAX_FILE {
         let problem = "larger than 2 GiB when unpacked";
         return Err(refused(io::Error::new(io::ErrorKind::FileTooLarge, problem)));
+    }
+    if out.starts_with(MARK) {
+        out.drain(..MARK.len());
     }
     Ok(Cow::Owned(out))
 }

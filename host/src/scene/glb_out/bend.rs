@@ -1,5 +1,6 @@
 //! Skins, targets and influences, and keys of weights; lights without area.
 
+use super::material::strength;
 use serde_json::{Value, json};
 
 use super::{UNSIGNED_SHORT, Writer, interpolation};
@@ -58,7 +59,13 @@ impl Writer {
 
 /// A light by formula; `None` for kinds that glTF has no word for.
 pub(super) fn light(light: &AnalyticLight) -> Option<Value> {
-    let mut out = json!({ "name": light.name, "color": light.color, "intensity": light.intensity });
+    // Colours of glTF are at most 1; a power of two changes no product.
+    let strength = strength(light.color);
+    let mut out = json!({
+        "name": light.name,
+        "color": light.color.map(|channel| channel / strength),
+        "intensity": light.intensity * strength,
+    });
     if let Some(range) = light.range {
         out["range"] = range.into();
     }

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::scene::Material;
 
 /// The least power of two, from 1 on, that is not below any channel: the strength with which factors lie in [0, 1].
-fn strength(radiance: [f32; 3]) -> f32 {
+pub(super) fn strength(radiance: [f32; 3]) -> f32 {
     let peak = radiance.iter().fold(0.0_f32, |m, &channel| m.max(channel));
     let mut strength = 1.0_f32;
     // 2^127 is the largest power of two in `f32`.

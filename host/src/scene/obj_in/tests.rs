@@ -198,3 +198,15 @@ fn damage_is_an_error_or_a_scene() {
     });
     assert!(library.materials.contains_key("glow"));
 }
+
+/// Some editors put a mark of UTF-8 first.
+#[test]
+fn a_mark_of_utf8_is_passed_by() {
+    let plain = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let marked = format!("\u{feff}{plain}");
+    let [plain, marked] = [plain, &marked].map(|text| {
+        let scene = Scene::read_obj_slice("x.obj", text.as_bytes(), None).expect("valid");
+        (scene.frame(0).triangles, scene.warnings().to_vec())
+    });
+    assert_eq!(plain, marked);
+}

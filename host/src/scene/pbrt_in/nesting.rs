@@ -74,7 +74,10 @@ impl Loader<'_> {
             let problem = format!("files include each other more than {MAX_INCLUDES} deep");
             return Err(wrong(&place, problem, "look for a file that includes itself"));
         }
-        let bytes = read_unpacked(&path)?;
+        let bytes = read_unpacked(&path).map_err(|error| {
+            // The line that asks for the file is what there is to mend.
+            wrong(&place, error.to_string(), "mend the path, or put the file there")
+        })?;
         self.files += 1;
         self.bytes += bytes.len() as u64;
         if self.files > MAX_FILES || self.bytes > MAX_BYTES {

@@ -233,3 +233,17 @@ fn damage_is_an_error_or_a_scene() {
     });
     assert!(valid > 300, "{valid}");
 }
+
+/// A file that is not there is told with the line that asks for it.
+#[test]
+fn missing_includes_are_told_with_their_line() {
+    let folder = std::env::temp_dir();
+    let text = "WorldBegin\n\nInclude \"lightbvh-there-is-no-such-file.pbrt\"\n";
+    let error = Scene::read_pbrt_slice("x.pbrt", text.as_bytes(), Some(&folder))
+        .expect_err("no such file")
+        .to_string();
+    assert!(
+        error.contains("x.pbrt, line 3") && error.contains("there-is-no-such-file"),
+        "{error}"
+    );
+}
