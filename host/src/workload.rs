@@ -63,7 +63,7 @@ pub fn lights_of<L: SceneLight>(scene: &Scene, frame: u32) -> Result<Lights<L>, 
 }
 
 fn listed<L: SceneLight>(scene: &Scene, frame: u32, lights: Vec<L>) -> Result<Lights<L>, HostError> {
-    if lights.is_empty() && !(L::IS_ANY && scene.has_kinds()) {
+    if lights.is_empty() && !(L::IS_ANY && scene.has_other_lights()) {
         scene.require_lights()?;
     }
     Lights::new(lights).map_err(|error| HostError::in_frame(scene.name(), frame, error))
@@ -153,7 +153,8 @@ fn query<L: SceneLight>(
     let kind = draw(0);
     let (mut p, mut n) = if !(0.75..0.98).contains(&kind) {
         let lights = scene.lights.triangles();
-        let corners = if kind < 0.75 {
+        // A scene may be lit by its sky alone.
+        let corners = if kind < 0.75 || lights.is_empty() {
             surfaces[pick(1, surfaces.len())]
         } else {
             lights[pick(1, lights.len())].corners()

@@ -1,5 +1,7 @@
 //! The ray BVH: built by `obvhs`, laid out for the kernels' walk.
 
+mod copies;
+
 use glam::Vec3A;
 use lightbvh_kernels::shading::grid::{MAX_COORDINATE, STEP, snap};
 use lightbvh_kernels::shading::skin::NoSkin;
@@ -130,7 +132,7 @@ fn snap_triangle(index: usize, triangle: &SurfaceTriangle) -> Result<SurfaceTria
 /// PLOC (D. Meister and J. Bittner, "Parallel Locally-Ordered Clustering for Bounding Volume Hierarchy Construction",
 /// 2018) with some reinsertion; one thread, so always the same tree.
 fn build(triangles: &[SurfaceTriangle]) -> Bvh2 {
-    let corners: Vec<Triangle> = triangles
+    let mut corners: Vec<Triangle> = triangles
         .iter()
         .map(|t| Triangle {
             v0: Vec3A::from(t.p[0]),
@@ -138,6 +140,7 @@ fn build(triangles: &[SurfaceTriangle]) -> Bvh2 {
             v2: Vec3A::from(t.p[2]),
         })
         .collect();
+    copies::spread(&mut corners);
     let params = BvhBuildParams {
         max_prims_per_leaf: LANES as u32,
         collapse_traversal_cost: NODE_COST,
@@ -155,6 +158,8 @@ struct Layout<'a> {
     leaves: Vec<u32>,
     /// Where the leaves of each binary node lie among them.
     runs: Vec<Range<u32>>,
+    /// Of each binary node, around the triangles where they are.
+    boxes: Vec<Aabb>,
 }
 
 /// Some leaves, one after the other.
@@ -183,12 +188,23 @@ impl<'a> Layout<'a> {
             .fold(0.0_f32, |m, c| m.max(c.abs()));
         let mut leaves = Vec::new();
         let mut runs = vec![0..0; bvh.nodes.len()];
+        let mut boxes = vec![Aabb::empty(); bvh.nodes.len()];
         // Twice on the stack: to begin its run, and to end it.
         let mut stack = vec![(0_u32, false)];
         while let Some((index, ends)) = stack.pop() {
             let (node, at) = (&bvh.nodes[index as usize], index as usize);
             if ends {
                 runs[at].end = leaves.len() as u32;
+                let first = node.first_index as usize;
+                boxes[at] = if node.is_leaf() {
+                    let own = &bvh.primitive_indices[first..first + node.prim_count as usize];
+                    own.iter().fold(Aabb::empty(), |all, &i| {
+                        let [a, b, c] = triangles[i as usize].p.map(Vec3A::from);
+                        all.union(&Aabb::new(a.min(b).min(c), a.max(b).max(c)))
+                    })
+                } else {
+                    boxes[first].union(&boxes[first + 1])
+                };
             } else {
                 runs[at].start = leaves.len() as u32;
                 stack.push((index, true));
@@ -206,6 +222,7 @@ impl<'a> Layout<'a> {
             padding: largest * PADDING + 2.0 * STEP,
             leaves,
             runs,
+            boxes,
         }
     }
 
@@ -218,11 +235,11 @@ impl<'a> Layout<'a> {
 
     fn bounds(&self, part: &Part) -> Aabb {
         match part {
-            Part::Node(index) => *self.bvh.nodes[*index as usize].aabb(),
+            Part::Node(index) => self.boxes[*index as usize],
             Part::Run(run) => self.leaves[run.start as usize..run.end as usize]
                 .iter()
-                .map(|&leaf| self.bvh.nodes[leaf as usize].aabb())
-                .fold(Aabb::empty(), |a, b| a.union(b)),
+                .map(|&leaf| self.boxes[leaf as usize])
+                .fold(Aabb::empty(), |a, b| a.union(&b)),
         }
     }
 
@@ -321,5 +338,41 @@ impl<'a> Layout<'a> {
                 levels: levels - 1,
             });
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+    use lightbvh_kernels::shading::ray::{FAR, Ray};
+    use lightbvh_kernels::shading::trace::closest_hit;
+
+    /// Many triangles in one place are met there, and boxes hold them.
+    #[test]
+    fn copies_in_one_place_are_met_there() {
+        let one = |p| SurfaceTriangle {
+            p,
+            material: 0,
+            light: NONE,
+            instance: NONE,
+        };
+        let here = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let behind = here.map(|[x, y, _]| [x, y, -1.0]);
+        let mut triangles = vec![one(here); 5000];
+        triangles.extend(vec![one([[0.25, 0.25, 0.5]; 3]); 100]);
+        triangles.push(one(behind));
+        let rays = RayBvh::build(&triangles).expect("a ray BVH");
+        assert_eq!(rays.triangles().count(), triangles.len());
+        for (at, from, distance) in [([0.25, 0.25], 1.0, 1.0), ([0.25, 0.25], -3.0, 2.0)] {
+            let towards = Vec3::new(0.0, 0.0, if from > 0.0 { -1.0 } else { 1.0 });
+            let ray = Ray::new(Vec3::new(at[0], at[1], from), towards, FAR);
+            let hit = closest_hit(&rays.surfaces(), &ray);
+            assert_eq!(hit.t, distance);
+        }
+        let mut sources = rays.sources().to_vec();
+        sources.retain(|&source| source != NONE);
+        sources.sort_unstable();
+        assert!(sources.iter().copied().eq(0..triangles.len() as u32));
     }
 }

@@ -9,6 +9,7 @@ use super::analytic::AnalyticKind;
 use super::error::SceneError;
 use super::flush::flush_tiny;
 use super::frame::emits;
+use super::lamps::Facets;
 use super::model::{Channel, Counts, Interpolation, Material, Primitive, Scene, SceneData};
 use super::motion_bounds;
 use super::paint::{MAX_SIDE, Opacity, Paint, Picture};
@@ -388,8 +389,9 @@ impl Check<'_> {
             total.emissive = total.emissive.saturating_add(counts.emissive);
             total.mesh_lights = total.mesh_lights.saturating_add(counts.mesh_lights);
         }
+        let fine = Facets::of(data);
         for light in &data.analytic {
-            total.triangles = total.triangles.saturating_add(light.facets());
+            total.triangles = total.triangles.saturating_add(light.facets(fine));
             let is_sun = light.kind == AnalyticKind::Directional;
             total.analytic += usize::from(!is_sun);
             total.suns += usize::from(is_sun);
