@@ -527,8 +527,16 @@ fn pictures_glow() {
         glow_texture: Some(lying(0, false)),
         ..PLAIN
     };
-    for (opacity, covered) in [(Opacity::Opaque, 1.0), (Opacity::Blended, 0.5)] {
+    // Without a picture of the glow each triangle has its own; another texture changes nothing of that.
+    for (opacity, covered, is_shown) in [
+        (Opacity::Opaque, 1.0, true),
+        (Opacity::Blended, 0.5, true),
+        (Opacity::Blended, 0.5, false),
+    ] {
+        let own = [[0.3_f32, 0.2, 0.1], [0.1, 0.2, 0.6]];
         let paint = Paint {
+            glow_texture: paint.glow_texture.filter(|_| is_shown),
+            bump_texture: Some(lying(0, false)).filter(|_| !is_shown),
             base: [0.5, 0.5, 0.5, if covered < 1.0 { 0.5 } else { 1.0 }],
             opacity,
             ..paint
@@ -542,7 +550,7 @@ fn pictures_glow() {
         data.materials.push(painted(paint));
         // The mean of each triangle is any: it chooses lights, and the picture says what they send.
         let mut lamp = sheet(side as f32, 1);
-        lamp.primitives[0].radiance = Some(vec![[0.3, 0.2, 0.1], [0.1, 0.2, 0.6]]);
+        lamp.primitives[0].radiance = Some(own.to_vec());
         data.meshes.push(lamp);
         // Turned about x: its front looks down, its second coordinate grows towards -z.
         data.nodes.push(Node {
@@ -564,7 +572,10 @@ fn pictures_glow() {
                 let squared = (x - aim).powi(2) + z * z + h * h;
                 let area = side * side / f64::from(n * n);
                 for k in 0..3 {
-                    let radiance = f64::from(paint.radiance[k]) * f64::from(texel[k]) / 255.0;
+                    let radiance = match is_shown {
+                        true => f64::from(paint.radiance[k]) * f64::from(texel[k]) / 255.0,
+                        false => f64::from(own[usize::from(v < u)][k]),
+                    };
                     e[k] += covered * radiance * area * h * h / (squared * squared);
                 }
             }
@@ -745,4 +756,63 @@ fn textured_flux_is_an_integral() {
             assert!((ratio - 1.0).abs() < 0.01, "{corners:?} channel {k}: {ratio}");
         }
     }
+}
+
+/// Files say what cannot be shown, and what stands for it is what is said.
+#[test]
+fn what_cannot_be_shown_has_what_stands_for_it() {
+    let png = lightbvh_tests::gltf_files::png_white_black();
+    let left = [[0.1, 0.1], [0.3, 0.1], [0.1, 0.9]];
+    let file = || textured(left, &png);
+    let material = |root: &serde_json::Value, index: usize| -> Material {
+        read_json(root).expect("sound").data().materials[index].clone()
+    };
+    // A cutoff that no opacity reaches.
+    let mut root = file();
+    root["materials"][0]["pbrMetallicRoughness"] = serde_json::json!({ "baseColorTexture": { "index": 0 } });
+    root["materials"][0]["alphaMode"] = "MASK".into();
+    root["materials"][0]["alphaCutoff"] = 2.0.into();
+    assert_eq!(
+        material(&root, 0).paint.expect("painted").opacity,
+        Opacity::Cut(2.0)
+    );
+    root["materials"][0]["alphaCutoff"] = 0.5.into();
+    assert_eq!(
+        material(&root, 0).paint.expect("painted").opacity,
+        Opacity::Opaque
+    );
+    // Without coordinates means stand for textures.
+    let attributes = &mut root["meshes"][0]["primitives"][0]["attributes"];
+    attributes.as_object_mut().expect("a list").remove("TEXCOORD_0");
+    let scene = read_json(&root).expect("sound");
+    let own = scene.data().meshes[0].primitives[0].material as usize;
+    let plain = &scene.data().materials[own];
+    assert!(
+        plain.paint.is_none() && (plain.base_color[0] - 0.5).abs() < 1e-6,
+        "{plain:?}"
+    );
+    // What glows by a picture that is not there does not, whatever it reflects.
+    let mut root = file();
+    root["materials"][0]["pbrMetallicRoughness"] = serde_json::json!({ "baseColorFactor": [0, 0, 0, 1] });
+    root["images"][0] = serde_json::json!({ "uri": "nowhere.png" });
+    assert!(read_json(&root).expect("sound").frame(0).emissive.is_empty());
+    // A map that turns over, and a colour that is shown as it is, in part.
+    let mut root = file();
+    root["materials"] = serde_json::json!([{
+        "alphaMode": "BLEND",
+        "pbrMetallicRoughness": {
+            "baseColorFactor": [0.5, 1.0, 0.25, 0.25],
+            "baseColorTexture": {
+                "index": 0,
+                "extensions": { "KHR_texture_transform": { "scale": [1.0, -1.0], "offset": [0.25, 0.5] } },
+            },
+        },
+        "extensions": { "KHR_materials_unlit": {} },
+    }]);
+    let scene = read_json(&root).expect("sound");
+    let back =
+        Scene::read_gltf_slice("back.glb", &scene.to_glb().expect("written"), None).expect("read back");
+    let paint = |scene: &Scene| scene.data().materials[0].paint.expect("painted");
+    assert_eq!(paint(&scene).radiance, [0.5, 1.0, 0.25]);
+    assert_eq!(paint(&scene), paint(&back));
 }

@@ -271,7 +271,7 @@ impl MethodLight for AnyLight {
             Importance::Moments => recipe.runner_by::<Kinds, WIDTH>(first, target),
             Importance::Eq4 => Err(HostError::Usage {
                 option: "--importance eq4 (and samplers by it)",
-                needs: "a scene of emissive triangles alone; this one has lights of other kinds, which moments choose among",
+                needs: "a scene of emissive triangles alone; this one has other lights, or textures or glass, which the renderer shows with moments only",
             }),
         }
     }

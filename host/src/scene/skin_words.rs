@@ -41,7 +41,7 @@ pub(super) fn words(data: &SceneData) -> Vec<u32> {
     if !data.is_painted() {
         return Vec::new();
     }
-    let pictures = fitted(&data.pictures);
+    let pictures = fitted(&data.pictures, &colors(data));
     let count = data.materials.len() as u32;
     let mut words = vec![0; HEADER_WORDS as usize];
     words[0] = count;
@@ -149,8 +149,21 @@ fn picture_words(texture: &Texture, picture: &Picture, texels: u32) -> PictureWo
     }
 }
 
+/// Which pictures hold colours, which are encoded.
+fn colors(data: &SceneData) -> Vec<bool> {
+    let mut colors = vec![false; data.pictures.len()];
+    let paints = data
+        .materials
+        .iter()
+        .filter_map(|material| material.paint.as_ref());
+    for (_, texture) in paints.flat_map(Paint::textures) {
+        colors[texture.picture as usize] |= texture.is_color;
+    }
+    colors
+}
+
 /// The pictures, the largest halved until all fit.
-fn fitted(pictures: &[Picture]) -> Vec<Picture> {
+fn fitted(pictures: &[Picture], colors: &[bool]) -> Vec<Picture> {
     let mut fitted = pictures.to_vec();
     let texels = |picture: &Picture| u64::from(picture.width) * u64::from(picture.height);
     while fitted.iter().map(texels).sum::<u64>() > MAX_TEXELS {
@@ -158,15 +171,21 @@ fn fitted(pictures: &[Picture]) -> Vec<Picture> {
         if most <= 1 {
             break;
         }
-        for picture in fitted.iter_mut().filter(|picture| texels(picture) * 2 > most) {
-            *picture = halved(picture);
+        for (picture, &is_color) in fitted.iter_mut().zip(colors) {
+            if texels(picture) * 2 > most {
+                *picture = halved(picture, is_color);
+            }
         }
     }
     fitted
 }
 
-/// Half as wide and high: means of four texels, as they are encoded.
-fn halved(picture: &Picture) -> Picture {
+/// Half as wide and high: means of four texels, those of colours of what they stand for.
+fn halved(picture: &Picture, is_color: bool) -> Picture {
+    let linear: Vec<f32> = (0..=255).map(linear_from_srgb).collect();
+    // The nearest byte: as many as have the middle to the next one below the mean.
+    let middles: Vec<f32> = linear.windows(2).map(|pair| (pair[0] + pair[1]) * 0.5).collect();
+    let encoded = |mean: f32| middles.partition_point(|&middle| middle <= mean);
     let [width, height] = [picture.width, picture.height].map(|size| size.div_ceil(2));
     let texel = |x: u32, y: u32, channel: usize| {
         let (x, y) = (x.min(picture.width - 1), y.min(picture.height - 1));
@@ -176,11 +195,12 @@ fn halved(picture: &Picture) -> Picture {
     for y in 0..height {
         for x in 0..width {
             for channel in 0..4 {
-                let sum: u32 = [(0, 0), (1, 0), (0, 1), (1, 1)]
-                    .iter()
-                    .map(|(right, down)| texel(2 * x + right, 2 * y + down, channel))
-                    .sum();
-                texels.push(((sum + 2) / 4) as u8);
+                let four = [(0, 0), (1, 0), (0, 1), (1, 1)]
+                    .map(|(right, down)| texel(2 * x + right, 2 * y + down, channel));
+                texels.push(match is_color && channel < 3 {
+                    true => encoded(four.iter().map(|&byte| linear[byte as usize]).sum::<f32>() / 4.0) as u8,
+                    false => ((four.iter().sum::<u32>() + 2) / 4) as u8,
+                });
             }
         }
     }
@@ -205,11 +225,11 @@ mod tests {
 
     #[test]
     fn halves_are_means_of_four() {
-        let half = halved(&picture(4, 2));
+        let half = halved(&picture(4, 2), false);
         assert_eq!((half.width, half.height), (2, 1));
         // Red of texels 0, 1, 4 and 5: 0, 4, 16, 20.
         assert_eq!(half.texels[..8], [10, 11, 12, 13, 18, 19, 20, 21]);
-        let odd = halved(&picture(3, 1));
+        let odd = halved(&picture(3, 1), false);
         assert_eq!(
             (odd.width, odd.height, odd.texels[4]),
             (2, 1, 8),
@@ -217,10 +237,29 @@ mod tests {
         );
     }
 
+    /// Black and white are half as bright together, not half as great a byte; opacities are numbers.
+    #[test]
+    fn halves_of_colors_are_as_bright() {
+        let squares = Picture {
+            width: 2,
+            height: 2,
+            texels: Arc::new([[0; 4], [255; 4], [255; 4], [0; 4]].concat()),
+        };
+        let half = halved(&squares, true);
+        assert_eq!(*half.texels, [188, 188, 188, 128], "0.5 linear is 187.5 encoded");
+        let even = Picture {
+            width: 2,
+            height: 1,
+            texels: Arc::new((0..2).flat_map(|_| [7, 130, 255, 9]).collect()),
+        };
+        assert_eq!(*halved(&even, true).texels, [7, 130, 255, 9]);
+    }
+
     #[test]
     fn only_as_many_are_halved_as_must_be() {
         let side = 4096;
-        let fits = fitted(&[picture(side, side / 2), picture(8, 8), picture(side / 2, side)]);
+        let pictures = [picture(side, side / 2), picture(8, 8), picture(side / 2, side)];
+        let fits = fitted(&pictures, &[false; 3]);
         assert_eq!(
             [fits[0].width, fits[1].width, fits[2].width],
             [side / 2, 8, side / 4],

@@ -207,7 +207,7 @@ pub struct PaintWords {
     pub roughness: f32,
     /// Factor on the two components of normals across.
     pub bump: f32,
-    /// Factor on the emission.
+    /// Factor on the picture of the emission; not read without one.
     pub emission: [f32; 3],
     /// What of light goes through a clear surface: a factor on its base colour.
     pub transmission: f32,
@@ -470,10 +470,13 @@ impl Skin for SkinView<'_> {
             }
             let shown = self.shown(material, 3, uv);
             let share = |factor: f32, texel: f32| flush(factor * (texel * cover), TINY);
+            // Without a picture of it, emission is what the light says: it may differ from triangle to triangle.
+            let is_shown = word(self.words, paint_at(material).wrapping_add(16)) != NONE;
+            let own = |at: u32, mean: f32| if is_shown { self.number(material, at) } else { mean };
             glow = [
-                share(self.number(material, 9), shown.r),
-                share(self.number(material, 10), shown.g),
-                share(self.number(material, 11), shown.b),
+                share(own(9, emission[0]), shown.r),
+                share(own(10, emission[1]), shown.g),
+                share(own(11, emission[2]), shown.b),
             ];
         }
         glow

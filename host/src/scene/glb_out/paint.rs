@@ -4,6 +4,7 @@ use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
 use serde_json::{Value, json};
 
 use super::Writer;
+use super::material::strength;
 use crate::scene::paint::{IN_PLACE, Opacity, Paint, Picture, Texture, Wrap};
 
 /// Textures and samplers as a file lists them.
@@ -56,7 +57,8 @@ impl Textures {
             info["extensions"]["KHR_texture_transform"] = json!({
                 "offset": offset,
                 "rotation": f64::atan2(-x[1], x[0]),
-                "scale": [x[0].hypot(x[1]), y[0].hypot(y[1])],
+                // Where the map turns over, one of the two is negative.
+                "scale": [x[0].hypot(x[1]), y[0].hypot(y[1]).copysign(x[0] * y[1] - x[1] * y[0])],
             });
         }
         info
@@ -64,6 +66,9 @@ impl Textures {
 
     /// Adds what is painted to a material as it is written.
     pub(super) fn paint(&mut self, paint: &Paint, material: &mut Value) {
+        let strength = strength(paint.radiance);
+        material["emissiveFactor"] = json!(paint.radiance.map(|channel| channel / strength));
+        material["extensions"]["KHR_materials_emissive_strength"] = json!({ "emissiveStrength": strength });
         let reflectance = &mut material["pbrMetallicRoughness"];
         reflectance["baseColorFactor"] = json!(paint.base);
         reflectance["metallicFactor"] = json!(paint.metallic);

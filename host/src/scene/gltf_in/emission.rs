@@ -55,8 +55,7 @@ pub(super) fn radiance(
     *shared = Some((material, placed.clone()));
     let Some(placed) = placed else {
         // What is known to glow somewhere is not taken to glow everywhere; unlit surfaces have a colour in any case.
-        let is_unlit = look.material.base_color == [0.0; 3];
-        return Ok((!is_unlit).then(|| vec![[0.0; 3]; triangles.len()]));
+        return Ok((!look.is_unlit).then(|| vec![[0.0; 3]; triangles.len()]));
     };
     let Some(coordinates) = attributes.floats::<2>(Semantic::TexCoords(placed.set))? else {
         document.warn(format!(

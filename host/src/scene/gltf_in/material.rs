@@ -19,6 +19,8 @@ pub(super) struct Look<'a> {
     pub glow: Option<&'a Info>,
     /// By which set of coordinates what is painted on it lies.
     pub set: u32,
+    /// Whether it emits the colour that it shows.
+    pub is_unlit: bool,
 }
 
 /// `KHR_materials_transmission`.
@@ -169,6 +171,7 @@ fn look<'a>(
         material: out,
         glow,
         set: painted.map_or(0, |painted| painted.set),
+        is_unlit: unlit,
     })
 }
 

@@ -9,7 +9,8 @@ use gltf::json::validation::Checked;
 
 use super::super::check::MAX_TRIANGLES;
 use super::super::error::SceneError;
-use super::super::model::{Mesh, Primitive};
+use super::super::model::{Material, Mesh, Primitive};
+use super::super::paint::{Opacity, Paint};
 use super::attributes::Attributes;
 use super::material::Look;
 use super::{Document, bend, emission};
@@ -87,6 +88,10 @@ fn one<'a>(
         });
     }
     let coordinates = coordinates(document, &attributes, &looks[material], positions.len())?;
+    let material = match coordinates {
+        None => without_textures(document, looks, material),
+        Some(_) => material,
+    };
     let look = (material, &looks[material]);
     let radiance = emission::radiance(document, &attributes, look, &triangles, &mut shared.emission)?;
     let targets = bend::targets(document, primitive, positions.len(), element)?;
@@ -134,6 +139,51 @@ fn positions(
         shared.positions = Some((index.value(), Rc::clone(&positions)));
     }
     Ok(positions)
+}
+
+/// The material with means in place of its textures, where it has any: appended to `looks`, once for each.
+fn without_textures(document: &Document<'_>, looks: &mut Vec<Look<'_>>, material: usize) -> usize {
+    let look = &looks[material];
+    let Some(paint) = look
+        .material
+        .paint
+        .filter(|paint| paint.textures().next().is_some())
+    else {
+        return material;
+    };
+    let [r, g, b] = look.material.base_color;
+    let glass = Paint {
+        base: [r, g, b, 1.0],
+        base_texture: None,
+        rough_texture: None,
+        bump_texture: None,
+        glow_texture: None,
+        opacity: Opacity::Opaque,
+        ..paint
+    };
+    let plain = Material {
+        paint: paint.is_clear().then_some(glass),
+        ..look.material.clone()
+    };
+    // One for the default material stands first, whether or not it is asked for.
+    if looks.len() == document.root.materials.len() {
+        looks.push(Look::default());
+    }
+    if let Some(known) = looks.iter().position(|look| look.material == plain) {
+        return known;
+    }
+    let (glow, set, is_unlit) = (
+        looks[material].glow,
+        looks[material].set,
+        looks[material].is_unlit,
+    );
+    looks.push(Look {
+        material: plain,
+        glow,
+        set,
+        is_unlit,
+    });
+    looks.len() - 1
 }
 
 /// Where the vertices lie on the textures of a material; `None` where it has none, or the primitive does not say.

@@ -63,10 +63,11 @@ pub(super) fn read(
     if paint.radiance != [0.0; 3] {
         paint.glow_texture = lie(of(named.glow, true)?, "emission");
     }
+    let cutoff = material.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0);
     paint.opacity = match material.alpha_mode {
+        Valid(AlphaMode::Mask) if opacity < 1.0 || cutoff > 1.0 => Opacity::Cut(cutoff),
         // All of it is there.
         _ if opacity >= 1.0 => Opacity::Opaque,
-        Valid(AlphaMode::Mask) => Opacity::Cut(material.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0)),
         Valid(AlphaMode::Blend) => Opacity::Blended,
         _ => Opacity::Opaque,
     };
