@@ -3,7 +3,6 @@
 //! `cargo run --release -p lightbvh --example fog` (seconds). Prints the squared error of a lamp chosen for the middle of the ray and a place
 //! anywhere on it, and of a lamp chosen by the ray and a place for that lamp; checks that the means are right.
 
-use glam::Vec3;
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::importance::{RaySegment, SegmentSample, Subtended};
 use lightbvh::light::LightPoint;
@@ -63,7 +62,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         |number, lights| {
             let sampled = told.sample_for(&ray, number);
             let on = lights[sampled.light as usize].point([0.5; 2]);
-            let place = ray.sample(Vec3::from_array(on.p), unit_f32(hash(number ^ 1)));
+            let place = ray.sample(on.p.into(), unit_f32(hash(number ^ 1)));
             (sampled, place)
         },
     );

@@ -104,7 +104,7 @@ pub(super) struct Spread {
 
 /// What the tables say that numbers cannot.
 pub(super) const NOTES: [&str; 5] = [
-    "Each method has as many shadow rays as fit into the time by a straight line through the times of a few trials, in whole samples, at least \
+    "How many shadow rays fit into the time is predicted by a line fitted to a few trials, in whole samples, at least \
      one; ReSTIR has whole histories of six rays at most. The table says what was really spent: a mean over the images.",
     "The time is that of an image. Building and following trees is not in it; `update` is what the frame stands still for beside it.",
     "MSE is of tone-mapped 8-bit sRGB (0 to 255²) at one exposure per scene, over the whole image, a mean over the seeds; ± is half the 95 % \
