@@ -574,6 +574,8 @@ fn pictures_glow() {
                 for k in 0..3 {
                     let radiance = match is_shown {
                         true => f64::from(paint.radiance[k]) * f64::from(texel[k]) / 255.0,
+                        // Places on the diagonal are half in each.
+                        false if i == j => 0.5 * f64::from(own[0][k] + own[1][k]),
                         false => f64::from(own[usize::from(v < u)][k]),
                     };
                     e[k] += covered * radiance * area * h * h / (squared * squared);
