@@ -25,7 +25,14 @@ Usage: build-kernels [--check]
 
 Without --crate the current directory must be inside the repository. See kernels/README.md for the compiler it needs.";
 
+/// Bytes of stack that the compiler's threads have: it follows on it how deep selections and loops lie in each other, and overflowed the 8 MiB
+/// that it has otherwise.
+const STACK: (&str, &str) = ("RUST_MIN_STACK", "536870912");
+
 fn main() -> ExitCode {
+    if std::env::var_os(STACK.0).is_none() {
+        return with_stack();
+    }
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let done = match words.as_slice() {
@@ -57,6 +64,28 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             eprintln!("build-kernels: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// This program again, in an environment that gives the compiler its stack.
+fn with_stack() -> ExitCode {
+    let again = std::env::current_exe().and_then(|own| {
+        Command::new(own)
+            .args(std::env::args_os().skip(1))
+            .env(STACK.0, STACK.1)
+            .status()
+    });
+    match again {
+        Ok(status) => ExitCode::from(
+            status
+                .code()
+                .and_then(|code| u8::try_from(code).ok())
+                .unwrap_or(1),
+        ),
+        Err(error) => {
+            eprintln!("build-kernels: cannot start itself again: {error}");
             ExitCode::FAILURE
         }
     }
