@@ -237,13 +237,19 @@ impl Instance {
         )
     }
 
-    /// How much longer lengths are in the world, in the mean: the root of the factor on areas, which is the root mean square over all directions.
+    /// The columns, the greatest entry of magnitude 1 to 2, times two to this power.
     #[inline(always)]
-    pub(crate) fn scale(&self) -> f32 {
+    pub(crate) fn columns_of_one(&self) -> ([Vec3; 3], i32) {
         let (a, b, c) = (self.column(0), self.column(1), self.column(2));
         let e = greatest_exponent(max3(max3(abs3(a), abs3(b)), abs3(c)), -60);
         let to_one = pow2(-e);
-        let (a, b, c) = (flushed(a * to_one), flushed(b * to_one), flushed(c * to_one));
+        ([flushed(a * to_one), flushed(b * to_one), flushed(c * to_one)], e)
+    }
+
+    /// How much longer lengths are in the world, in the mean: the root of the factor on areas, which is the root mean square over all directions.
+    #[inline(always)]
+    pub(crate) fn scale(&self) -> f32 {
+        let ([a, b, c], e) = self.columns_of_one();
         let tiny = pow2(-50);
         let (ab, bc, ca) = (
             flush3(cross(a, b), tiny),

@@ -106,6 +106,8 @@ pub mod requirements;
 
 // For the kernels, the host and the tests, which are of this workspace: not part of the interface.
 #[doc(hidden)]
+pub mod beam;
+#[doc(hidden)]
 pub mod bounds;
 #[doc(hidden)]
 pub mod cone;

@@ -9,6 +9,7 @@
 //! | [`RectangleLight`], [`DiscLight`] | as that; parallelograms and ellipses too |
 //! | [`SphereLight`] | from its surface outward |
 //! | [`PointLight`], [`SpotLight`] | from a place without size, in every direction or into a cone |
+//! | [`ProfileLight`] | from a place without size, in each direction what a table says: IES profiles |
 //! | [`BoxLight`] | from every place within it in every direction |
 //! | [`AnyLight`] | as the one of these that it is, for trees over several kinds |
 //! | [`LinkedTriangle`], [`LinkedAny`] | as that, to the receivers that its mask allows: [`Linked`](crate::importance::Linked) |
@@ -28,6 +29,7 @@ mod flat;
 pub mod infinite;
 mod linked;
 mod point;
+mod profile;
 mod punctual;
 mod record;
 mod round;
@@ -43,6 +45,7 @@ pub use any::AnyLight;
 pub use flat::{DiscLight, RectangleLight};
 pub use linked::{LinkedAny, LinkedTriangle};
 pub use point::{LightPoint, uniform_point};
+pub use profile::ProfileLight;
 pub use punctual::{PointLight, SpotLight};
 pub use record::{Light, LightSlots};
 pub use sphere::SphereLight;
@@ -196,7 +199,7 @@ pub enum LightError {
         /// What was found.
         value: f32,
     },
-    /// The axis of a spot, or the direction of a sun, is not of length 1, up to [`NORMAL_TOLERANCE`](crate::error::NORMAL_TOLERANCE).
+    /// The axis of a spot or a profile, or the direction of a sun, is not of length 1, or what is to be across an axis is not, up to [`NORMAL_TOLERANCE`](crate::error::NORMAL_TOLERANCE).
     Axis {
         /// What was found.
         axis: [f32; 3],
@@ -207,6 +210,16 @@ pub enum LightError {
         cos_inner: f32,
         /// Cosine of the angle from which on it has none.
         cos_outer: f32,
+    },
+    /// The numbers of a profile are none: a cosine out of −1..=1, the cone's within 2^-20 of 1 or above the mean one, or an integral that is not
+    /// 0, nor from 2^-40 to 2.
+    Profile {
+        /// Cosine of the angle from which on there is no light.
+        cos_outer: f32,
+        /// Integral over all directions, over 2π.
+        whole: f32,
+        /// Mean cosine.
+        mean_cosine: f32,
     },
     /// A kind that is none of [`AnyLight`]'s.
     Kind {
@@ -255,13 +268,25 @@ impl core::fmt::Display for LightError {
             ),
             Self::Axis { axis: [x, y, z] } => write!(
                 f,
-                "the axis of a spot, or the direction of a sun, is ({x}, {y}, {z}), expected length 1; normalize it"
+                "the axis of a spot or a profile, or the direction of a sun, is ({x}, {y}, {z}), expected length 1, and across at right angles; normalize it"
             ),
             Self::Cone { cos_inner, cos_outer } => write!(
                 f,
                 "a spot from an inner cosine of {} to an outer one of {}, expected -1 <= outer <= inner <= 1 and outer < 1; swap the \
                  angles, or widen the cone",
                 Number(cos_inner),
+                Number(cos_outer)
+            ),
+            Self::Profile {
+                cos_outer,
+                whole,
+                mean_cosine,
+            } => write!(
+                f,
+                "a profile of integral {}, mean cosine {}, and cone from cosine {} on, expected an integral of 0 or from 2^-40 to 2 and \
+                 -1 <= cone <= mean <= 1; compute them from the table",
+                Number(whole),
+                Number(mean_cosine),
                 Number(cos_outer)
             ),
             Self::Kind { kind } => write!(

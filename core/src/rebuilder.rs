@@ -12,6 +12,7 @@ mod meshes;
 mod queue;
 mod worker;
 
+use alloc::collections::VecDeque;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
@@ -54,7 +55,7 @@ pub struct RebuilderParams {
     /// Large meshes that are under way at a time, each with a thread of its own; at least 1.
     pub meshes: u32,
     /// Most instances of the parts of the top level that a frame hands to the worker; at least 1024, the default, with which
-    /// start and end of a frame take about 0.1 ms, and more than 0.3 ms once in ten thousand on a busy machine (`docs/dynamics.md`). Each further 1000 take about 0.1 ms more of each. Where all of many instances move their own ways, what is built in a frame decides how good the tree is: with *N* of them every part has its turn in *N* over
+    /// start and end of a frame take 0.1 to 0.2 ms, and more than 0.3 ms once in some hundreds to ten thousand, by the machine and how busy it is (`docs/dynamics.md`). Each further 1000 take about 0.1 ms more of each. Where all of many instances move their own ways, what is built in a frame decides how good the tree is: with *N* of them every part has its turn in *N* over
     /// this many frames.
     pub leaves: u32,
 }
@@ -150,11 +151,19 @@ pub struct Rebuilder<N: Holds = DefaultNode, const W: usize = 8> {
     taken: Option<Taken>,
     /// For the next part of a large top level.
     search: Search,
+    /// Instances that are to be opened, or closed, and of which light BVH.
+    reopening: VecDeque<(u32, bool)>,
+    /// Those that were.
+    reopened: Vec<u32>,
+    reopens: Option<Taken>,
     /// Whether small meshes that are many had the last turn.
     is_tops_turn: bool,
     /// How a worker is started.
     start: fn() -> std::io::Result<Worker<N, W>>,
 }
+
+/// Instances that a frame opens or closes.
+const REOPENED: usize = 2;
 
 /// A rebuild under way.
 #[derive(Debug)]
@@ -182,6 +191,9 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
             meshes: Meshes::default(),
             taken: None,
             search: Search::default(),
+            reopening: VecDeque::new(),
+            reopened: Vec::new(),
+            reopens: None,
             is_tops_turn: false,
             start: Worker::start,
         }
@@ -197,7 +209,7 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
     /// Whether a rebuild is under way, or its result waits to be swapped in.
     #[must_use]
     pub fn is_busy(&self) -> bool {
-        self.flight.is_some() || self.meshes.is_busy()
+        self.flight.is_some() || self.meshes.is_busy() || !self.reopening.is_empty()
     }
 
     /// Swaps in what is due. Comes before the frame's [`Bvh::apply`] or after it, but before its [`Bvh::plan`] and [`Bvh::refit`],
@@ -217,7 +229,11 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
             // What it would have built of the other is still to be built.
             self.taken = None;
         }
-        self.begin_flight(scene, &mut start)?;
+        let flight = self.begin_flight(scene, &mut start);
+        if !start.swapped || !scene.is_top_large() {
+            self.reopen_some(scene);
+        }
+        flight?;
         meshes?;
         Ok(start)
     }
@@ -260,12 +276,37 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
             if let Some(gain) = rebuilt.gain_above() {
                 self.search.note_gain(gain);
             }
-            scene.install(rebuilt).map_err(|_| RebuildError::Foreign)?;
+            let wanted = scene.install_closed(rebuilt).map_err(|_| RebuildError::Foreign)?;
+            for (opens, those) in [true, false].into_iter().zip(wanted) {
+                self.reopening
+                    .extend(those.into_iter().map(|index| (index, opens)));
+            }
+            self.reopens = Some(scene.now());
         }
         self.taken = taken;
         start.swapped = true;
         start.built = time;
         Ok(())
+    }
+
+    /// Opens or closes some of the instances that a rebuilt top level asks it for: as many parts go and come as a node has children, and each is put
+    /// in where it costs least, which is as long as what else a frame has time for. Not in a frame in which a part of a large top level comes in.
+    fn reopen_some<I, T: Trails>(&mut self, scene: &mut Bvh<N, I, W, T>) {
+        if self.reopens.is_some_and(|of| !of.is_of_same(scene.now())) {
+            self.reopening.clear();
+            self.reopened.clear();
+        }
+        for _ in 0..REOPENED {
+            if let Some((index, opens)) = self.reopening.pop_front()
+                && scene.reopen_one(index, opens)
+            {
+                self.reopened.push(index);
+            }
+        }
+        // Once for all of them: the tree around is tried for what each of them changed.
+        if self.reopening.is_empty() {
+            scene.note_reopened(&core::mem::take(&mut self.reopened));
+        }
     }
 
     /// Starts the next rebuild, unless one is under way or there is nothing to build. Comes after the frame's

@@ -5,7 +5,7 @@
 //! levels to their roots; [`root`] for each bottom level; [`top`] from the deepest level of the top level to its root.
 //! Children are merged in an order of the slots, so no order of execution shows in the bits.
 
-mod masks;
+mod limits;
 
 use bytemuck::{Pod, Zeroable};
 
@@ -14,10 +14,10 @@ use crate::light::{Light, LightSlots};
 use crate::node::{Node, kind};
 use crate::summary::{Lanes, SUMMARY_WORDS, Summary};
 
+pub(crate) use limits::limits_below;
+use limits::limits_of_top;
 #[cfg(feature = "alloc")]
-pub(crate) use masks::mask_of_root;
-pub(crate) use masks::masks_below;
-use masks::masks_of_top;
+pub(crate) use limits::{has_limits, limits_of_instance};
 
 /// Node `index` of a bottom level with the summaries of its triangles and of the nodes below it.
 #[inline]
@@ -27,7 +27,7 @@ pub fn bottom<N: Node<W>, const W: usize>(nodes: &[N], triangles: &[N::Light], i
     let mut room = Room::<N::Light, W>::new();
     below(nodes, 0, triangles, &node, &mut room);
     node.set_lanes(&room.children);
-    node.set_masks(&masks_below(nodes, 0, triangles, &node));
+    node.set_limits(&limits_below(nodes, 0, triangles, &node, &room.children));
     node
 }
 
@@ -118,7 +118,7 @@ pub fn top<N: Node<W>, const W: usize>(
         }
     }
     node.set_lanes(&children);
-    node.set_masks(&masks_of_top(nodes, instances, roots, &node));
+    node.set_limits(&limits_of_top(nodes, instances, roots, &node, &children));
     node
 }
 

@@ -107,9 +107,9 @@ fn one_by_one<N: Node<W>, const W: usize>(nodes: &mut [N], count: usize, first: 
                     fetch_triangles(&nodes[soon], triangles);
                 }
                 refit::below(nodes, first, triangles, &nodes[index], &mut room);
-                let masks = refit::masks_below(nodes, first, triangles, &nodes[index]);
+                let limits = refit::limits_below(nodes, first, triangles, &nodes[index], &room.children);
                 nodes[index].set_lanes(&room.children);
-                nodes[index].set_masks(&masks);
+                nodes[index].set_limits(&limits);
             }
         },
     );

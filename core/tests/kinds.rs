@@ -5,7 +5,7 @@
 
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::light::{
-    AnyLight, BoxLight, DiscLight, Light, PointLight, RectangleLight, SphereLight, SpotLight,
+    AnyLight, BoxLight, DiscLight, Light, PointLight, ProfileLight, RectangleLight, SphereLight, SpotLight,
 };
 use lightbvh::node::Lit;
 use lightbvh::{
@@ -216,6 +216,31 @@ fn spot(random: &mut Random) -> SpotLight {
     }
 }
 
+fn profile(random: &mut Random) -> ProfileLight {
+    let axis = random.unit_vector();
+    let across = loop {
+        let other = random.unit_vector();
+        let d: f32 = axis.iter().zip(other).map(|(a, b)| a * b).sum();
+        if d.abs() < 0.9 {
+            let v: [f32; 3] = core::array::from_fn(|k| other[k] - d * axis[k]);
+            let length = v.iter().map(|x| x * x).sum::<f32>().sqrt();
+            break v.map(|x| x / length);
+        }
+    };
+    let outer = random.signed() * 0.95;
+    ProfileLight {
+        p: random.vector(1.0),
+        intensity: random.shine(),
+        axis,
+        across,
+        cos_outer: outer,
+        whole: 0.1 + 0.9 * (1.0 - outer) * random.unit(),
+        mean_cosine: outer + (1.0 - outer) * random.unit(),
+        mesh: 0,
+        flags: 2 * u32::from(random.unit() < 0.3),
+    }
+}
+
 fn sphere(random: &mut Random) -> SphereLight {
     SphereLight {
         p: random.vector(1.0),
@@ -264,13 +289,14 @@ fn triangle(random: &mut Random) -> EmissiveTriangle {
 }
 
 fn any(random: &mut Random) -> AnyLight {
-    match (random.unit() * 7.0) as u32 {
+    match (random.unit() * 8.0) as u32 {
         0 => triangle(random).into(),
         1 => point(random).into(),
         2 => spot(random).into(),
         3 => sphere(random).into(),
         4 => rectangle(random).into(),
         5 => disc(random).into(),
+        6 => profile(random).into(),
         _ => glow(random).into(),
     }
 }
@@ -283,6 +309,11 @@ fn points() {
 #[test]
 fn spots() {
     check(spot);
+}
+
+#[test]
+fn profiles() {
+    check(profile);
 }
 
 #[test]
@@ -349,6 +380,7 @@ fn any_light_is_its_kind() {
         same(triangle(&mut random), &at, &mut random);
         same(point(&mut random), &at, &mut random);
         same(spot(&mut random), &at, &mut random);
+        same(profile(&mut random), &at, &mut random);
         same(sphere(&mut random), &at, &mut random);
         same(rectangle(&mut random), &at, &mut random);
         same(disc(&mut random), &at, &mut random);
@@ -356,7 +388,7 @@ fn any_light_is_its_kind() {
     }
     // Words of no kind, and flags of kinds without sides, are refused.
     let words: &mut [u32] = &mut [0; 17];
-    for kind in [7, 255, 1 | (1 << 8), 6 | (1 << 8), 4 | (2 << 8)] {
+    for kind in [8, 255, 1 | (1 << 8), 6 | (1 << 8), 4 | (2 << 8), 7 | (1 << 8)] {
         words[16] = kind;
         let any: AnyLight = *bytemuck::from_bytes(bytemuck::cast_slice(words));
         any.checked().expect_err("of no kind");

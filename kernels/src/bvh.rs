@@ -2,7 +2,7 @@
 
 use lightbvh::importance::{DefaultImportance, NativeMath};
 use lightbvh::light::AnyLight;
-use lightbvh::node::{DefaultNode, Holds, Lit, Node as Layout};
+use lightbvh::node::{DefaultNode, Holds, Lit, Node as Layout, SpotMomentNode};
 use lightbvh::{
     CompactNode, Defensive, EmissiveTriangle, Eq4, ImportanceModel, LightTree, MomentNode, Moments, Random64,
     SampledLight, ShadingPoint,
@@ -100,7 +100,7 @@ impl Choice<WIDTH> for Kinds {
     type Light = AnyLight;
     type Node = AnyNode;
     type Importance = DefaultImportance;
-    const NAME: &'static str = "moments";
+    const NAME: &'static str = "moments with beams";
     const SUFFIX: &'static str = AnyLight::SUFFIX;
 }
 
@@ -108,8 +108,8 @@ impl Choice<WIDTH> for Kinds {
 pub const WIDTH: usize = 8;
 /// Node of [`Standard`].
 pub type Node = DefaultNode;
-/// Node over lights of any kind: the words of [`Node`].
-pub type AnyNode = Lit<Node, AnyLight>;
+/// Node over lights of any kind, spots among them: the words of [`Node`], and beams.
+pub type AnyNode = Lit<SpotMomentNode<8>, AnyLight>;
 
 /// The node of a choice that is made for one width only: what a kernel's buffer holds.
 pub type NodeOf<C> = <C as Kernels>::Node;

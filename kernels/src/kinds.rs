@@ -1,5 +1,5 @@
-//! Passes over lights of any kind, [`AnyLight`]: `refit_bottom_any`, `refit_top_any` and `light_points_any`; those that render stand beside
-//! the ones over triangles. Nodes are the default's, so `refit_roots`, `sample` and `pmf` are those of triangles.
+//! Passes over lights of any kind, [`AnyLight`]: the refits and `light_points_any`; those that choose lights or render stand beside the ones
+//! over triangles. Nodes are the default's with beams, since any kind may be a spot.
 
 use glam::UVec3;
 use lightbvh::instance::world_light;
@@ -11,9 +11,10 @@ use spirv_std::spirv;
 pub use crate::bvh::AnyNode;
 use crate::invocation;
 use crate::query::{PointsPush, Query};
-use crate::refit::{RefitPush, bottom_pass, top_pass};
+use crate::refit::{RefitPush, bottom_pass, roots_pass, top_pass};
 
 bottom_pass!(AnyNode, AnyLight, refit_bottom_any, "refit_bottom_any");
+roots_pass!(AnyNode, refit_roots_any, "refit_roots_any");
 top_pass!(AnyNode, refit_top_any, "refit_top_any");
 
 /// The point on a sampled light that the two numbers of `uv` choose for the receiver of `query`.

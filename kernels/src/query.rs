@@ -7,7 +7,7 @@ use lightbvh::instance::world_light;
 use lightbvh::{EmissiveTriangle, Instance, LightPoint, Random64, SampledLight, ShadingPoint};
 use spirv_std::spirv;
 
-use crate::bvh::{Choice, Narrow, Native, NodeOf, Paper, Standard, TreeOf, Wide};
+use crate::bvh::{Choice, Kinds, Narrow, Native, NodeOf, Paper, Standard, TreeOf, Wide};
 use crate::invocation;
 use lightbvh::TreeWords;
 
@@ -97,6 +97,7 @@ query_passes!(Paper, sample_eq4, "sample_eq4", pmf_eq4, "pmf_eq4");
 query_passes!(Native, sample_native, "sample_native", pmf_native, "pmf_native");
 query_passes!(Narrow, sample_narrow, "sample_narrow", pmf_narrow, "pmf_narrow");
 query_passes!(Wide, sample_wide, "sample_wide", pmf_wide, "pmf_wide");
+query_passes!(Kinds, sample_any, "sample_any", pmf_any, "pmf_any");
 
 /// The point on a sampled light that the two numbers of `uv` choose.
 #[inline]

@@ -96,7 +96,7 @@ macro_rules! top_pass {
     };
 }
 
-pub(crate) use {bottom_pass, top_pass};
+pub(crate) use {bottom_pass, roots_pass, top_pass};
 
 bottom_pass!(NodeOf<Standard>, EmissiveTriangle, refit_bottom, "refit_bottom");
 roots_pass!(NodeOf<Standard>, refit_roots, "refit_roots");

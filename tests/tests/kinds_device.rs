@@ -2,7 +2,9 @@
 
 use bytemuck::{Pod, Zeroable, bytes_of, cast_slice, cast_slice_mut};
 use lightbvh::importance::DefaultImportance;
-use lightbvh::light::{AnyLight, BoxLight, DiscLight, PointLight, RectangleLight, SphereLight, SpotLight};
+use lightbvh::light::{
+    AnyLight, BoxLight, DiscLight, PointLight, ProfileLight, RectangleLight, SphereLight, SpotLight,
+};
 use lightbvh::refit::BlasRoot;
 use lightbvh::{Bvh, Edit, EmissiveTriangle, Instance, LightPoint, Random64, SampledLight, ShadingPoint};
 use lightbvh_gpu::{Buffer, Frame, KernelSet, Mirror, Pass as Refits, query_push};
@@ -17,14 +19,14 @@ type Scene = Bvh<AnyNode, DefaultImportance, 8>;
 
 const QUERIES: usize = 2000;
 
-/// A light of kind `number % 7`, somewhere within `reach` of its mesh's origin.
+/// A light of kind `number % 8`, somewhere within `reach` of its mesh's origin.
 fn light(random: &mut Random, number: usize, reach: f32) -> AnyLight {
     let mut vector = |reach: f32| [0; 3].map(|_| random.between(-reach, reach));
     let (p, shine, mesh) = (vector(reach), vector(2.0).map(|x| x.abs() + 0.1), 0);
     let (a, b, c) = (vector(0.5), vector(0.5), vector(0.5));
     let axis = random.direction();
     let flags = random.below(2) * EmissiveTriangle::TWO_SIDED;
-    match number % 7 {
+    match number % 8 {
         0 => EmissiveTriangle {
             p: [
                 p,
@@ -74,6 +76,24 @@ fn light(random: &mut Random, number: usize, reach: f32) -> AnyLight {
             flags,
         }
         .into(),
+        6 => {
+            // Any direction across the axis.
+            let [x, y, z] = axis;
+            let across = if x.abs() < 0.6 { [0.0, -z, y] } else { [-z, 0.0, x] };
+            let length = across.iter().map(|x| x * x).sum::<f32>().sqrt();
+            ProfileLight {
+                p,
+                intensity: shine,
+                axis,
+                across: across.map(|x| x / length),
+                cos_outer: -0.25,
+                whole: 0.7,
+                mean_cosine: 0.5,
+                mesh,
+                flags: flags * ProfileLight::MIRRORED,
+            }
+            .into()
+        }
         _ => BoxLight {
             p,
             half: [a, b, c],
@@ -243,7 +263,7 @@ impl<'a> Held<'a> {
 }
 
 /// Samples, their pmfs and points on their lights have the CPU's words.
-fn samples_agree(held: &Held<'_>, scene: &Scene, random: &mut Random) -> [usize; 7] {
+fn samples_agree(held: &Held<'_>, scene: &Scene, random: &mut Random) -> [usize; 8] {
     let device = held.device;
     let points: Vec<ShadingPoint> = (0..QUERIES)
         .map(|k| ShadingPoint {
@@ -270,7 +290,7 @@ fn samples_agree(held: &Held<'_>, scene: &Scene, random: &mut Random) -> [usize;
         bytes_of(&push),
         &[("queries", asked.bind())],
     );
-    let mut kinds = [0; 7];
+    let mut kinds = [0; 8];
     for (query, found) in queries.iter().zip(&sampled) {
         let [high, low] = query.words;
         let expected = scene.sample(&query.point, Random64 { high, low });
@@ -359,7 +379,7 @@ fn lights_of_every_kind_agree_with_every_device() {
             .collect();
         let ids = scene.apply(add).expect("instances").instances;
         let mut held = Held::new(device);
-        let mut kinds = [0; 7];
+        let mut kinds = [0; 8];
         for frame in 0..6 {
             if frame > 0 {
                 let mut edits: Vec<_> = (0..10)

@@ -23,6 +23,7 @@ use lightbvh_host::workload::{RenderSettings, arrays_lit_by, build};
 use lightbvh_kernels::bvh::{Kinds, WIDTH};
 use lightbvh_tests::devices::on_each_device;
 
+use crate::profiles;
 use crate::textures::painted_room;
 
 const ALBEDO: f32 = 0.5;
@@ -187,7 +188,7 @@ fn known(kind: AnalyticKind, h: f64, x: f64) -> f64 {
             }
             sum
         }
-        AnalyticKind::Directional => unreachable!("it does not hang"),
+        AnalyticKind::Directional | AnalyticKind::Profile { .. } => unreachable!("it is not among these"),
     }
 }
 
@@ -322,6 +323,7 @@ fn room() -> Scene {
             range: None,
         });
     }
+    profiles::hang(&mut data);
     Scene::new(data).expect("a sound scene")
 }
 

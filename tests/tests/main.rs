@@ -35,6 +35,7 @@ mod path;
 mod path_device;
 mod pixel_numbers;
 mod points;
+mod profiles;
 mod rebuilder;
 mod refit;
 mod regressions;

@@ -97,11 +97,14 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if !added.is_empty() && 2 * added.len() >= self.live.len() {
             self.build_top();
         } else {
+            let usual = self.usual_flux();
             self.decide_added(&added);
             added = self.leaves_of_all(&added);
+            let new = added.clone();
             self.take_misplaced(moved, &mut added);
             added.sort_unstable();
             self.insert_instances(&added);
+            self.unsettle_bright(&new, usual);
         }
         self.settle();
         if !updated.meshes.is_empty() || !updated.instances.is_empty() {

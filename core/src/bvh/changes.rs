@@ -58,6 +58,9 @@ impl Changes {
     }
 }
 
+/// Entries of a list that are never too many.
+const LEAST: usize = 256;
+
 /// Changes of one kind of lists.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pending {
@@ -78,8 +81,8 @@ pub(super) struct Pending {
     pub written_trails: Vec<Range<u32>>,
     /// Indices of instances whose words changed; may repeat.
     pub written_instances: Vec<u32>,
-    /// How many entries were left when repeated ones were dropped last.
-    kept: usize,
+    /// Whether all instances may have changed: their lists, which are empty then but for what came since, would be longer than the arrays.
+    pub all_instances: bool,
 }
 
 impl Pending {
@@ -105,6 +108,7 @@ impl Pending {
             && self.written_triangles.is_empty()
             && self.written_trails.is_empty()
             && self.written_instances.is_empty()
+            && !self.all_instances
     }
 
     /// Takes over what another list holds.
@@ -123,31 +127,37 @@ impl Pending {
         self.written_triangles.extend(other.written_triangles);
         self.written_trails.extend(other.written_trails);
         self.written_instances.extend(other.written_instances);
+        self.all_instances |= other.all_instances;
     }
 
-    /// Drops repeated entries once the lists have doubled since that was done last: they get no longer than twice the arrays, however
-    /// many edits come before a refit or a plan, and it takes no longer than those edits, together, but for a logarithm.
-    pub fn bound(&mut self) {
-        if self.len() <= 2 * self.kept + 64 {
-            return;
+    /// Says that all of an array may have changed once its list has more than three times as many entries, so many `instances`, `nodes` and
+    /// `triangles`: no edit waits for repeated ones to be sought, and what a refit or a plan then does takes no longer than the edits that
+    /// came before it.
+    pub fn bound(&mut self, instances: usize, nodes: usize, triangles: usize) {
+        // A mirror copies a node with what it knew, so all are computed then.
+        if self.written_nodes.len() > 3 * nodes + LEAST {
+            self.written_nodes = alloc::vec![0..nodes as u32];
+            self.parts = alloc::vec![0..triangles as u32];
+            self.whole_top = true;
         }
-        for list in [
-            &mut self.instances,
-            &mut self.top_nodes,
-            &mut self.written_instances,
+        for (list, length) in [
+            (&mut self.parts, triangles),
+            (&mut self.written_triangles, triangles),
+            (&mut self.written_trails, triangles),
         ] {
-            list.sort_unstable();
-            list.dedup();
+            if list.len() > 3 * length + LEAST {
+                *list = alloc::vec![0..length as u32];
+            }
         }
-        for list in [
-            &mut self.parts,
-            &mut self.written_nodes,
-            &mut self.written_triangles,
-            &mut self.written_trails,
-        ] {
-            *list = merged(core::mem::take(list));
+        let listed = self.instances.len() + self.top_nodes.len() + self.written_instances.len();
+        // There are fewer nodes of the top level than instances.
+        if listed > 3 * instances + LEAST {
+            self.instances = Vec::new();
+            self.top_nodes = Vec::new();
+            self.written_instances = Vec::new();
+            self.all_instances = true;
+            self.whole_top = true;
         }
-        self.kept = self.len();
     }
 
     /// Entries of the lists that may repeat.

@@ -10,6 +10,8 @@ use crate::tree::INVALID;
 
 /// A flux is another one from this factor on.
 const FACTOR: f32 = 2.0;
+/// What comes in with so many times the usual flux outshines others around it.
+const BRIGHT: f64 = 32.0;
 /// Each mesh counts as so many instances at least: where one in 32 of a part is such there may be something to gain.
 const LEAST: u32 = 4;
 
@@ -77,6 +79,23 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 for leaf in self.leaves_of(index) {
                     self.unsettle_above(self.placed[leaf as usize].node, flux);
                 }
+            }
+        }
+    }
+
+    /// The mean flux of what hangs in the top level, W.
+    pub(super) fn usual_flux(&self) -> f64 {
+        let count = self.top.counts[self.top.number(self.top.root) as usize];
+        f64::from(self.nodes[self.top.root as usize].merged().phi()) / f64::from(count.max(1))
+    }
+
+    /// After `leaves` were put in: those that outshine what is usual were put where they cost least in a tree that was built without them, which may
+    /// be a bad one with them.
+    pub(super) fn unsettle_bright(&mut self, leaves: &[u32], usual: f64) {
+        for &leaf in leaves {
+            let flux = f64::from(self.in_world(leaf).phi());
+            if flux > BRIGHT * usual && usual > 0.0 {
+                self.unsettle_above(self.placed[leaf as usize].node, flux);
             }
         }
     }

@@ -154,7 +154,7 @@ pub struct Bvh<N: Holds, I, const W: usize, T = WithTrails> {
     /// Triangles and nodes of the largest bottom levels so far.
     largest: [usize; 2],
     /// When bottom levels were refitted, and which.
-    refitted: Vec<(u64, u32)>,
+    refitted: quality::Refitted,
     /// Nodes of bottom levels that a search came by.
     marks: touched::Marks,
     importance: PhantomData<I>,
@@ -217,7 +217,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             epoch: 0,
             single: false,
             quality: Vec::new(),
-            refitted: Vec::new(),
+            refitted: quality::Refitted::default(),
             staging: Vec::new(),
             retired: Vec::new(),
             largest: [0; 2],
@@ -342,7 +342,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             + self.top.memory()
             + self.marks.bytes()
             + size_of_val(&*self.quality)
-            + size_of_val(&*self.refitted)
+            + self.refitted.memory()
     }
 
     fn blas_of(&self, placed: &InstanceState) -> &Blas {

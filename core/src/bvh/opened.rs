@@ -201,6 +201,26 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Opens those of `open` and closes those of `close`, in the top level too, each in time in proportion to its depth. Those that
     /// are no more, or are so already, stay as they are.
     pub(super) fn reopen(&mut self, open: &[u32], close: &[u32]) {
+        let changed = self.reopen_some(open, close, false);
+        self.note_reopened(&changed);
+    }
+
+    /// The tree was built over what these instances were before they were opened or closed. Among few others it has been decided anew.
+    pub(crate) fn note_reopened(&mut self, instances: &[u32]) {
+        for &index in instances {
+            if !self.placed.get(index as usize).is_some_and(|placed| placed.live) {
+                continue;
+            }
+            for leaf in self.leaves_of(index) {
+                let flux = f64::from(self.in_world(leaf).phi());
+                self.unsettle_above(self.placed[leaf as usize].node, flux);
+            }
+        }
+    }
+
+    /// Opens and closes, and returns those that were not so yet, which are still to be noted. Where it is done `beside` the frames, nodes above are computed once for all parts.
+    pub(super) fn reopen_some(&mut self, open: &[u32], close: &[u32], beside: bool) -> Vec<u32> {
+        let mut changed = Vec::new();
         for (list, wanted) in [(open, true), (close, false)] {
             for &index in list {
                 let Some(placed) = self.placed.get(index as usize).filter(|placed| placed.live) else {
@@ -216,14 +236,15 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                     self.close(index);
                 }
                 let leaves: Vec<u32> = self.leaves_of(index).collect();
-                self.insert_instances(&leaves);
-                // The tree was built over what it was before. Among few others it has been decided anew.
-                for leaf in self.leaves_of(index) {
-                    let flux = f64::from(self.in_world(leaf).phi());
-                    self.unsettle_above(self.placed[leaf as usize].node, flux);
+                if beside {
+                    self.insert_come(&leaves, Vec::new());
+                } else {
+                    self.insert_instances(&leaves);
                 }
+                changed.push(index);
             }
         }
+        changed
     }
 
     fn can_open(&self, index: u32) -> bool {

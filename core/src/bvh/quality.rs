@@ -10,6 +10,7 @@
 //! Means of subtrees are kept by node and computed along the paths of a refit. They follow from the words of the nodes and what was
 //! noted at the build, however many refits lie between.
 
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -183,6 +184,48 @@ pub(super) fn judge<N: Node<W>, const W: usize>(nodes: &[N], known: &mut [Qualit
     }
 }
 
+/// When bottom levels were refitted last, one entry for each, in the order of time.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Refitted {
+    in_order: BTreeSet<(u64, u32)>,
+    /// By index of a bottom level: the epoch of its entry, 0 where it has none.
+    last: Vec<u64>,
+}
+
+impl Refitted {
+    /// In time in proportion to the logarithm of the number of bottom levels.
+    fn note(&mut self, blas: u32, epoch: u64) {
+        if self.last.len() <= blas as usize {
+            self.last.resize(blas as usize + 1, 0);
+        }
+        let last = core::mem::replace(&mut self.last[blas as usize], epoch);
+        if last > 0 {
+            self.in_order.remove(&(last, blas));
+        }
+        self.in_order.insert((epoch, blas));
+    }
+
+    /// Has room for so many bottom levels.
+    pub fn reserve(&mut self, count: usize) {
+        super::room::reserve(&mut self.last, count);
+    }
+
+    /// Those after `epoch`.
+    fn since(&self, epoch: u64) -> impl Iterator<Item = (u64, u32)> + '_ {
+        self.in_order.range((epoch + 1, 0)..).copied()
+    }
+
+    /// Bytes, but for what the order takes besides its entries.
+    pub fn memory(&self) -> usize {
+        size_of_val(&*self.last) + self.in_order.len() * size_of::<(u64, u32)>()
+    }
+
+    #[cfg(test)]
+    fn len(&self) -> usize {
+        self.in_order.len()
+    }
+}
+
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Looks at nodes in depth-first order, all below each of them among them; as built with `is_new`.
     pub(super) fn judge_range(&mut self, range: Range<u32>, is_new: bool) {
@@ -224,12 +267,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Notes that bottom level `blas` was refitted at `epoch`.
     pub(super) fn note_refitted(&mut self, blas: u32, epoch: u64) {
-        self.refitted.push((epoch, blas));
-        if self.refitted.len() > 2 * self.blases.len() + 64 {
-            let mut all = core::mem::take(&mut self.refitted);
-            all.retain(|&entry| self.is_last(entry));
-            self.refitted = all;
-        }
+        self.refitted.note(blas, epoch);
     }
 
     /// Whether an entry of the list is the last of a bottom level that was refitted since it was built.
@@ -240,11 +278,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// The bottom levels refitted after `since`, and since they were built, by index.
     pub(super) fn refitted_since(&self, since: u64) -> Vec<u32> {
-        let from = self.refitted.partition_point(|&(epoch, _)| epoch <= since);
-        let recent = self.refitted[from..].iter();
+        let recent = self.refitted.since(since);
         let mut found: Vec<u32> = recent
-            .filter(|&&entry| self.is_last(entry))
-            .map(|&(_, blas)| blas)
+            .filter(|&entry| self.is_last(entry))
+            .map(|(_, blas)| blas)
             .collect();
         found.sort_unstable();
         found.dedup();

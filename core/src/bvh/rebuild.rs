@@ -87,6 +87,14 @@ pub(crate) struct Taken {
     pub epoch: u64,
 }
 
+#[cfg(feature = "std")]
+impl Taken {
+    /// Whether both are of one light BVH.
+    pub fn is_of_same(self, other: Self) -> bool {
+        self.tree == other.tree
+    }
+}
+
 /// A bottom level that lost quality.
 #[derive(Clone, Debug)]
 struct Bottom<L> {
@@ -265,6 +273,14 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// # Errors
     /// [`Foreign`] where it was taken from another light BVH; this one is as before then.
     pub fn install(&mut self, rebuilt: Rebuilt<N, W>) -> Result<(), Foreign> {
+        let [open, close] = self.install_closed(rebuilt)?;
+        self.reopen(&open, &close);
+        Ok(())
+    }
+
+    /// The same, but for opening and closing instances: returns those that are to be opened, and those to be closed.
+    pub(crate) fn install_closed(&mut self, rebuilt: Rebuilt<N, W>) -> Result<[Vec<u32>; 2], Foreign> {
+        let mut changes = [const { Vec::new() }; 2];
         if rebuilt.taken.tree != self.id.0 {
             return Err(Foreign);
         }
@@ -277,13 +293,26 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         let mut room = Quota::default();
         for top in &rebuilt.top {
-            self.install_top(top, rebuilt.taken.epoch, &mut room);
+            let wanted = self.install_top(top, rebuilt.taken.epoch, &mut room);
+            for (all, own) in changes.iter_mut().zip(wanted) {
+                all.extend(own);
+            }
         }
         self.settle_some(ADOPTED);
         if self.changes.new.len() > MANY {
             self.bound_changes();
         }
-        Ok(())
+        Ok(changes)
+    }
+
+    /// Opens or closes one instance beside the frames, unless it is so already; that is still to be [noted](Self::note_reopened).
+    #[cfg(feature = "std")]
+    pub(crate) fn reopen_one(&mut self, index: u32, opens: bool) -> bool {
+        let one = &[index][..];
+        let (open, close) = if opens { (one, &[][..]) } else { (&[][..], one) };
+        let changed = self.reopen_some(open, close, true);
+        self.settle_some(ADOPTED);
+        !changed.is_empty()
     }
 
     pub(crate) fn now(&self) -> Taken {

@@ -66,6 +66,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.changes.unrefitted.join(new.clone());
         told.join(new);
         self.bound_changes();
+        self.spell_out(&mut told);
         self.planned = self.gather(told);
         self.done = None;
         self.changes.is_fresh = is_whole;
@@ -104,6 +105,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         self.bound_changes();
         pending.join(new);
+        self.spell_out(&mut pending);
         // Any of them is computed, so the epoch is one later below.
         let parts = self.parts(&pending);
         for &blas in pending.blases.iter().chain(parts.keys()) {
@@ -217,10 +219,19 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         work
     }
 
+    /// Lists all instances where all may have changed.
+    fn spell_out(&self, pending: &mut Pending) {
+        if core::mem::take(&mut pending.all_instances) {
+            pending.instances = self.leaves_of_all(&self.live);
+            pending.written_instances = (0..self.instances.len() as u32).collect();
+        }
+    }
+
     /// Keeps the lists of changes as short as the arrays, however many edits come before a refit or a plan.
     pub(super) fn bound_changes(&mut self) {
+        let (instances, nodes, triangles) = (self.instances.len(), self.nodes.len(), self.triangles.len());
         for pending in self.changes.all() {
-            pending.bound();
+            pending.bound(instances, nodes, triangles);
         }
     }
 

@@ -48,6 +48,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         reserve(&mut self.parents, nodes);
         reserve(&mut self.quality, nodes);
         self.marks.reserve(nodes);
+        self.refitted.reserve(self.blases.len());
     }
 
     /// Places for `count` triangles and their trails, once as many are there; makes more of them by at most `bytes`.

@@ -68,7 +68,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         self.triangles = Vec::new();
         self.quality = Vec::new();
-        self.refitted = Vec::new();
+        self.refitted = super::quality::Refitted::default();
         self.changes = Changes::default();
         self.planned = RefitPlan::default();
         self.done = None;

@@ -168,8 +168,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.top.tried.clear();
         self.top.changes.clear();
         self.top.counted.clear();
-        for placed in &mut self.placed {
-            placed.settle();
+        // Records that are not in use are of no account: there may be many more of them.
+        for &index in &self.live {
+            self.placed[index as usize].settle();
+            for part in self.placed[index as usize].parts.clone() {
+                self.placed[part as usize].settle();
+            }
         }
         self.index_top();
     }
@@ -238,8 +242,11 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 self.top.number_of[node as usize] = number as u32;
             }
         }
-        for placed in &mut self.placed {
-            placed.node = INVALID;
+        for &index in &self.live {
+            self.placed[index as usize].node = INVALID;
+            for part in self.placed[index as usize].parts.clone() {
+                self.placed[part as usize].node = INVALID;
+            }
         }
         self.parents[self.top.root as usize] = INVALID;
         self.set_above(self.top.root, INVALID);

@@ -33,7 +33,12 @@ impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W,
 
     #[inline(always)]
     fn weights(node: &N, receiver: &GlossyPoint) -> [f32; W] {
-        let mut weights = I::weights(node, &receiver.point);
+        Self::weights_in(node, receiver, true)
+    }
+
+    #[inline(always)]
+    fn weights_in(node: &N, receiver: &GlossyPoint, is_even: bool) -> [f32; W] {
+        let mut weights = I::weights_in(node, &receiver.point, is_even);
         for slot in 0..W {
             let summary = node.summary(slot);
             let reflected = reflectance(summary.center(), summary.spread(), receiver);

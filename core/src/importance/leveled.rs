@@ -25,7 +25,12 @@ impl<N, I: ImportanceModel<N, W, P>, P, const HALVINGS: u32, const W: usize> Imp
 
     #[inline(always)]
     fn weights(node: &N, point: &P) -> [f32; W] {
-        let mut weights = I::weights(node, point);
+        Self::weights_in(node, point, true)
+    }
+
+    #[inline(always)]
+    fn weights_in(node: &N, point: &P, is_even: bool) -> [f32; W] {
+        let mut weights = I::weights_in(node, point, is_even);
         let mut sum = 0.0;
         for slot in 0..W {
             sum += weights[slot];

@@ -60,6 +60,14 @@ pub trait ImportanceModel<N, const W: usize, P = ShadingPoint> {
     /// else positive and at most 2^120. Hostile words may give anything.
     fn weights(node: &N, point: &P) -> [f32; W];
 
+    /// The weights in a space that `is_even` or not: that of the world, or one of which the map to the world is a similarity or is not. In
+    /// others angles differ from the world's, so what nodes say of them by [`SpotMomentNode`](crate::node::SpotMomentNode)'s beams does not
+    /// count. The same as [`weights`](Self::weights), unless the layout stores beams; an importance made of others asks them this.
+    #[inline(always)]
+    fn weights_in(node: &N, point: &P, _is_even: bool) -> [f32; W] {
+        Self::weights(node, point)
+    }
+
     /// The quotient that shares of uniform choice are computed by: correctly rounded, unless the importance takes the processor's own
     /// operations.
     #[doc(hidden)]
@@ -97,6 +105,11 @@ impl<N, I: ImportanceModel<N, W, P>, P, const HALVINGS: u32, const W: usize> Imp
     #[inline(always)]
     fn weights(node: &N, point: &P) -> [f32; W] {
         I::weights(node, point)
+    }
+
+    #[inline(always)]
+    fn weights_in(node: &N, point: &P, is_even: bool) -> [f32; W] {
+        I::weights_in(node, point, is_even)
     }
 
     #[inline(always)]

@@ -24,7 +24,12 @@ impl<M: Math, N: MomentLayout<W>, const W: usize> ImportanceModel<N, W> for Mome
 
     #[inline(always)]
     fn weights(node: &N, point: &ShadingPoint) -> [f32; W] {
-        node.moment_weights::<M>(point.position(), point.normal())
+        Self::weights_in(node, point, true)
+    }
+
+    #[inline(always)]
+    fn weights_in(node: &N, point: &ShadingPoint, is_even: bool) -> [f32; W] {
+        node.moment_weights::<M>(point.position(), point.normal(), is_even)
     }
 
     #[inline(always)]

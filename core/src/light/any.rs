@@ -5,9 +5,10 @@ use glam::Vec3;
 
 use super::record::{Each, Light};
 use super::{
-    BoxLight, DiscLight, EmissiveTriangle, INVALID, LightError, LightPoint, PointLight, RectangleLight,
-    SphereLight, SpotLight, TWO_SIDED,
+    BoxLight, DiscLight, EmissiveTriangle, INVALID, LightError, LightPoint, PointLight, ProfileLight,
+    RectangleLight, SphereLight, SpotLight, TWO_SIDED,
 };
+use crate::beam::Beam;
 use crate::bounds::LightBounds;
 use crate::instance::Instance;
 use crate::moments::LightMoments;
@@ -23,7 +24,7 @@ pub struct AnyLight {
     emission: [f32; 3],
     /// Index of the mesh light that owns it.
     mesh: u32,
-    /// The kind, and above it [`TWO_SIDED`](EmissiveTriangle::TWO_SIDED) where it has sides.
+    /// The kind, and above it [`TWO_SIDED`](EmissiveTriangle::TWO_SIDED) where it has sides, or [`MIRRORED`](ProfileLight::MIRRORED).
     kind: u32,
 }
 
@@ -45,6 +46,8 @@ impl AnyLight {
     pub const DISC: u32 = 5;
     /// A [`BoxLight`].
     pub const BOX: u32 = 6;
+    /// A [`ProfileLight`].
+    pub const PROFILE: u32 = 7;
 
     /// Which kind it is: one of the constants.
     #[inline(always)]
@@ -193,6 +196,37 @@ impl AnyLight {
     }
 }
 
+impl AnyLight {
+    /// It as a [`ProfileLight`]; numbers that mean nothing where it is of another kind.
+    #[inline(always)]
+    #[must_use]
+    pub fn profile(&self) -> ProfileLight {
+        let [cos_outer, whole, mean_cosine] = self.three(9);
+        ProfileLight {
+            p: self.three(0),
+            intensity: self.emission,
+            axis: self.three(3),
+            across: self.three(6),
+            cos_outer,
+            whole,
+            mean_cosine,
+            mesh: self.mesh,
+            flags: self.flags(),
+        }
+    }
+}
+
+impl From<ProfileLight> for AnyLight {
+    #[inline(always)]
+    fn from(own: ProfileLight) -> Self {
+        Self::new(Self::PROFILE, own.flags, own.mesh, own.intensity)
+            .with(0, &own.p)
+            .with(3, &own.axis)
+            .with(6, &own.across)
+            .with(9, &[own.cos_outer, own.whole, own.mean_cosine])
+    }
+}
+
 impl From<EmissiveTriangle> for AnyLight {
     #[inline(always)]
     fn from(own: EmissiveTriangle) -> Self {
@@ -273,7 +307,8 @@ back!(
     SphereLight SPHERE sphere,
     RectangleLight RECTANGLE rectangle,
     DiscLight DISC disc,
-    BoxLight BOX volume
+    BoxLight BOX volume,
+    ProfileLight PROFILE profile
 );
 
 /// What `$of` says of the light as what its kind makes it; any kind that is none counts as a point without intensity.
@@ -306,6 +341,10 @@ macro_rules! by_kind {
             }
             AnyLight::BOX => {
                 let $own = $self.volume();
+                $of
+            }
+            AnyLight::PROFILE => {
+                let $own = $self.profile();
                 $of
             }
             _ => $none,
@@ -341,8 +380,12 @@ impl Light for AnyLight {
     type Slots<const W: usize> = Each<Self, W>;
 
     fn checked(self) -> Result<Self, LightError> {
-        let has_sides = matches!(self.kind(), Self::TRIANGLE | Self::RECTANGLE | Self::DISC);
-        if self.flags() & !(if has_sides { TWO_SIDED } else { 0 }) != 0 {
+        let known = match self.kind() {
+            Self::TRIANGLE | Self::RECTANGLE | Self::DISC => TWO_SIDED,
+            Self::PROFILE => ProfileLight::MIRRORED,
+            _ => 0,
+        };
+        if self.flags() & !known != 0 {
             return Err(LightError::Flags { flags: self.flags() });
         }
         by_kind!(self, own => Ok(own.checked()?.into()), Err(LightError::Kind { kind: self.kind() }))
@@ -375,6 +418,17 @@ impl Light for AnyLight {
     #[inline(always)]
     fn flux_power(&self) -> u32 {
         by_kind!(self, own => own.flux_power(), PointLight::FLUX_POWER)
+    }
+
+    #[inline(always)]
+    fn beam(&self) -> Beam {
+        if self.kind() == Self::SPOT {
+            self.spot().beam()
+        } else if self.kind() == Self::PROFILE {
+            self.profile().beam()
+        } else {
+            Beam::ANYWHERE
+        }
     }
 
     #[inline(always)]

@@ -5,6 +5,7 @@ use glam::Vec3;
 
 use super::record::{Each, Light};
 use super::{AnyLight, EmissiveTriangle, LightError, LightPoint};
+use crate::beam::Beam;
 use crate::bounds::LightBounds;
 use crate::instance::Instance;
 use crate::moments::LightMoments;
@@ -75,6 +76,11 @@ macro_rules! linked {
             #[inline(always)]
             fn mask(&self) -> u32 {
                 self.mask
+            }
+
+            #[inline(always)]
+            fn beam(&self) -> Beam {
+                self.light.beam()
             }
 
             #[inline(always)]

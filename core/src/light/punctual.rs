@@ -5,6 +5,7 @@ use glam::Vec3;
 
 use super::record::{Each, Light, checked_emission, checked_place, shining, towards, unit};
 use super::{INVALID, LightError, LightPoint};
+use crate::beam::Beam;
 use crate::bounds::LightBounds;
 use crate::cone::Cone;
 use crate::emission::{bounded_phi, luminance_of};
@@ -58,7 +59,7 @@ const PER_MEAN_DIRECTION: f32 = 1.5;
 
 /// What is known of a light without size.
 #[inline(always)]
-fn moments(p: &[f32; 3], phi: f32, m: Vec3) -> LightMoments {
+pub(super) fn moments(p: &[f32; 3], phi: f32, m: Vec3) -> LightMoments {
     LightMoments {
         phi,
         c: Vec3::new(p[0], p[1], p[2]),
@@ -70,7 +71,7 @@ fn moments(p: &[f32; 3], phi: f32, m: Vec3) -> LightMoments {
 }
 
 #[inline(always)]
-fn bounds(p: &[f32; 3], phi: f32, cone: Cone) -> LightBounds {
+pub(super) fn bounds(p: &[f32; 3], phi: f32, cone: Cone) -> LightBounds {
     let p = Vec3::new(p[0], p[1], p[2]);
     LightBounds {
         min: p,
@@ -84,14 +85,35 @@ fn bounds(p: &[f32; 3], phi: f32, cone: Cone) -> LightBounds {
 
 /// `per_intensity` times the luminance of an intensity, W.
 #[inline(always)]
-fn phi(intensity: &[f32; 3], per_intensity: f32) -> f32 {
+pub(super) fn phi(intensity: &[f32; 3], per_intensity: f32) -> f32 {
     let luminance = luminance_of(intensity);
     let phi = bounded_phi(significand(luminance) * per_intensity, exponent(luminance));
     if luminance > 0.0 { phi } else { 0.0 }
 }
 
+/// What a tree takes for the flux of a light that shines in few directions, W for each W/sr along its axis, where the flux is `flux` for each. Most nodes
+/// know no narrow cone, so whether a point lies in it cannot be told; the choice with the least variance over all points is then by the
+/// root mean square of what they get. That is the geometric mean of the flux and of that of a diffuse emitter as bright along its axis,
+/// π times the intensity, where the flux is less. Nodes with beams take it from there.
 #[inline(always)]
-fn at(p: &[f32; 3], intensity: [f32; 3]) -> LightPoint {
+pub(super) fn phi_per_intensity(flux: f32) -> f32 {
+    exact::max(flux, exact::sqrt(flux * core::f32::consts::PI))
+}
+
+/// Whether a direction, of length 1 up to 2^-16, lies within a cone.
+#[inline(always)]
+pub(super) fn within_cone(axis: Vec3, cosine: f32, direction: Vec3) -> bool {
+    0.5 * apart_squared(axis, direction) <= 1.0 - cosine
+}
+
+/// Twice 1 less the cosine of two directions: cosines of a narrow cone have no digits for it, nor lengths that are nearly 1.
+#[inline(always)]
+fn apart_squared(axis: Vec3, direction: Vec3) -> f32 {
+    length_squared(flush3(direction - axis, pow2(-40)))
+}
+
+#[inline(always)]
+pub(super) fn at(p: &[f32; 3], intensity: [f32; 3]) -> LightPoint {
     LightPoint {
         p: *p,
         density: 1.0,
@@ -178,9 +200,7 @@ impl SpotLight {
     #[inline(always)]
     #[must_use]
     pub fn falloff(&self, direction: Vec3) -> f32 {
-        // 1 less the cosine is half the square of the difference: cosines of a narrow cone have no digits for it, nor lengths that are nearly 1.
-        let apart = flush3(direction - self.axis(), pow2(-40));
-        let gap = 0.5 * length_squared(apart);
+        let gap = 0.5 * apart_squared(self.axis(), direction);
         let linear = exact::clamp(exact::div((1.0 - self.cos_outer) - gap, self.fall()), 0.0, 1.0);
         // What a device flushes is cut here.
         exact::flush(linear * linear, pow2(-60))
@@ -202,14 +222,10 @@ impl SpotLight {
         [whole, first]
     }
 
-    /// What a tree takes for its flux. No node knows a narrow cone, so whether a point lies in it cannot be told; the choice with the least variance over all
-    /// points is then by the root mean square of what they get. That is the geometric mean of the flux and of that of a diffuse emitter as bright
-    /// along its axis, π times the intensity, where the flux is less.
+    /// What a tree takes for its flux.
     #[inline(always)]
     fn phi(&self) -> f32 {
-        let per_intensity = TWO_PI * self.integrals()[0];
-        let mean = exact::sqrt(per_intensity * core::f32::consts::PI);
-        phi(&self.intensity, exact::max(per_intensity, mean))
+        phi(&self.intensity, phi_per_intensity(TWO_PI * self.integrals()[0]))
     }
 }
 
@@ -270,6 +286,15 @@ impl Light for SpotLight {
     #[inline(always)]
     fn has_flux(&self) -> bool {
         luminance_of(&self.intensity) > 0.0
+    }
+
+    #[inline(always)]
+    fn beam(&self) -> Beam {
+        Beam::of_cone(
+            Vec3::new(self.p[0], self.p[1], self.p[2]),
+            self.axis(),
+            self.cos_outer,
+        )
     }
 
     /// A cone of normals that is one direction, where half the sphere about it holds all that the spot sends.

@@ -8,6 +8,7 @@ use glam::Vec3;
 use super::{
     EmissiveTriangle, LightError, LightPoint, MAX_COORDINATE, MAX_RADIANCE, MIN_COORDINATE, MIN_RADIANCE,
 };
+use crate::beam::Beam;
 use crate::bounds::LightBounds;
 use crate::emission::has_flux;
 use crate::exact::{self, pow2};
@@ -62,6 +63,11 @@ pub trait Light: Pod + PartialEq + Debug + Send + Sync {
     #[inline(always)]
     fn mask(&self) -> u32 {
         u32::MAX
+    }
+    /// Where its light goes: anywhere, unless it is a spot. Read where nodes store beams, by nothing else.
+    #[inline(always)]
+    fn beam(&self) -> Beam {
+        Beam::ANYWHERE
     }
     /// Bounds of its emission.
     fn bounds(&self) -> LightBounds;

@@ -462,6 +462,135 @@ fn spots_have_the_flux_and_the_mean_direction_of_their_falloff() {
     }
 }
 
+/// A table of one half up to 60°: axis and across as words say, flux and mean direction as of a spot with a sharp edge there.
+fn profile() -> ProfileLight {
+    ProfileLight {
+        p: [1.0, 2.0, -1.0],
+        intensity: SHINE,
+        axis: [0.0, -1.0, 0.0],
+        across: [0.6, 0.0, 0.8],
+        cos_outer: 0.5,
+        whole: 0.25,
+        mean_cosine: 0.75,
+        mesh: 0,
+        flags: 0,
+    }
+}
+
+#[test]
+fn profiles_have_the_flux_of_their_table_and_are_read_by_direction() {
+    let own = profile();
+    assert_eq!(own.checked(), Ok(own));
+    let flux = 2.0 * PI * 0.25;
+    let found = own.moments();
+    close(
+        "profile",
+        f64::from(found.phi),
+        luminance() * (flux * PI).sqrt(),
+        1e-3,
+    );
+    close("profile", f64::from(length_squared(found.m)).sqrt(), 1.0, 1e-3);
+    assert_eq!(found.phi, own.bounds().phi);
+    // Along the axis the middle of the picture; a quarter turn from across towards across × axis at the horizon.
+    let p = Vec3::new(1.0, 2.0, -1.0);
+    let near = |found: [f32; 2], expected: [f32; 2]| {
+        let off = [0, 1].map(|k| exact::abs(found[k] - expected[k]));
+        assert!(off[0] < 1e-5 && off[1] < 1e-5, "{found:?}, expected {expected:?}");
+    };
+    near(own.coordinates(p + Vec3::new(0.0, -3.0, 0.0)), [0.5, 0.5]);
+    near(own.coordinates(p + Vec3::new(1.2, 0.0, 1.6)), [1.0, 0.5]);
+    let third = crate::vector::cross(Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, -1.0, 0.0));
+    near(own.coordinates(p + third * 2.0), [0.5, 1.0]);
+    near(own.coordinates(p), [0.5, 0.5]);
+    // A map that mirrors mirrors the table: where a point goes it sends what it sent there.
+    let mirror = Transform {
+        columns: [[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        translation: [3.0, 0.0, 0.0],
+    };
+    for map in [
+        mirror,
+        Transform {
+            columns: [[0.0, 2.0, 0.0], [-2.0, 0.0, 0.0], [0.0, 0.0, 2.0]],
+            translation: [5.0, -3.0, 1.0],
+        },
+    ] {
+        let instance = map.instance(1.0);
+        let there = own.in_world(&instance, 4);
+        let mut random = Random(8);
+        for _ in 0..50 {
+            let from = p + Vec3::from_array([0; 3].map(|_| 4.0 * random.signed()));
+            let seen = Vec3::from_array(instance.vertex(from.to_array()));
+            near(there.coordinates(seen), own.coordinates(from));
+            assert_eq!(
+                there.point_for(seen, [0.5; 2]).radiance,
+                own.point_for(from, [0.5; 2]).radiance
+            );
+        }
+    }
+    let inside = own.point_for(p + Vec3::new(0.0, -2.0, 1.0), [0.5; 2]);
+    assert_eq!((inside.radiance, inside.density), (SHINE, 1.0));
+    let outside = own.point_for(p + Vec3::new(0.0, -1.0, 2.0), [0.5; 2]);
+    assert_eq!(outside.radiance, [0.0; 3]);
+    // What is wrong, by name.
+    for (wrong, part) in [
+        (ProfileLight { whole: 2.5, ..own }, "integral 2.5"),
+        (
+            ProfileLight {
+                whole: f32::NAN,
+                ..own
+            },
+            "a profile of integral",
+        ),
+        (
+            ProfileLight {
+                mean_cosine: 0.4,
+                ..own
+            },
+            "mean cosine 0.4",
+        ),
+        (
+            ProfileLight {
+                cos_outer: 1.0,
+                ..own
+            },
+            "cone from cosine 1",
+        ),
+        (
+            ProfileLight {
+                across: [0.0, -0.6, 0.8],
+                ..own
+            },
+            "at right angles",
+        ),
+        (
+            ProfileLight {
+                axis: [0.0; 3],
+                ..own
+            },
+            "expected length 1",
+        ),
+        (ProfileLight { flags: 1, ..own }, "flags are 0x1"),
+        (
+            ProfileLight {
+                p: [f32::NAN, 0.0, 0.0],
+                ..own
+            },
+            "light with a profile",
+        ),
+        (
+            ProfileLight {
+                intensity: [-1.0; 3],
+                ..own
+            },
+            "intensity of a light with a profile",
+        ),
+    ] {
+        let found = format!("{}", wrong.checked().expect_err("it is wrong"));
+        assert!(found.contains(part), "{found}");
+    }
+    assert!(!ProfileLight { whole: 0.0, ..own }.has_flux());
+}
+
 /// Mean and variance of even points, from all sides; all of them in the box.
 fn check_moments<L: Light>(name: &str, light: &L, pieces: &[(Wide, Wide, f64)], flux: f64) {
     let found = light.moments();
@@ -760,6 +889,15 @@ fn extremes_stay_finite() {
                     p,
                     intensity: radiance,
                     ..spot(0.9, 0.5)
+                });
+                check(ProfileLight {
+                    p,
+                    intensity: radiance,
+                    ..profile()
+                });
+                check(ProfileLight {
+                    whole: 0.0,
+                    ..profile()
                 });
                 check(SphereLight {
                     p,

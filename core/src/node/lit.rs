@@ -6,6 +6,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::{BoundsNode, Holds, MomentLayout, Node};
+use crate::beam::{Beam, Limits};
 use crate::importance::{Cluster, Math};
 use crate::light::Light;
 use crate::summary::Lanes;
@@ -34,6 +35,7 @@ impl<N: Node<W>, L: Light, const W: usize> Node<W> for Lit<N, L> {
     };
     const NAME: &'static str = N::NAME;
     const HAS_MASKS: bool = N::HAS_MASKS;
+    const HAS_BEAMS: bool = N::HAS_BEAMS;
 
     #[inline(always)]
     fn kind(&self, slot: usize) -> u32 {
@@ -69,8 +71,18 @@ impl<N: Node<W>, L: Light, const W: usize> Node<W> for Lit<N, L> {
     }
 
     #[inline(always)]
-    fn set_masks(&mut self, masks: &[u32; W]) {
-        self.node.set_masks(masks);
+    fn beam(&self, slot: usize) -> Beam {
+        self.node.beam(slot)
+    }
+
+    #[inline(always)]
+    fn set_limits(&mut self, limits: &[Limits; W]) {
+        self.node.set_limits(limits);
+    }
+
+    #[inline(always)]
+    fn merged_limits(&self, whole: &Self::Summary) -> Limits {
+        self.node.merged_limits(whole)
     }
 
     #[inline(always)]
@@ -81,8 +93,8 @@ impl<N: Node<W>, L: Light, const W: usize> Node<W> for Lit<N, L> {
 
 impl<N: MomentLayout<W>, L: Light, const W: usize> MomentLayout<W> for Lit<N, L> {
     #[inline(always)]
-    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3) -> [f32; W] {
-        self.node.moment_weights::<M>(p, n)
+    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, is_even: bool) -> [f32; W] {
+        self.node.moment_weights::<M>(p, n, is_even)
     }
 }
 

@@ -3,6 +3,7 @@
 //! A node holds its children's summaries, not its own: one fetch per level decides which child to enter. Width and layout
 //! are type parameters, so a kernel holds the code of one layout only.
 
+mod beam_row;
 mod codes;
 mod compact;
 mod full;
@@ -15,13 +16,16 @@ pub(crate) use codes::BREADTH_BIAS;
 pub use compact::CompactNode;
 pub use full::FullNode;
 pub use lit::Lit;
-pub use moment::{LinkedMomentNode, MomentNode, PackedMomentNode, TwoSidedMomentNode};
+pub use moment::{
+    LinkedMomentNode, LinkedSpotMomentNode, MomentNode, PackedMomentNode, SpotMomentNode, TwoSidedMomentNode,
+};
 pub use moment_full::FullMomentNode;
 pub use moment_lean::LeanMomentNode;
 
 use bytemuck::Pod;
 use glam::Vec3;
 
+pub use crate::beam::{Beam, Limits};
 pub use crate::bounds::LightBounds;
 use crate::importance::{Cluster, Math};
 use crate::light::{EmissiveTriangle, Light};
@@ -64,6 +68,8 @@ pub trait Node<const W: usize>: Holds {
     const NAME: &'static str;
     /// Whether it stores a mask of each child, as [`LinkedMomentNode`] does.
     const HAS_MASKS: bool = false;
+    /// Whether it stores a beam of each child, as [`SpotMomentNode`] does.
+    const HAS_BEAMS: bool = false;
 
     /// One of [`kind`].
     fn kind(&self, slot: usize) -> u32;
@@ -86,9 +92,16 @@ pub trait Node<const W: usize>: Holds {
         u32::MAX
     }
 
-    /// Sets the masks of all children, after their summaries: a child without flux has none. Does nothing where the layout stores none.
+    /// Where the light of the child goes; anywhere where the layout stores no beams.
     #[inline(always)]
-    fn set_masks(&mut self, _masks: &[u32; W]) {}
+    fn beam(&self, _slot: usize) -> Beam {
+        Beam::ANYWHERE
+    }
+
+    /// Sets masks and beams of all children, after their summaries: a child without flux has none. Does nothing where the layout stores
+    /// neither.
+    #[inline(always)]
+    fn set_limits(&mut self, _limits: &[Limits; W]) {}
 
     /// The union of the masks of all children.
     #[inline(always)]
@@ -98,6 +111,12 @@ pub trait Node<const W: usize>: Holds {
             all |= self.mask(slot);
         }
         all
+    }
+
+    /// The masks and beams of all children together; `whole` is what is [`merged`](Self::merged) of them.
+    #[inline(always)]
+    fn merged_limits(&self, _whole: &Self::Summary) -> Limits {
+        Limits::NONE
     }
 
     /// [`set_lanes`](Self::set_lanes), child by child.
@@ -133,6 +152,6 @@ pub trait BoundsNode<const W: usize>: Node<W, Summary = LightBounds> {
 /// A layout that stores [`LightMoments`].
 pub trait MomentLayout<const W: usize>: Node<W, Summary = LightMoments> {
     /// The weights of the children at the point `p` with the normal `n`, in the node's space, by the operations `M`; see
-    /// [`ImportanceModel::weights`](crate::ImportanceModel::weights).
-    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3) -> [f32; W];
+    /// [`ImportanceModel::weights`](crate::ImportanceModel::weights). Where the space is not `is_even`, beams say nothing.
+    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, is_even: bool) -> [f32; W];
 }

@@ -1,15 +1,17 @@
-//! The default layout: quantised moments, 24 bytes per child; the same for lights that shine from both sides, 20 bytes; and with masks,
-//! 28 bytes.
+//! The default layout: quantised moments, 24 bytes per child; the same for lights that shine from both sides, 20 bytes; with masks, or with
+//! beams, 28 bytes; with both, 32 bytes.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
+use super::beam_row::{beam_factor, beam_of, beam_word};
 use super::codes::{
     BREADTH_MASK, BREADTH_SHIFT, EXTENT_RANGE, PER_EXTENT_RANGE, PHI_MASK, PHI_SHIFT, SPREAD_UNIT, SQRT_2,
     SQRT_HALF, WORD_UNIT, breadth_code, breadth_value, field, fraction, frame_of, phi_code, phi_value,
     spread_code,
 };
 use super::{Holds, MomentLayout, Node};
+use crate::beam::{Beam, Limits, Union};
 use crate::exact::{self, pow2};
 use crate::importance::{Lobe, Math, dot_by, frame, side, weight};
 use crate::light::EmissiveTriangle;
@@ -18,14 +20,17 @@ use crate::summary::{Lanes, SUMMARY_WORDS};
 use crate::vector::abs3;
 
 /// Words of a node: row 0 is the header (origin x, y, z, exponents), the others hold a word of each child. After the first ones come its
-/// box and its link; a row of normals stands before them, a row of masks after them, where there is one.
+/// box and its link; a row of normals stands before them, a row of beams and one of masks after them, where there is one.
 const WORD_0: usize = 1;
 const WORD_1: usize = 2;
 const WORD_2: usize = 3;
-/// Rows with normals, without, and with normals and masks.
+/// Rows with normals, without, and with normals and masks; a row of beams comes on top of them.
 const ORIENTED: usize = 6;
 const TWO_SIDED: usize = 5;
 const LINKED: usize = 7;
+/// Rows with normals and beams, and with normals, beams, and masks.
+const SPOT: usize = ORIENTED + 1;
+const LINKED_SPOT: usize = LINKED + 1;
 /// What the row of normals holds for a mean normal of zero: all fields at their nearest, the spread at its greatest.
 const NO_NORMAL: u32 = !0;
 
@@ -50,8 +55,21 @@ pub type TwoSidedMomentNode<const W: usize> = PackedMomentNode<W, TWO_SIDED>;
 /// `Bvh<Lit<LinkedMomentNode<8>, LinkedTriangle>, Linked<Moments>, 8>` is a tree over [`LinkedTriangle`](crate::light::LinkedTriangle)s.
 pub type LinkedMomentNode<const W: usize> = PackedMomentNode<W, LINKED>;
 
-/// What [`MomentNode`] (`ROWS` is 6), [`TwoSidedMomentNode`] (`ROWS` is 5, without word 2) and [`LinkedMomentNode`] (`ROWS` is 7) are;
-/// `W` is at least 4.
+/// A node of 28 bytes per child for scenes with spots: the words of [`MomentNode`], and a cone that holds all light of the child
+/// ([`Light::beam`](crate::light::Light::beam)). A child whose cone a point lies outside of counts for 2^-16 of what it would; one whose cone it
+/// lies in for as much more as its light is gathered. Of lights that are no spots, nor sets of spots that point about the same way, nothing is
+/// stored, and weights are those of [`MomentNode`], to the bit.
+///
+/// `Bvh<Lit<SpotMomentNode<8>, SpotLight>, DefaultImportance, 8>` is a tree over [`SpotLight`](crate::light::SpotLight)s.
+///
+/// Cones count in instances whose maps are similarities alone, for others change angles.
+pub type SpotMomentNode<const W: usize> = PackedMomentNode<W, SPOT, true>;
+
+/// [`SpotMomentNode`] with the masks of [`LinkedMomentNode`], 32 bytes per child.
+pub type LinkedSpotMomentNode<const W: usize> = PackedMomentNode<W, LINKED_SPOT, true>;
+
+/// What [`MomentNode`] (`ROWS` is 6), [`TwoSidedMomentNode`] (5, without word 2), [`LinkedMomentNode`] (7, with masks) are; with
+/// `BEAMS` [`SpotMomentNode`] (7) and [`LinkedSpotMomentNode`] (8). `W` is at least 4.
 ///
 /// | word | content |
 /// |---|---|
@@ -61,16 +79,24 @@ pub type LinkedMomentNode<const W: usize> = PackedMomentNode<W, LINKED>;
 /// | 2 | mean normal 3 × 8, spread of normals 8 |
 /// | 3 | half extents 3 × 8, breadth (√2 times the deviation across) 8 |
 /// | 4 | link |
-/// | 5 | mask |
+/// | 5 | beam: squared cosine 16, place of the apex 8, gain 8 |
+/// | 6 | mask |
 #[repr(transparent)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
-pub struct PackedMomentNode<const W: usize, const ROWS: usize>([[u32; W]; ROWS]);
+pub struct PackedMomentNode<const W: usize, const ROWS: usize, const BEAMS: bool = false>([[u32; W]; ROWS]);
 
-impl<const W: usize, const ROWS: usize> PackedMomentNode<W, ROWS> {
+impl<const W: usize, const ROWS: usize, const BEAMS: bool> PackedMomentNode<W, ROWS, BEAMS> {
     const WORD_3: usize = if ROWS == TWO_SIDED { WORD_2 } else { WORD_2 + 1 };
     const LINK: usize = Self::WORD_3 + 1;
+    const HAS_MASK_ROW: bool = if BEAMS {
+        ROWS == LINKED_SPOT
+    } else {
+        ROWS == LINKED
+    };
     /// The last row, which is that of masks where there is one.
     const MASK: usize = ROWS - 1;
+    /// The row of beams, where there is one.
+    const BEAM: usize = if ROWS == LINKED_SPOT { ROWS - 2 } else { ROWS - 1 };
 
     /// Word 2 of a child with flux; where no normals are stored, that of none.
     #[inline(always)]
@@ -181,11 +207,11 @@ impl<const W: usize, const ROWS: usize> PackedMomentNode<W, ROWS> {
     }
 }
 
-impl<const W: usize, const ROWS: usize> Holds for PackedMomentNode<W, ROWS> {
+impl<const W: usize, const ROWS: usize, const BEAMS: bool> Holds for PackedMomentNode<W, ROWS, BEAMS> {
     type Light = EmissiveTriangle;
 }
 
-impl<const W: usize, const ROWS: usize> Node<W> for PackedMomentNode<W, ROWS> {
+impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMomentNode<W, ROWS, BEAMS> {
     type Summary = LightMoments;
 
     const EMPTY: Self = {
@@ -194,19 +220,30 @@ impl<const W: usize, const ROWS: usize> Node<W> for PackedMomentNode<W, ROWS> {
             "the header of a packed node takes four words: it has 4 to 16 children"
         );
         assert!(
-            ROWS == ORIENTED || ROWS == TWO_SIDED || ROWS == LINKED,
-            "a packed node of moments has six rows, five without normals, or seven with masks"
+            if BEAMS {
+                ROWS == SPOT || ROWS == LINKED_SPOT
+            } else {
+                ROWS == ORIENTED || ROWS == TWO_SIDED || ROWS == LINKED
+            },
+            "a packed node of moments has six rows, five without normals, or seven with masks; with beams seven, or eight with masks"
         );
         Self([[0; W]; ROWS])
     };
-    const NAME: &'static str = if ROWS == ORIENTED {
+    const NAME: &'static str = if BEAMS {
+        if ROWS == SPOT {
+            "moments with beams"
+        } else {
+            "linked moments with beams"
+        }
+    } else if ROWS == ORIENTED {
         "moments"
     } else if ROWS == TWO_SIDED {
         "two-sided moments"
     } else {
         "linked moments"
     };
-    const HAS_MASKS: bool = ROWS == LINKED;
+    const HAS_MASKS: bool = Self::HAS_MASK_ROW;
+    const HAS_BEAMS: bool = BEAMS;
 
     #[inline(always)]
     fn kind(&self, slot: usize) -> u32 {
@@ -244,7 +281,7 @@ impl<const W: usize, const ROWS: usize> Node<W> for PackedMomentNode<W, ROWS> {
 
     #[inline(always)]
     fn mask(&self, slot: usize) -> u32 {
-        if ROWS == LINKED {
+        if Self::HAS_MASK_ROW {
             self.0[Self::MASK][slot]
         } else {
             u32::MAX
@@ -252,13 +289,47 @@ impl<const W: usize, const ROWS: usize> Node<W> for PackedMomentNode<W, ROWS> {
     }
 
     #[inline(always)]
-    fn set_masks(&mut self, masks: &[u32; W]) {
-        if ROWS == LINKED {
+    fn beam(&self, slot: usize) -> Beam {
+        if BEAMS {
+            let unit = pow2(self.unit_exponent());
+            beam_of(self.0[Self::BEAM][slot], &self.summary(slot), unit)
+        } else {
+            Beam::ANYWHERE
+        }
+    }
+
+    #[inline(always)]
+    fn set_limits(&mut self, limits: &[Limits; W]) {
+        if Self::HAS_MASK_ROW {
             for slot in 0..W {
                 let shines = exact::mask(self.0[WORD_1][slot] & PHI_MASK);
-                self.0[Self::MASK][slot] = masks[slot] & shines;
+                self.0[Self::MASK][slot] = limits[slot].mask & shines;
             }
         }
+        if BEAMS {
+            let per_unit = pow2(-self.unit_exponent());
+            for slot in 0..W {
+                let shines = exact::mask(self.0[WORD_1][slot] & PHI_MASK);
+                let word = beam_word(&limits[slot].beam, &self.summary(slot), per_unit);
+                self.0[Self::BEAM][slot] = word & shines;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn merged_limits(&self, whole: &LightMoments) -> Limits {
+        let mut all = Limits::NONE;
+        if Self::HAS_MASK_ROW {
+            all.mask = self.merged_mask();
+        }
+        if BEAMS {
+            let mut merged = Union::about(whole.m, whole.c, self.unit_exponent());
+            for slot in 0..W {
+                merged.add(self.0[WORD_1][slot] & PHI_MASK != 0, &self.beam(slot));
+            }
+            all.beam = merged.beam();
+        }
+        all
     }
 
     #[inline(always)]
@@ -284,9 +355,11 @@ impl<const W: usize, const ROWS: usize> Node<W> for PackedMomentNode<W, ROWS> {
     }
 }
 
-impl<const W: usize, const ROWS: usize> MomentLayout<W> for PackedMomentNode<W, ROWS> {
+impl<const W: usize, const ROWS: usize, const BEAMS: bool> MomentLayout<W>
+    for PackedMomentNode<W, ROWS, BEAMS>
+{
     #[inline(always)]
-    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3) -> [f32; W] {
+    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, is_even: bool) -> [f32; W] {
         let frame = frame(self.origin(), self.unit_exponent(), p);
         let side = side(n, WORD_UNIT);
         let word_unit = frame.unit * WORD_UNIT;
@@ -317,6 +390,10 @@ impl<const W: usize, const ROWS: usize> MomentLayout<W> for PackedMomentNode<W, 
                     + dot_by::<M>(up, Vec3::new(fraction(w3, 0), fraction(w3, 8), fraction(w3, 16))),
             };
             weights[i] = weight::<M>(&lobe, &side);
+            if BEAMS {
+                let factor = beam_factor::<M>(self.0[Self::BEAM][i], lobe.x, lobe.m, WORD_UNIT, frame.unit);
+                weights[i] *= if is_even { factor } else { 1.0 };
+            }
         }
         weights
     }

@@ -298,3 +298,53 @@ fn clusters_that_change_places_are_put_in_order() {
     bvh.refit();
     assert!(mended < 1.1 * cost(&bvh), "{mended} against {}", cost(&bvh));
 }
+
+/// Instances that fly together are opened a few in a frame, however many a rebuilt top level wants open.
+#[test]
+fn a_frame_opens_few_instances() {
+    let mut bvh = LightBvh::default();
+    let spread = |k: u32| line(((k * 7919) % 800) as u16, 0.02);
+    let mesh = bvh.add_mesh((0..800).map(spread).collect()).expect("a mesh");
+    let at = |k: u32, scale: f32| {
+        let x = (k % 17) as f32 * scale;
+        Transform::at([x, (k / 17) as f32 * scale, (k % 5) as f32 * scale])
+    };
+    let add = |k: u32| Edit::AddInstance {
+        mesh,
+        transform: at(k, 400.0),
+        radiance: 1.0,
+    };
+    let ids = bvh
+        .apply((0..300).map(add).collect())
+        .expect("instances")
+        .instances;
+    bvh.refit();
+    let opened = |bvh: &LightBvh| -> alloc::vec::Vec<bool> {
+        let own = ids.iter().map(|id| bvh.instances()[id.index() as usize]);
+        own.map(|own| own.part != u32::MAX).collect()
+    };
+    let mut rebuilder = Own::new(RebuilderParams {
+        swap: Swap::Deterministic,
+        ..RebuilderParams::default()
+    });
+    let (mut most, mut all, mut scale) = (0, 0, 400.0);
+    for frame in 0..240 {
+        let before = opened(&bvh);
+        rebuilder.begin_frame(&mut bvh).expect("no panic");
+        let changed = before.iter().zip(opened(&bvh)).filter(|(a, b)| **a != *b).count();
+        (most, all) = (most.max(changed), all + changed);
+        if frame < 30 {
+            scale *= 0.7;
+            let edits = ids.iter().zip(0..).map(|(&instance, k)| Edit::SetTransform {
+                instance,
+                transform: at(k, scale),
+            });
+            bvh.apply(edits.collect()).expect("moved");
+        }
+        bvh.refit();
+        rebuilder.end_frame(&bvh);
+    }
+    bvh.validate().expect("valid");
+    assert!(all > 20, "{all}: nothing is tested");
+    assert!(most <= REOPENED, "{most} in one frame");
+}

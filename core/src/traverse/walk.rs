@@ -38,6 +38,8 @@ pub(super) struct Walk<P = ShadingPoint> {
     halvings: u32,
     /// The point in the space of the node.
     pub point: P,
+    /// Whether angles are those of the world there, where the layout asks.
+    pub is_even: bool,
     steps: u32,
 }
 
@@ -64,6 +66,7 @@ impl<P: Receiver> Walk<P> {
             range: FULL,
             halvings: 0,
             point: *point,
+            is_even: true,
             steps: tree.depth,
         };
         walk.narrow(taken, FULL - taken);
@@ -78,7 +81,7 @@ impl<P: Receiver> Walk<P> {
         world: &P,
     ) {
         let node = self.node(tree);
-        let weights = I::weights(node, &self.point);
+        let weights = I::weights_in(node, &self.point, self.is_even);
         let share = choose(
             &weights,
             self.range,
@@ -135,6 +138,9 @@ impl<P: Receiver> Walk<P> {
             // A part begins one level below the root.
             self.position = levels + u32::from(instance.is_part());
             self.point = world.to_local(instance);
+            if N::HAS_BEAMS {
+                self.is_even = instance.is_even();
+            }
         } else {
             self.index = if descends { link } else { self.index };
             self.position += u32::from(descends);

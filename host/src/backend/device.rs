@@ -16,7 +16,7 @@ use lightbvh_kernels::render::{RenderParams, RenderPush};
 use lightbvh_kernels::shading::path::MAX_BOUNCES;
 
 use super::batches::{all_candidates, in_batches};
-use super::device_arrays::{DeviceEmitters, DeviceTree, HeldScene, device_time, kernel_name, suffix};
+use super::device_arrays::{DeviceEmitters, DeviceTree, HeldScene, device_time, kernel_name};
 use super::restir::device::resample;
 use super::{
     Backend, BackendError, Bvh, Integrator, Restir, RestirFrame, Sampler, SceneArrays, Timed, node_record,
@@ -101,7 +101,7 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
 
     /// The kernel of this choice.
     pub(super) fn kernel(&self, name: &str) -> Result<Arc<Kernel>, BackendError> {
-        Ok(self.device.kernel(&format!("{name}{}", suffix::<C, W>(name)))?)
+        Ok(self.device.kernel(&format!("{name}{}", C::SUFFIX))?)
     }
 
     /// Refits everything after what `pass` does, without a wait.

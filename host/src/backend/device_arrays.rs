@@ -6,7 +6,6 @@ use std::time::Duration;
 use bytemuck::Pod;
 use lightbvh::Instance;
 use lightbvh::TreeWords;
-use lightbvh::light::AnyLight;
 use lightbvh::light::infinite::DistantLight;
 use lightbvh_kernels::bvh::{Choice, TreeOf};
 use lightbvh_kernels::shading::camera::Camera;
@@ -236,17 +235,6 @@ pub(super) fn kernel_name<C: Choice<W>, const W: usize>(pass: &str, sampler: Sam
         Sampler::Uniform => format!("{pass}_uniform{}", C::Light::SUFFIX),
         Sampler::Power => format!("{pass}_power{}", C::Light::SUFFIX),
         Sampler::SingleLevel | Sampler::TwoLevel => format!("{pass}_bvh{}", C::SUFFIX),
-    }
-}
-
-/// What the name of a kernel of a choice ends in. Lights of any kind have nodes of the default's words, so what reads nothing else is the
-/// default's.
-pub(super) fn suffix<C: Choice<W>, const W: usize>(kernel: &str) -> &'static str {
-    let reads_nodes_alone = matches!(kernel, "refit_roots" | "sample" | "pmf");
-    if C::SUFFIX == AnyLight::SUFFIX && reads_nodes_alone {
-        ""
-    } else {
-        C::SUFFIX
     }
 }
 

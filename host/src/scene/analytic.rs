@@ -1,6 +1,10 @@
 //! Lights by formula: points, spots and suns (`KHR_lights_punctual`), spheres, rectangles, discs and boxes.
 
-use lightbvh::light::{AnyLight, BoxLight, DiscLight, PointLight, RectangleLight, SphereLight, SpotLight};
+use lightbvh::light::{
+    AnyLight, BoxLight, DiscLight, PointLight, ProfileLight, RectangleLight, SphereLight, SpotLight,
+};
+
+use super::profile::Profile;
 
 /// A light on a node, shining along the node's -Z where it has a direction.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,7 +17,7 @@ pub struct AnalyticLight {
     pub kind: AnalyticKind,
     /// Linear RGB, not negative.
     pub color: [f32; 3],
-    /// Factor on the colour, not negative. Of points and spots radiant intensity, W/sr (glTF: candela), of suns irradiance (glTF: lux), of
+    /// Factor on the colour, not negative. Of points and spots radiant intensity, W/sr (glTF: candela), of profiles a number alone, of suns irradiance (glTF: lux), of
     /// spheres, rectangles and discs radiance, W/(m² sr), of boxes what a metre adds to it, W/(m³ sr).
     pub intensity: f32,
     /// Metres beyond which nothing should be lit, above zero; not looked at.
@@ -49,6 +53,19 @@ pub enum AnalyticKind {
         /// Half its size along x and y, metres.
         half: [f32; 2],
     },
+    /// From one point, in each direction what a photometric profile says there.
+    Profile {
+        /// Index into [`SceneData::profiles`](super::SceneData::profiles).
+        profile: u32,
+        /// Candela at most, and what a tree knows of it: [`Profile`].
+        peak: f32,
+        /// See [`peak`](Self::Profile::peak).
+        cos_outer: f32,
+        /// See [`peak`](Self::Profile::peak).
+        whole: f32,
+        /// See [`peak`](Self::Profile::peak).
+        mean_cosine: f32,
+    },
     /// From all of a box, in every direction. Rays pass it and do not see it.
     Box {
         /// Half its size, metres.
@@ -56,10 +73,27 @@ pub enum AnalyticKind {
     },
 }
 
+impl AnalyticKind {
+    /// Of profile number `index`, which is `profile`.
+    pub fn profile(index: u32, profile: &Profile) -> Self {
+        Self::Profile {
+            profile: index,
+            peak: profile.peak,
+            cos_outer: profile.cos_outer,
+            whole: profile.whole,
+            mean_cosine: profile.mean_cosine,
+        }
+    }
+}
+
 impl AnalyticLight {
     /// Colour times intensity.
     pub(super) fn emission(&self) -> [f32; 3] {
-        self.color.map(|channel| channel * self.intensity)
+        let intensity = match self.kind {
+            AnalyticKind::Profile { peak, .. } => self.intensity * peak,
+            _ => self.intensity,
+        };
+        self.color.map(|channel| channel * intensity)
     }
 
     /// The light in the space of its node, where a tree has one for it: none for suns.
@@ -83,6 +117,23 @@ impl AnalyticLight {
                 cos_inner: cosine(inner),
                 cos_outer: cosine(outer).min(1.0 - 2.0_f32.powi(-20)),
                 mesh,
+            }
+            .into(),
+            AnalyticKind::Profile {
+                cos_outer,
+                whole,
+                mean_cosine,
+                ..
+            } => ProfileLight {
+                p,
+                intensity: emission,
+                axis: [0.0, 0.0, -1.0],
+                across: [1.0, 0.0, 0.0],
+                cos_outer,
+                whole,
+                mean_cosine,
+                mesh,
+                flags: 0,
             }
             .into(),
             AnalyticKind::Sphere { radius } => SphereLight {

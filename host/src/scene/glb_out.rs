@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use self::bend::light;
 use self::material::{is_product, material};
 use super::error::SceneError;
-use super::gltf_in::{BACKGROUND_EXTRA, RADIANCE_ATTRIBUTE};
+use super::gltf_in::{BACKGROUND_EXTRA, IES, RADIANCE_ATTRIBUTE};
 use super::model::{Channel, Interpolation, Material, Primitive, Property, Scene};
 use super::transform::Transform;
 use crate::render::write_whole;
@@ -125,6 +125,7 @@ impl Writer {
             written
         };
         let materials: Vec<Value> = data.materials.iter().map(painted).collect();
+        let profiles: Vec<Value> = data.profiles.iter().map(|own| self.profile(own)).collect();
         let mut root = json!({
             "asset": { "version": "2.0", "generator": "lightbvh" },
             "extensionsUsed": ["KHR_materials_emissive_strength", "KHR_materials_transmission"],
@@ -149,6 +150,13 @@ impl Writer {
                 .as_array_mut()
                 .into_iter()
                 .for_each(|used| used.push("KHR_lights_punctual".into()));
+        }
+        if !profiles.is_empty() {
+            root["extensions"][IES] = json!({ "lights": profiles });
+            root["extensionsUsed"]
+                .as_array_mut()
+                .into_iter()
+                .for_each(|used| used.push(IES.into()));
         }
         // glTF wants lists that are there to have entries.
         if let Value::Object(members) = &mut root {
@@ -298,15 +306,17 @@ fn nodes(scene: &Scene) -> Vec<Value> {
         }
         out.push(value);
     }
-    for (index, light) in data
+    let punctual = data.analytic.iter().filter(|own| light(own).is_some());
+    let punctual = punctual
+        .enumerate()
+        .map(|(index, light)| (light, json!({ "KHR_lights_punctual": { "light": index } })));
+    let measured = data
         .analytic
         .iter()
-        .filter(|own| light(own).is_some())
-        .enumerate()
-    {
+        .filter_map(|own| Some((own, bend::profile_light(own)?)));
+    for (light, named) in punctual.chain(measured) {
         // A node has one light; a further one of the same node stands on a node of its own.
         let on = light.node as usize;
-        let named = json!({ "KHR_lights_punctual": { "light": index } });
         if out[on].get("extensions").is_none() {
             out[on]["extensions"] = named;
         } else {

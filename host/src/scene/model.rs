@@ -12,6 +12,7 @@ use super::deform::{Influence, MorphChannel, Skin};
 use super::error::SceneError;
 use super::frame::emits;
 use super::paint::{Paint, Picture};
+use super::profile::Profile;
 use super::skin_words;
 use super::transform::Transform;
 
@@ -45,6 +46,8 @@ pub struct SceneData {
     pub skins: Vec<Skin>,
     /// Lights by formula.
     pub analytic: Vec<AnalyticLight>,
+    /// Photometric profiles, named by lights.
+    pub profiles: Vec<Profile>,
     /// Named by textures.
     pub pictures: Vec<Picture>,
     /// Radiance of rays that leave the scene, W/(m² sr), linear RGB, where there is no environment map.

@@ -11,6 +11,7 @@ use lightbvh_kernels::shading::trace::NONE;
 
 use super::model::SceneData;
 use super::paint::{Opacity, Paint, Picture, Texture, Wrap};
+use super::profile;
 use super::srgb::linear_from_srgb;
 
 /// Most texels of all pictures: 2^24, so that they fit the smallest storage buffers seen (128 MiB) with room to spare. Larger pictures are
@@ -38,11 +39,12 @@ impl SkinArrays {
 
 /// The words of everything that is painted; none where nothing is.
 pub(super) fn words(data: &SceneData) -> Vec<u32> {
-    if !data.is_painted() {
+    if !data.is_painted() && data.profiles.is_empty() {
         return Vec::new();
     }
     let pictures = fitted(&data.pictures, &colors(data));
-    let count = data.materials.len() as u32;
+    // After the materials, the profiles.
+    let count = (data.materials.len() + data.profiles.len()) as u32;
     let mut words = vec![0; HEADER_WORDS as usize];
     words[0] = count;
     words.extend((0..SRGB_WORDS).map(|byte| linear_from_srgb(byte as u8).to_bits()));
@@ -52,12 +54,7 @@ pub(super) fn words(data: &SceneData) -> Vec<u32> {
         .iter()
         .map(|picture| {
             let at = words.len() as u32;
-            words.extend(
-                picture
-                    .texels
-                    .chunks_exact(4)
-                    .map(|rgba| u32::from_le_bytes([rgba[0], rgba[1], rgba[2], rgba[3]])),
-            );
+            words.extend(profile::texel_words(picture));
             at
         })
         .collect();
@@ -82,6 +79,17 @@ pub(super) fn words(data: &SceneData) -> Vec<u32> {
             _ => 0,
         };
         paints.push(paint);
+    }
+    for profile in &data.profiles {
+        let texels = words.len() as u32;
+        words.extend(profile::texel_words(&profile.picture));
+        let at = words.len() as u32;
+        words.extend_from_slice(cast_slice(&[profile::picture_words(&profile.picture, texels)]));
+        paints.push(PaintWords {
+            flags: PaintWords::BY_LIGHT,
+            emission_picture: at,
+            ..NOTHING
+        });
     }
     words[first..first + (PaintWords::COUNT * count) as usize].copy_from_slice(cast_slice(&paints));
     words

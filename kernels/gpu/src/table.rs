@@ -64,7 +64,7 @@ pub static PATH_BVH_ANY: Kernel = Kernel {
         Binding { binding: 3, name: "triangles", access: Read, stride: 68 },
         Binding { binding: 4, name: "instances", access: Read, stride: 136 },
         Binding { binding: 5, name: "camera", access: Read, stride: 48 },
-        Binding { binding: 6, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 6, name: "nodes", access: Read, stride: 224 },
         Binding { binding: 7, name: "trails", access: Read, stride: 4 },
         Binding { binding: 8, name: "results", access: Write, stride: 12 },
         Binding { binding: 9, name: "suns", access: Read, stride: 24 },
@@ -191,6 +191,21 @@ pub static PMF: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `pmf_any`.
+pub static PMF_ANY: Kernel = Kernel {
+    name: "pmf_any",
+    bytes: include_bytes!("../spirv/pmf_any.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "nodes", access: Read, stride: 224 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 2, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 3, name: "queries", access: Read, stride: 32 },
+        Binding { binding: 4, name: "results", access: Write, stride: 4 },
+    ],
+    push_constants: 24,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `pmf_eq4`.
 pub static PMF_EQ4: Kernel = Kernel {
     name: "pmf_eq4",
@@ -271,7 +286,7 @@ pub static REFIT_BOTTOM_ANY: Kernel = Kernel {
     bindings: &[
         Binding { binding: 0, name: "list", access: Read, stride: 4 },
         Binding { binding: 1, name: "triangles", access: Read, stride: 68 },
-        Binding { binding: 2, name: "nodes", access: ReadWrite, stride: 192 },
+        Binding { binding: 2, name: "nodes", access: ReadWrite, stride: 224 },
     ],
     push_constants: 8,
     workgroup: [64, 1, 1],
@@ -297,6 +312,19 @@ pub static REFIT_ROOTS: Kernel = Kernel {
     bindings: &[
         Binding { binding: 0, name: "list", access: Read, stride: 4 },
         Binding { binding: 1, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 2, name: "roots", access: ReadWrite, stride: 52 },
+    ],
+    push_constants: 8,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `refit_roots_any`.
+pub static REFIT_ROOTS_ANY: Kernel = Kernel {
+    name: "refit_roots_any",
+    bytes: include_bytes!("../spirv/refit_roots_any.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "list", access: Read, stride: 4 },
+        Binding { binding: 1, name: "nodes", access: Read, stride: 224 },
         Binding { binding: 2, name: "roots", access: ReadWrite, stride: 52 },
     ],
     push_constants: 8,
@@ -338,7 +366,7 @@ pub static REFIT_TOP_ANY: Kernel = Kernel {
         Binding { binding: 0, name: "list", access: Read, stride: 4 },
         Binding { binding: 1, name: "instances", access: Read, stride: 136 },
         Binding { binding: 2, name: "roots", access: Read, stride: 52 },
-        Binding { binding: 3, name: "nodes", access: ReadWrite, stride: 192 },
+        Binding { binding: 3, name: "nodes", access: ReadWrite, stride: 224 },
     ],
     push_constants: 8,
     workgroup: [64, 1, 1],
@@ -388,7 +416,7 @@ pub static RENDER_BVH_ANY: Kernel = Kernel {
         Binding { binding: 3, name: "triangles", access: Read, stride: 68 },
         Binding { binding: 4, name: "instances", access: Read, stride: 136 },
         Binding { binding: 5, name: "camera", access: Read, stride: 48 },
-        Binding { binding: 6, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 6, name: "nodes", access: Read, stride: 224 },
         Binding { binding: 7, name: "trails", access: Read, stride: 4 },
         Binding { binding: 8, name: "results", access: Write, stride: 12 },
         Binding { binding: 9, name: "suns", access: Read, stride: 24 },
@@ -531,7 +559,7 @@ pub static RESTIR_INITIAL_BVH_ANY: Kernel = Kernel {
         Binding { binding: 3, name: "triangles", access: Read, stride: 68 },
         Binding { binding: 4, name: "instances", access: Read, stride: 136 },
         Binding { binding: 5, name: "camera", access: Read, stride: 48 },
-        Binding { binding: 6, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 6, name: "nodes", access: Read, stride: 224 },
         Binding { binding: 7, name: "trails", access: Read, stride: 4 },
         Binding { binding: 8, name: "gbuffer", access: Write, stride: 56 },
         Binding { binding: 9, name: "reservoirs", access: Write, stride: 28 },
@@ -822,6 +850,21 @@ pub static SAMPLE: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `sample_any`.
+pub static SAMPLE_ANY: Kernel = Kernel {
+    name: "sample_any",
+    bytes: include_bytes!("../spirv/sample_any.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "nodes", access: Read, stride: 224 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 2, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 3, name: "queries", access: Read, stride: 32 },
+        Binding { binding: 4, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 24,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `sample_eq4`.
 pub static SAMPLE_EQ4: Kernel = Kernel {
     name: "sample_eq4",
@@ -906,6 +949,7 @@ pub static KERNELS: &[&Kernel] = &[
     &PATH_UNIFORM,
     &PATH_UNIFORM_ANY,
     &PMF,
+    &PMF_ANY,
     &PMF_EQ4,
     &PMF_NARROW,
     &PMF_NATIVE,
@@ -914,6 +958,7 @@ pub static KERNELS: &[&Kernel] = &[
     &REFIT_BOTTOM_ANY,
     &REFIT_BOTTOM_EQ4,
     &REFIT_ROOTS,
+    &REFIT_ROOTS_ANY,
     &REFIT_ROOTS_EQ4,
     &REFIT_TOP,
     &REFIT_TOP_ANY,
@@ -941,6 +986,7 @@ pub static KERNELS: &[&Kernel] = &[
     &RESTIR_TEMPORAL_UNBIASED,
     &RESTIR_TEMPORAL_UNBIASED_ANY,
     &SAMPLE,
+    &SAMPLE_ANY,
     &SAMPLE_EQ4,
     &SAMPLE_NARROW,
     &SAMPLE_NATIVE,

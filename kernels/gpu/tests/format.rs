@@ -8,7 +8,7 @@ use std::ops::Range;
 use lightbvh::light::{
     AnyLight, BoxLight, DiscLight, Light, PointLight, RectangleLight, SphereLight, SpotLight,
 };
-use lightbvh::node::LinkedMomentNode;
+use lightbvh::node::{LinkedMomentNode, LinkedSpotMomentNode, SpotMomentNode};
 use lightbvh::refit::BlasRoot;
 use lightbvh::{
     CompactNode, EmissiveTriangle, FullMomentNode, FullNode, Instance, LeanMomentNode, LightBvh, MomentNode,
@@ -61,6 +61,8 @@ fn layouts_have_their_words() {
         ("LeanMomentNode<8>", size_of::<LeanMomentNode<8>>(), 8),
         ("FullMomentNode<8>", size_of::<FullMomentNode<8>>(), 8),
         ("LinkedMomentNode<8>", size_of::<LinkedMomentNode<8>>(), 8),
+        ("SpotMomentNode<8>", size_of::<SpotMomentNode<8>>(), 8),
+        ("LinkedSpotMomentNode<8>", size_of::<LinkedSpotMomentNode<8>>(), 8),
         ("CompactNode<4>", size_of::<CompactNode<4>>(), 4),
         ("FullNode<4>", size_of::<FullNode<4>>(), 4),
     ];

@@ -53,6 +53,9 @@ pub trait Emitter: Light {
     #[must_use]
     fn with_emission(self, emission: [f32; 3]) -> Self;
 
+    /// Where on what is painted on it the point lies that `uv` chooses, for a receiver at `from`.
+    fn painted_at(&self, from: Vec3, uv: [f32; 2]) -> [f32; 2];
+
     /// The numbers that choose the point which the ray meets. Of lights that [are met](Self::is_met).
     fn coordinates(&self, ray: &Ray) -> [f32; 2];
 }
@@ -102,6 +105,12 @@ impl Emitter for EmissiveTriangle {
         }
     }
 
+    /// The parts of its edges, as `uniform_point` folds them.
+    #[inline]
+    fn painted_at(&self, _: Vec3, uv: [f32; 2]) -> [f32; 2] {
+        folded(uv)
+    }
+
     #[inline]
     fn coordinates(&self, ray: &Ray) -> [f32; 2] {
         // As the ray BVH has them.
@@ -112,6 +121,12 @@ impl Emitter for EmissiveTriangle {
         let a = clamp(a, 0.0, 1.0);
         [a, clamp(b, 0.0, 1.0 - a)]
     }
+}
+
+#[inline]
+fn folded(uv: [f32; 2]) -> [f32; 2] {
+    let fold = uv[0] + uv[1] > 1.0;
+    if fold { [1.0 - uv[0], 1.0 - uv[1]] } else { uv }
 }
 
 #[inline]
@@ -171,6 +186,16 @@ impl Emitter for AnyLight {
         Self::with_emission(self, emission)
     }
 
+    /// Of a profile the direction; of others as of a triangle.
+    #[inline]
+    fn painted_at(&self, from: Vec3, uv: [f32; 2]) -> [f32; 2] {
+        let mut at = folded(uv);
+        if self.kind() == Self::PROFILE {
+            at = direction_of(*self, from);
+        }
+        at
+    }
+
     #[inline]
     fn coordinates(&self, ray: &Ray) -> [f32; 2] {
         let corner = |uv| snap_point(place(&self.point_for(Vec3::ZERO, uv)));
@@ -184,6 +209,13 @@ impl Emitter for AnyLight {
         };
         [a, clamp(b, 0.0, most)]
     }
+}
+
+/// Where on its picture a profile has the direction to `from`. A function of its own on devices, as [`connect_any`].
+#[cfg_attr(target_arch = "spirv", inline(never))]
+#[cfg_attr(not(target_arch = "spirv"), inline)]
+fn direction_of(light: AnyLight, from: Vec3) -> [f32; 2] {
+    light.profile().coordinates(from)
 }
 
 /// What [`Emitter::connect`] says. A function of its own on devices: passes connect in several places, and it is long.

@@ -95,7 +95,7 @@ pub fn path_radiance<L: Emitter, P: PickLight>(
             if picked.pmf > 0.0 {
                 let light = scene.emitters.light(picked.light, picked.instance);
                 let uv = [draw(random, RANDOM_LIGHT + 1), draw(random, RANDOM_LIGHT + 2)];
-                let light = scene.glowing(light, picked.light, uv);
+                let light = scene.glowing(light, picked.light, seen.point.position(), uv);
                 let connection = light.connect(&seen.point, seen.wo, &material, picked.pmf, uv);
                 if connection.contribution.x + connection.contribution.y + connection.contribution.z > 0.0 {
                     let origin = seen.point.position();

@@ -68,15 +68,13 @@ impl<'a, L: Emitter> Scene<'a, L> {
             .material(self.materials, seen.material, &seen.spot)
     }
 
-    /// `light`, which is number `number`, as it glows at the point that `uv` chooses.
+    /// `light`, which is number `number`, as it glows at the point that `uv` chooses, seen from `from`.
     #[inline]
     #[must_use]
-    pub fn glowing(&self, light: L, number: u32, uv: [f32; 2]) -> L {
+    pub fn glowing(&self, light: L, number: u32, from: Vec3, uv: [f32; 2]) -> L {
         let mut glowing = light;
         if <L::Skin<'_> as Skin>::IS_PAINTED {
-            // As `uniform_point` folds them.
-            let fold = uv[0] + uv[1] > 1.0;
-            let at = if fold { [1.0 - uv[0], 1.0 - uv[1]] } else { uv };
+            let at = light.painted_at(from, uv);
             let blocks = self.surfaces.blocks;
             let emission = self
                 .surfaces
@@ -302,7 +300,7 @@ fn one_by_one<L: Emitter, P: PickLight>(
             if picked.pmf > 0.0 {
                 let light = scene.emitters.light(picked.light, picked.instance);
                 let uv = picks.uv(sample);
-                let light = scene.glowing(light, picked.light, uv);
+                let light = scene.glowing(light, picked.light, seen.point.position(), uv);
                 let connection = light.connect(&seen.point, seen.wo, &material, picked.pmf, uv);
                 if connection.contribution.x + connection.contribution.y + connection.contribution.z > 0.0 {
                     let origin = seen.point.position();

@@ -234,6 +234,8 @@ impl PaintWords {
     pub const CLEAR: u32 = 4;
     /// Flag: the reflectance is that of these words, not the material's.
     pub const REFLECTS: u32 = 8;
+    /// Flag: the factor on the picture of the emission is what the light says, not [`emission`](Self::emission): a photometric profile.
+    pub const BY_LIGHT: u32 = 16;
 }
 
 /// Where the words of a material begin.
@@ -471,7 +473,8 @@ impl Skin for SkinView<'_> {
             let shown = self.shown(material, 3, uv);
             let share = |factor: f32, texel: f32| flush(factor * (texel * cover), TINY);
             // Without a picture of it, emission is what the light says: it may differ from triangle to triangle.
-            let is_shown = word(self.words, paint_at(material).wrapping_add(16)) != NONE;
+            let is_shown = flags & PaintWords::BY_LIGHT == 0
+                && word(self.words, paint_at(material).wrapping_add(16)) != NONE;
             let own = |at: u32, mean: f32| if is_shown { self.number(material, at) } else { mean };
             glow = [
                 share(own(9, emission[0]), shown.r),

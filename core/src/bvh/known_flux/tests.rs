@@ -209,3 +209,31 @@ fn what_is_outshone_counts() {
         }
     }
 }
+
+/// What comes in so bright that it outshines the others was put into a tree that was built without it: that is tried anew, though nothing in it
+/// lost its order. Dim ones ask for nothing.
+#[test]
+fn bright_ones_that_come_in_get_a_tree() {
+    for (opens, radiance, gets) in [(true, 900.0, true), (false, 900.0, true), (true, 0.001, false)] {
+        let (mut bvh, _) = scene(500);
+        bvh.params.opens = opens;
+        let mut rebuilder = Rebuilder::new(RebuilderParams {
+            swap: Swap::Deterministic,
+            ..RebuilderParams::default()
+        });
+        let mut swaps = 0;
+        for frame in 0..60 {
+            if frame == 20 {
+                assert_eq!(swaps, 0, "as it was built");
+                let mesh = bvh.add_mesh(mesh_of(400, radiance)).expect("a mesh");
+                bvh.add_instance(mesh, Transform::at([40.0, 40.0, 40.0]))
+                    .expect("one");
+            }
+            swaps += u32::from(rebuilder.begin_frame(&mut bvh).expect("no panic").swapped);
+            bvh.refit();
+            rebuilder.end_frame(&bvh);
+        }
+        assert_eq!(swaps > 0, gets, "opens {opens}, radiance {radiance}");
+        bvh.validate().expect("valid");
+    }
+}

@@ -44,12 +44,14 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 INVALID => [0, INVALID, 0, 0],
                 _ => words.array()?,
             };
+            let (rests, edits) = (edits & Top::FLAGS, edits & !Top::FLAGS);
             words.expect(edits <= MOST_EDITS, "edits below a node of the top level")?;
             let is_share = built == INVALID || (0.0..=1.0).contains(&f32::from_bits(built));
             words.expect(is_share, "quality of a node")?;
             bvh.top.edits.push(edits);
             bvh.top.stirred.push(stirred);
             bvh.top.changes.push(changes);
+            bvh.top.set_what_rests(rests);
             top_built.push(built);
         }
         let refitted = read_indices(words, header.refitted, header.blases, "refitted bottom level")?;

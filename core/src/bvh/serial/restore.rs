@@ -78,12 +78,9 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// What the nodes of the top level, by number, were as they were built; those of which nothing is known are so now.
     pub(super) fn restore_top_quality(&mut self, built: &[u32]) {
         self.quality.resize(self.nodes.len(), Quality::default());
-        for (number, (&node, &built)) in self.top.nodes.iter().zip(built).enumerate() {
+        for (&node, &built) in self.top.nodes.iter().zip(built) {
             if node != INVALID {
                 self.quality[node as usize].built = f32::from_bits(built);
-            }
-            if self.top.changes[number] > 0 {
-                self.top.moved[number] = self.epoch;
             }
         }
         for node in self.top.by_height().nodes {

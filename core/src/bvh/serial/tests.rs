@@ -64,7 +64,9 @@ fn goes_on<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32,
             for number in 0..first.top.nodes.len() {
                 let changes = first.top.changes[number];
                 again.top.changes[number] = changes;
-                again.top.moved[number] = if changes > 0 { again.epoch } else { 0 };
+                let at = |has: bool| if has { again.epoch } else { 0 };
+                again.top.moved[number] = at(first.top.moved[number] > 0);
+                again.top.seen[number] = at(first.top.seen[number] > first.top.tried[number]);
                 again.top.tried[number] = 0;
             }
         }
@@ -87,6 +89,87 @@ fn goes_on<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32,
             assert_ne!(first.light_count(), 0);
         }
     }
+}
+
+/// What was read goes on as what was written, each with a rebuilder that begins there: at rest, and in motion. Few and many instances changed in
+/// the frames before.
+#[cfg(feature = "std")]
+#[test]
+fn rebuilders_go_on_alike() {
+    use crate::bvh::{RebuilderParams, Swap};
+    use crate::exact::{hash, unit_f32};
+    use crate::{Edit, LightBvh, Rebuilder, Transform};
+
+    let draw = |a: u32, b: u32| unit_f32(hash(hash(a) ^ b));
+    let at = |i: u32, frame: u32| {
+        let moved = |k: u32| draw(i, k) * 100.0 + draw(i, 10 * frame + k);
+        Transform::at([moved(1), 0.05 * moved(2), moved(3)])
+    };
+    let mut swapped = 0;
+    for (count, moves, eager, moves_on) in [
+        (3000, 60, false, false),
+        (3000, 60, true, false),
+        (3000, 150, false, true),
+        (600, 12, false, false),
+        (600, 12, true, true),
+    ] {
+        let mut first = LightBvh::default();
+        let mesh = first
+            .add_mesh(std::vec![crate::kit::line(0, 1.0)])
+            .expect("a mesh");
+        let add = |i: u32| Edit::AddInstance {
+            mesh,
+            transform: at(i, 0),
+            radiance: 1.0,
+        };
+        first.apply((0..count).map(add).collect()).expect("instances");
+        first.refit();
+        let step = |bvh: &mut LightBvh, frame: u32| {
+            let moved = (0..moves).map(|k| {
+                let i = hash(frame * moves + k) % count;
+                let instance = bvh.instance_id(i).expect("there");
+                Edit::SetTransform {
+                    instance,
+                    transform: at(i, frame),
+                }
+            });
+            bvh.apply(moved.collect()).expect("moved");
+            bvh.refit();
+        };
+        for frame in 1..8 {
+            step(&mut first, frame);
+        }
+        let mut again = read(&first);
+        let rebuild = match eager {
+            true => RebuildParams::eager(),
+            false => RebuildParams::default(),
+        };
+        let params = RebuilderParams {
+            swap: Swap::Deterministic,
+            rebuild,
+            ..RebuilderParams::default()
+        };
+        let mut rebuilders = [Rebuilder::new(params), Rebuilder::new(params)];
+        for frame in 8..60 {
+            for (bvh, rebuilder) in [&mut first, &mut again].into_iter().zip(&mut rebuilders) {
+                let start = rebuilder.begin_frame(bvh).expect("no panic");
+                swapped += u32::from(start.swapped);
+                if moves_on {
+                    step(bvh, frame);
+                } else {
+                    bvh.refit();
+                }
+                rebuilder.end_frame(bvh);
+            }
+            if frame % 4 == 0 {
+                assert!(
+                    first.to_words() == again.to_words(),
+                    "{count} {moves} {eager} in frame {frame}"
+                );
+            }
+        }
+    }
+    assert!(swapped > 20, "{swapped}: little is tested");
 }
 
 /// One of each level, refitted by new triangles after it was read.

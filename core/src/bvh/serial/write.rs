@@ -45,7 +45,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             words.push(node);
             if node != INVALID {
                 let built = self.quality(node).built.to_bits();
-                words.extend([edits, built]);
+                words.extend([edits | self.top.what_rests(number), built]);
                 words.extend([self.top.stirred[number], self.top.changes[number]]);
             }
         }

@@ -25,30 +25,36 @@ struct Found {
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Puts a tree in place of the part of the top level that it was built from, of which it does not know what became of it since the
     /// epoch stood at `since`: what has gone or was put elsewhere is taken out of it, what has come is put in. Nothing is done where
-    /// the part is no more.
-    pub(in crate::bvh) fn install_top(&mut self, tree: &TopTree<N>, since: u64, room: &mut Quota) {
+    /// the part is no more. Returns the instances that are then to be opened, and those to be closed.
+    pub(in crate::bvh) fn install_top(
+        &mut self,
+        tree: &TopTree<N>,
+        since: u64,
+        room: &mut Quota,
+    ) -> [Vec<u32>; 2] {
+        let none = [const { Vec::new() }; 2];
         let root = match tree.root {
             None => self.top.root,
             Some(part) => match self.node_of(part) {
                 Some(node) => node,
-                None => return,
+                None => return none,
             },
         };
         if tree.nodes.is_empty() {
-            return;
+            return none;
         }
         if !tree.pays || self.level(root) + self.depth_with(tree) > max_levels(W) {
             self.note_tried(root, tree, since);
-            return;
+            return none;
         }
         let count = self.top.counts[self.top.number(root) as usize];
         // All that is below is looked at where no subtree stays.
         if tree.root.is_some() && tree.kept.is_empty() && count as usize > tree.names.len() + room.come {
-            return;
+            return none;
         }
         let found = self.sort_out(root, tree, since);
         if tree.root.is_some() && !self.is_like(tree, &found, room) {
-            return;
+            return none;
         }
         let above = (root != self.top.root).then(|| (self.parents[root as usize], self.slot_above(root)));
         for &name in &tree.names {
@@ -107,7 +113,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             debug_assert!(found.subtrees.is_empty());
             self.insert_instances(&found.instances);
         }
-        self.reopen(&tree.open, &tree.close);
+        [tree.open.clone(), tree.close.clone()]
     }
 
     /// Whether a part is nearly what its tree was built over, and the tree's nodes, of which some are given back once they are found to miss

@@ -56,7 +56,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Puts in what has come, and computes each node above it once: until then a node knows of the children that came below its own as much
     /// as before.
-    pub(super) fn insert_come(&mut self, instances: &[u32], subtrees: Vec<u32>) {
+    pub(in crate::bvh) fn insert_come(&mut self, instances: &[u32], subtrees: Vec<u32>) {
         self.epoch += u64::from(!instances.is_empty());
         let mut changed = Vec::new();
         for &index in instances {

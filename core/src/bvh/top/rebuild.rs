@@ -6,6 +6,7 @@
 use alloc::vec::Vec;
 
 use super::cut::{Cut, Part};
+use crate::beam::Limits;
 use crate::build::{BuildParams, Topology, build_top};
 use crate::bvh::quality::Spread;
 use crate::bvh::{Bvh, Trails, opened};
@@ -36,8 +37,8 @@ pub(crate) struct TopCopy<N> {
     /// The same, and the roots of their bottom levels.
     instances: Vec<Instance>,
     roots: Vec<BlasRoot>,
-    /// The unions of the masks below them, where nodes store masks.
-    masks: Vec<u32>,
+    /// Their masks and beams, where nodes store any.
+    limits: Vec<Limits>,
     /// The subtrees that stay, with the variance of their lights' centers, and the nodes that are to be replaced, from the root down.
     kept: Vec<(Part, N, f32)>,
     inner: Vec<Part>,
@@ -121,7 +122,7 @@ impl<N> TopCopy<N> {
         for &index in Levels::gather(topology.leveled(0)).nodes() {
             let mut node = topology.nodes[index as usize];
             let mut lanes = Lanes::<W>::all(&N::Summary::EMPTY);
-            let mut masks = [0; W];
+            let mut limits = [Limits::NONE; W];
             let mut below = [0.0; W];
             for slot in 0..W {
                 let (to, link) = (node.kind(slot), node.link(slot));
@@ -129,23 +130,23 @@ impl<N> TopCopy<N> {
                     let child = topology.nodes[link as usize].merged();
                     below[slot] = apart[link as usize];
                     lanes.set(slot, &child);
-                    masks[slot] = topology.nodes[link as usize].merged_mask();
+                    limits[slot] = topology.nodes[link as usize].merged_limits(&child);
                 } else if to == kind::MESH {
                     lanes.set(slot, &leaves[link as usize]);
-                    masks[slot] = self.masks.get(link as usize).map_or(0, |&mask| mask);
+                    limits[slot] = self.limits.get(link as usize).copied().unwrap_or(Limits::NONE);
                     if let Some(&name) = tree.names.get(link as usize) {
                         node.relink(slot, name);
                     } else {
                         let stays = link - tree.names.len() as u32;
                         node.set_child(slot, kind::INNER, stays);
                         below[slot] = self.kept[stays as usize].2;
-                        masks[slot] = self.kept[stays as usize].1.merged_mask();
+                        limits[slot] = self.kept[stays as usize].1.merged_limits(&leaves[link as usize]);
                         tree.keeps[index as usize] |= 1 << slot;
                     }
                 }
             }
             node.set_lanes(&lanes);
-            node.set_masks(&masks);
+            node.set_limits(&limits);
             topology.nodes[index as usize] = node;
             let spread = Spread::of(&node, |slot| below[slot]);
             apart[index as usize] = (spread.apart() / spread.phi.max(f64::MIN_POSITIVE)) as f32;
@@ -224,7 +225,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             pays: f64::INFINITY,
             instances: Vec::with_capacity(cut.names.len()),
             roots: Vec::with_capacity(cut.names.len()),
-            masks: Vec::new(),
+            limits: Vec::new(),
             names: Vec::new(),
             kept: Vec::with_capacity(cut.kept.len()),
             inner: Vec::with_capacity(cut.inner.len()),
@@ -236,8 +237,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             let own = self.instances[name as usize];
             let root = self.roots[own.blas as usize];
             copy.roots.push(root);
-            if N::HAS_MASKS {
-                copy.masks.push(refit::mask_of_root(&self.nodes, &root));
+            if refit::has_limits::<N, W>() {
+                copy.limits
+                    .push(refit::limits_of_instance(&self.nodes, &root, &own));
             }
             copy.instances.push(own);
         }

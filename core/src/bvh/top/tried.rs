@@ -17,6 +17,28 @@ pub(super) fn bounded_sum(a: u32, b: u32) -> u32 {
 }
 
 impl Top {
+    /// Bits of a word of the format: much below the node changed in one frame, and anything did since it was tried.
+    pub const FLAGS: u32 = Self::MOVED | Self::SEEN;
+    const MOVED: u32 = 1 << 31;
+    const SEEN: u32 = 1 << 30;
+
+    /// What a rebuilder that begins now has to know of when the node of that number changed: whether it did.
+    pub fn what_rests(&self, number: usize) -> u32 {
+        let moved = if self.moved[number] > 0 { Self::MOVED } else { 0 };
+        let seen = if self.seen[number] > self.tried[number] {
+            Self::SEEN
+        } else {
+            0
+        };
+        moved | seen
+    }
+
+    /// Takes what [`what_rests`](Self::what_rests) told of the next number, as of the epoch 1.
+    pub fn set_what_rests(&mut self, flags: u32) {
+        self.moved.push(u64::from(flags & Self::MOVED != 0));
+        self.seen.push(u64::from(flags & Self::SEEN != 0));
+    }
+
     /// The node of that number was built, or tried to build anew, from what there was at the epoch `since`. What changed after it is still to be tried.
     pub(super) fn note_tried(&mut self, number: usize, since: u64) {
         self.tried[number] = since;

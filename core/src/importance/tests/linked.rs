@@ -1,6 +1,7 @@
 //! Weights of which masks and least shares leave some.
 
 use super::Random;
+use crate::beam::{Beam, Limits};
 use crate::importance::{ImportanceModel, Leveled, Linked};
 use crate::node::{LinkedMomentNode, Node, kind};
 use crate::point::{LinkedPoint, ShadingPoint};
@@ -29,7 +30,10 @@ fn node(masks: [u32; 4], phi: [f32; 4]) -> LinkedMomentNode<4> {
         phi,
         ..LightMoments::EMPTY
     }));
-    node.set_masks(&masks);
+    node.set_limits(&masks.map(|mask| Limits {
+        mask,
+        beam: Beam::ANYWHERE,
+    }));
     node
 }
 

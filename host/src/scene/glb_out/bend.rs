@@ -4,7 +4,8 @@ use super::material::strength;
 use serde_json::{Value, json};
 
 use super::{UNSIGNED_SHORT, Writer, interpolation};
-use crate::scene::{AnalyticKind, AnalyticLight, Influence, MorphChannel, Primitive, Skin};
+use crate::scene::gltf_in::IES;
+use crate::scene::{AnalyticKind, AnalyticLight, Influence, MorphChannel, Primitive, Profile, Skin};
 
 impl Writer {
     /// Targets and influences of a primitive, whose vertices are written in this order.
@@ -79,4 +80,31 @@ pub(super) fn light(light: &AnalyticLight) -> Option<Value> {
         _ => return None,
     };
     Some(out)
+}
+
+/// What a node says of a photometric light on it; `None` for other kinds.
+pub(super) fn profile_light(light: &AnalyticLight) -> Option<Value> {
+    match light.kind {
+        AnalyticKind::Profile { profile, .. } => Some(json!({ IES: {
+            "light": profile,
+            "multiplier": light.intensity,
+            "color": light.color,
+        } })),
+        _ => None,
+    }
+}
+
+impl Writer {
+    /// A photometric file.
+    pub(super) fn profile(&mut self, profile: &Profile) -> Value {
+        let view = json!({ "buffer": 0, "byteOffset": self.binary.len(), "byteLength": profile.file.len() });
+        self.binary.extend(profile.file.iter());
+        self.binary.resize(self.binary.len().next_multiple_of(4), 0);
+        self.views.push(view);
+        json!({
+            "name": profile.name,
+            "bufferView": self.views.len() - 1,
+            "mimeType": "application/x-ies-lm-63",
+        })
+    }
 }

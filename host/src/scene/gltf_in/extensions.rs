@@ -8,7 +8,8 @@ use super::super::error::SceneError;
 use super::Document;
 
 /// Extensions that are read.
-const READ: [&str; 12] = [
+const READ: [&str; 13] = [
+    "EXT_lights_ies",
     "EXT_meshopt_compression",
     "EXT_texture_webp",
     "KHR_draco_mesh_compression",

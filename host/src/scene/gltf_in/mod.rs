@@ -15,6 +15,7 @@
 //! - `KHR_materials_transmission`, by its factor and the mean of its texture: from a half on, light goes straight through and is tinted.
 //!   Where [`super::Paint`] is not shown, such surfaces, and blended ones, are left out unless they emit ([`super::Material::is_clear`]);
 //! - `KHR_materials_unlit`: the colour is emitted, so that it is seen as it is, and nothing is reflected. It lights what is near;
+//! - `EXT_lights_ies`: photometric files (ANSI/IES LM-63, types A, B and C) become lights of the tree with a profile.
 //! - `KHR_lights_punctual`: points and spots are lights of the tree, suns stand beside it. Ranges are not looked at.
 //!
 //! Radiance is taken as W/(m² sr) where glTF says nits; only the exposure differs. The rest is left out with a note in
@@ -30,6 +31,7 @@ mod container;
 mod draco;
 mod emission;
 mod extensions;
+mod ies;
 mod image;
 mod ktx2;
 mod material;
@@ -55,6 +57,8 @@ use super::read_file::read_file;
 /// Attribute of vertices, without the underscore: radiance of the triangle that the vertex belongs to. Written by
 /// [`super::glb_out`] for emission that differs from triangle to triangle; glTF leaves names with `_` to applications.
 pub(super) const RADIANCE_ATTRIBUTE: &str = "RADIANCE";
+
+pub(super) use ies::NAME as IES;
 
 /// Key in the scene's `extras`: background radiance, three numbers.
 pub(super) const BACKGROUND_EXTRA: &str = "lightbvh_background";
@@ -112,6 +116,7 @@ impl Scene {
         let order = node::read(&document, &mut data)?;
         bend::skins(&document, &order, &mut data)?;
         punctual::read(&document, &order, &mut data)?;
+        ies::read(&document, &order, &mut data)?;
         data.animations = animation::read(&document, &order)?;
         data.pictures = document.pictures.take().into_kept();
         data.warnings = document.into_warnings();

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use bytemuck::{cast_slice, cast_slice_mut};
 use lightbvh::bvh::RebuildParams;
 use lightbvh::light::{AnyLight, BoxLight, PointLight, SphereLight};
-use lightbvh::node::{Lit, Node};
+use lightbvh::node::{Lit, Node, SpotMomentNode};
 use lightbvh::refit::{self, BlasRoot};
 use lightbvh::{Bvh, CompactNode, Edit, EmissiveTriangle, Instance, MomentNode, Transform};
 
@@ -230,14 +230,14 @@ where
 fn a_device_follows_edits() {
     follows::<MomentNode<8>, 8>(false);
     follows::<CompactNode<4>, 4>(false);
-    follows::<Lit<MomentNode<8>, AnyLight>, 8>(false);
+    follows::<Lit<SpotMomentNode<8>, AnyLight>, 8>(false);
 }
 
 #[test]
 fn a_device_follows_rebuilds() {
     follows::<MomentNode<8>, 8>(true);
     follows::<CompactNode<4>, 4>(true);
-    follows::<Lit<MomentNode<8>, AnyLight>, 8>(true);
+    follows::<Lit<SpotMomentNode<8>, AnyLight>, 8>(true);
 }
 
 #[test]

@@ -107,7 +107,7 @@ pub fn as_painted<L: Emitter>(
     if <L::Skin<'_> as Skin>::IS_PAINTED {
         let uv = [sample.uv[0], sample.uv[1]];
         let light = scene.emitters.light(sample.light, sample.instance);
-        let light = scene.glowing(light, sample.light, uv);
+        let light = scene.glowing(light, sample.light, surface.point.position(), uv);
         contribution = light
             .connect(&surface.point, surface.wo(), material, 1.0, uv)
             .contribution;

@@ -1,0 +1,212 @@
+//! Beams: where all the light of a set of lights can go, and what limits it besides.
+
+use glam::Vec3;
+
+use crate::cone::{sine_of, widened};
+use crate::exact::{self, pow2};
+use crate::instance::Instance;
+use crate::vector::{abs3, dot, flush3, length_squared};
+
+/// Places within `radius` of `c`, and directions within θ_e of `axis`: no light of the set leaves from or to elsewhere.
+///
+/// θ_e is the emission angle of Conty Estevez & Kulla 2018, section 4.1, about the set's axis: θ_o + θ_e there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Beam {
+    /// Unit axis; any vector where `cos_theta_e` is −1.
+    pub axis: Vec3,
+    /// cos θ_e: −1 where light may go anywhere, else above 0.
+    pub cos_theta_e: f32,
+    /// Centre of the places, metres.
+    pub c: Vec3,
+    /// Their greatest distance from the centre, metres.
+    pub radius: f32,
+}
+
+/// Cosines below this count as none: 2^-8 is 89.8°.
+const LEAST_COSINE: f32 = pow2(-8);
+/// A squared length of an axis below which it has no direction.
+const LEAST_AXIS: f32 = pow2(-12);
+/// What a sum of angles is rounded down by, in cosine, and widened by, 2^-11 rad: as the union of cones.
+const COSINE_SLACK: f32 = pow2(-21);
+const WIDEN_SIN: f32 = pow2(-11);
+const WIDEN_COS_DEFECT: f32 = pow2(-23);
+/// Lengths below this part of a unit count as zero, squared.
+const LEAST_SQUARE: f32 = pow2(-60);
+/// √3 and some: the diagonal of a cube.
+const LONGER: f32 = 1.001;
+/// Rounding of coordinates, as a part of them, and of lengths in units.
+const ROUNDING: f32 = pow2(-21);
+const LEAST_RADIUS: f32 = pow2(-18);
+/// How far from a similarity a map may be and count as one, in squared lengths of about 1.
+const UNEVEN: f32 = pow2(-14);
+
+impl Beam {
+    /// Light that may go anywhere.
+    pub const ANYWHERE: Self = Self {
+        axis: Vec3::new(0.0, 0.0, 0.0),
+        cos_theta_e: -1.0,
+        c: Vec3::new(0.0, 0.0, 0.0),
+        radius: 0.0,
+    };
+
+    /// From one place into a cone; anywhere from 90° on.
+    #[inline(always)]
+    #[must_use]
+    pub fn of_cone(p: Vec3, axis: Vec3, cosine: f32) -> Self {
+        if cosine > 0.0 {
+            Self {
+                axis,
+                cos_theta_e: cosine,
+                c: p,
+                radius: 0.0,
+            }
+        } else {
+            Self::ANYWHERE
+        }
+    }
+
+    /// Whether it says anything.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_narrow(&self) -> bool {
+        self.cos_theta_e > 0.0
+    }
+
+    /// The cosine of the least angle about the direction of `axis`, of any length up to 1, that holds all directions; −1 where that is
+    /// 90° or about that. Rounded down.
+    #[inline(always)]
+    pub(crate) fn cosine_about(&self, axis: Vec3) -> f32 {
+        let axis = flush3(axis, pow2(-30));
+        let squared = length_squared(axis);
+        let has_axis = squared > LEAST_AXIS;
+        let unit = axis * exact::rsqrt(if has_axis { squared } else { 1.0 });
+        let cos_d = exact::clamp(dot(unit, self.axis), -1.0, 1.0);
+        // In this form the sine is precise for small angles too.
+        let across = flush3(self.axis - unit * cos_d, pow2(-30));
+        let sin_d = exact::sqrt(exact::min(length_squared(across), 1.0));
+        let cosine = widened(
+            exact::clamp(self.cos_theta_e, 0.0, 1.0),
+            WIDEN_SIN,
+            WIDEN_COS_DEFECT,
+        );
+        let sum = cos_d * cosine - sin_d * sine_of(cosine) - COSINE_SLACK;
+        // Both angles are below 90° where the sum is.
+        if has_axis & self.is_narrow() & (cos_d > 0.0) & (sum > LEAST_COSINE) {
+            sum
+        } else {
+            -1.0
+        }
+    }
+
+    /// The greatest distance of its places from `c`, in units of which one is 1/`per_unit` metres, rounded up. All lengths are at most some of
+    /// them.
+    #[inline(always)]
+    pub(crate) fn radius_about(&self, c: Vec3, per_unit: f32) -> f32 {
+        let away = flush3((self.c - c) * per_unit, pow2(-30));
+        let apart = exact::sqrt(exact::flush(length_squared(away), LEAST_SQUARE));
+        // Coordinates are rounded, and so is what comes into their space from another.
+        let a = abs3(c);
+        let rounding = (exact::max(exact::max(a.x, a.y), a.z) * ROUNDING) * per_unit;
+        (apart + self.radius * per_unit) * LONGER + rounding + LEAST_RADIUS
+    }
+
+    /// The beam in the world of a set that `instance` puts there. Where its map is no similarity light may go anywhere: angles between axes
+    /// change.
+    #[inline(always)]
+    pub(crate) fn to_world(self, instance: &Instance) -> Self {
+        if self.is_narrow() & instance.is_even() {
+            let c = instance.vertex([self.c.x, self.c.y, self.c.z]);
+            Self {
+                axis: instance.direction_to_world(self.axis),
+                cos_theta_e: self.cos_theta_e,
+                c: Vec3::new(c[0], c[1], c[2]),
+                radius: exact::flush(self.radius * (instance.scale() * LONGER), pow2(-100)),
+            }
+        } else {
+            Self::ANYWHERE
+        }
+    }
+}
+
+/// A beam around others, about an axis and a centre that are given.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Union {
+    whole: Beam,
+    unit_exponent: i32,
+}
+
+impl Union {
+    /// Around none. Lengths are computed in units of two to `unit_exponent` metres.
+    #[inline(always)]
+    pub fn about(axis: Vec3, c: Vec3, unit_exponent: i32) -> Self {
+        let axis = flush3(axis, pow2(-30));
+        let squared = length_squared(axis);
+        let has_axis = squared > LEAST_AXIS;
+        let whole = Beam {
+            axis: axis * exact::rsqrt(if has_axis { squared } else { 1.0 }),
+            cos_theta_e: if has_axis { 1.0 } else { -1.0 },
+            c,
+            radius: 0.0,
+        };
+        Self { whole, unit_exponent }
+    }
+
+    /// Takes `beam` in where it `shines`.
+    #[inline(always)]
+    pub fn add(&mut self, shines: bool, beam: &Beam) {
+        let cosine = beam.cosine_about(self.whole.axis);
+        let radius = beam.radius_about(self.whole.c, pow2(-self.unit_exponent));
+        let own = &mut self.whole;
+        own.cos_theta_e = if shines {
+            exact::min(own.cos_theta_e, cosine)
+        } else {
+            own.cos_theta_e
+        };
+        own.radius = if shines {
+            exact::max(own.radius, radius)
+        } else {
+            own.radius
+        };
+    }
+
+    #[inline(always)]
+    pub fn beam(&self) -> Beam {
+        let radius = exact::flush(self.whole.radius * pow2(self.unit_exponent), pow2(-100));
+        if self.whole.is_narrow() {
+            Beam { radius, ..self.whole }
+        } else {
+            Beam::ANYWHERE
+        }
+    }
+}
+
+/// What limits the light of a set besides its moments or bounds: which receivers take it, and where it goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// The union of the masks of its lights that have flux.
+    pub mask: u32,
+    /// Where their light goes.
+    pub beam: Beam,
+}
+
+impl Limits {
+    /// Of no light at all.
+    pub const NONE: Self = Self {
+        mask: 0,
+        beam: Beam::ANYWHERE,
+    };
+}
+
+impl Instance {
+    /// Whether its map keeps angles: a similarity, within 2^-14.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_even(&self) -> bool {
+        let ([a, b, c], _) = self.columns_of_one();
+        let (aa, bb, cc) = (dot(a, a), dot(b, b), dot(c, c));
+        let (ab, bc, ca) = (dot(a, b), dot(b, c), dot(c, a));
+        let slack = UNEVEN * aa;
+        let near = |x: f32| exact::abs(x) <= slack;
+        near(aa - bb) & near(aa - cc) & near(ab) & near(bc) & near(ca)
+    }
+}

@@ -1,0 +1,244 @@
+//! Points whose intensity is measured, direction by direction.
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+
+use super::infinite::place_of;
+use super::punctual::{at, bounds, moments, phi, phi_per_intensity, within_cone};
+use super::record::{Each, Light, checked_emission, checked_place, shining, towards, unit};
+use super::{INVALID, LightError, LightPoint};
+use crate::beam::Beam;
+use crate::bounds::LightBounds;
+use crate::cone::Cone;
+use crate::emission::luminance_of;
+use crate::exact::{self, pow2};
+use crate::instance::Instance;
+use crate::moments::LightMoments;
+use crate::point::NORMAL_TOLERANCE;
+use crate::vector::{cross, dot, flush3, length_squared};
+
+/// A point with a photometric profile: what it sends in each direction is its greatest intensity times what a table says there, as IES files
+/// (ANSI/IES LM-63) have one. The table is the engine's; a tree needs three numbers of it, its integral, its mean cosine, and its cone.
+///
+/// [`point_for`](Light::point_for) has the greatest intensity wherever the cone reaches. What arrives is that times the table at
+/// [`coordinates`](Self::coordinates), by which the reference renderer reads it from a picture.
+///
+/// An instance turns its axes, and leaves its table as it is; one that mirrors mirrors it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct ProfileLight {
+    /// Where it is, metres.
+    pub p: [f32; 3],
+    /// Greatest radiant intensity, W/sr, linear RGB; zero or from 2^-100 to 2^100.
+    pub intensity: [f32; 3],
+    /// Unit direction of the table's axis: vertical angle 0.
+    pub axis: [f32; 3],
+    /// Unit direction across it at which the table's horizontal angle is 0. From there the angle grows towards `across × axis`.
+    pub across: [f32; 3],
+    /// Cosine of the angle from the axis beyond which the table is zero; −1 up to 1 − 2^-20.
+    pub cos_outer: f32,
+    /// Integral of the table, relative to its greatest number, over all directions, over 2π: 0, or from 2^-40 up to 2, which is a table of ones.
+    pub whole: f32,
+    /// Mean of the cosine to the axis over that: `cos_outer` up to 1.
+    pub mean_cosine: f32,
+    /// Index of the mesh light that owns it.
+    pub mesh: u32,
+    /// [`MIRRORED`](Self::MIRRORED) or 0.
+    pub flags: u32,
+}
+
+const _: () = assert!(size_of::<ProfileLight>() == 68);
+
+/// The length of the mean direction of a diffuse emitter is 2/3; a mean normal is that over it.
+const PER_MEAN_DIRECTION: f32 = 1.5;
+const TWO_PI: f32 = 2.0 * core::f32::consts::PI;
+/// Squared length below which a direction across an axis is none.
+const LEAST_ACROSS: f32 = pow2(-20);
+
+impl ProfileLight {
+    /// Bit of [`flags`](Self::flags): the horizontal angle grows the other way.
+    pub const MIRRORED: u32 = 2;
+
+    #[inline(always)]
+    fn axis(&self) -> Vec3 {
+        Vec3::new(self.axis[0], self.axis[1], self.axis[2])
+    }
+
+    #[inline(always)]
+    fn across(&self) -> Vec3 {
+        Vec3::new(self.across[0], self.across[1], self.across[2])
+    }
+
+    #[inline(always)]
+    fn place(&self) -> Vec3 {
+        Vec3::new(self.p[0], self.p[1], self.p[2])
+    }
+
+    /// Where a picture of the table, an unfolded octahedron with the axis in the middle ([`place_of`], halved and moved to 0..=1), has the
+    /// direction from the light to `from`.
+    #[inline(always)]
+    #[must_use]
+    pub fn coordinates(&self, from: Vec3) -> [f32; 2] {
+        let d = towards(self.place(), from);
+        let third = cross(self.across(), self.axis());
+        let along = dot(d, third);
+        let turned = if self.flags & Self::MIRRORED != 0 {
+            -along
+        } else {
+            along
+        };
+        let local = flush3(
+            Vec3::new(dot(d, self.across()), dot(d, self.axis()), turned),
+            pow2(-30),
+        );
+        // Where the light is, no direction is better than another.
+        let is_there = length_squared(local) < 0.25;
+        let [u, v] = place_of([local.x, if is_there { 1.0 } else { local.y }, local.z]);
+        [u * 0.5 + 0.5, v * 0.5 + 0.5]
+    }
+}
+
+impl Light for ProfileLight {
+    const NAME: &'static str = "light with a profile";
+    const DARK: Self = Self {
+        p: [0.0; 3],
+        intensity: [0.0; 3],
+        axis: [0.0, 0.0, 1.0],
+        across: [1.0, 0.0, 0.0],
+        cos_outer: -1.0,
+        whole: 0.0,
+        mean_cosine: 0.0,
+        mesh: INVALID,
+        flags: 0,
+    };
+
+    const MESH_WORD: usize = core::mem::offset_of!(Self, mesh) / 4;
+    const FLUX_POWER: u32 = 0;
+    type Slots<const W: usize> = Each<Self, W>;
+
+    fn checked(mut self) -> Result<Self, LightError> {
+        self.p = checked_place("light with a profile", self.p)?;
+        self.intensity = checked_emission("intensity of a light with a profile", self.intensity)?;
+        for axis in [self.axis, self.across] {
+            let squared = length_squared(Vec3::new(axis[0], axis[1], axis[2]));
+            // NaN is in no range.
+            if !(1.0 - NORMAL_TOLERANCE..=1.0 + NORMAL_TOLERANCE).contains(&squared) {
+                return Err(LightError::Axis { axis });
+            }
+        }
+        if exact::abs(dot(self.axis(), self.across())) > NORMAL_TOLERANCE {
+            return Err(LightError::Axis { axis: self.across });
+        }
+        let (outer, whole, mean) = (self.cos_outer, self.whole, self.mean_cosine);
+        let is_known = (-1.0..=1.0 - pow2(-20)).contains(&outer)
+            && (whole == 0.0 || (pow2(-40)..=2.0).contains(&whole))
+            && (-1.0..=1.0).contains(&mean)
+            && (mean >= outer || whole == 0.0);
+        if !is_known {
+            return Err(LightError::Profile {
+                cos_outer: outer,
+                whole,
+                mean_cosine: mean,
+            });
+        }
+        if self.flags & !Self::MIRRORED != 0 {
+            return Err(LightError::Flags { flags: self.flags });
+        }
+        self.axis = unit(self.axis);
+        self.across = unit(self.across);
+        Ok(self)
+    }
+
+    #[inline(always)]
+    fn mesh(&self) -> u32 {
+        self.mesh
+    }
+
+    #[inline(always)]
+    fn of_mesh(self, mesh: u32) -> Self {
+        Self { mesh, ..self }
+    }
+
+    #[inline(always)]
+    fn centroid(&self) -> [f32; 3] {
+        self.p
+    }
+
+    fn reach(&self) -> f32 {
+        super::record::greatest(&self.p)
+    }
+
+    #[inline(always)]
+    fn has_flux(&self) -> bool {
+        luminance_of(&self.intensity) > 0.0 && self.whole > 0.0
+    }
+
+    #[inline(always)]
+    fn beam(&self) -> Beam {
+        Beam::of_cone(self.place(), self.axis(), self.cos_outer)
+    }
+
+    #[inline(always)]
+    fn bounds(&self) -> LightBounds {
+        let cone = Cone {
+            axis: self.axis(),
+            cos_theta_o: 1.0,
+        };
+        let within = self.cos_outer >= 0.0;
+        let moments = self.moments();
+        bounds(&self.p, moments.phi, if within { cone } else { Cone::SPHERE })
+    }
+
+    /// As of a [`SpotLight`](super::SpotLight).
+    #[inline(always)]
+    fn moments(&self) -> LightMoments {
+        let shines = self.whole > 0.0;
+        let per_intensity = phi_per_intensity(TWO_PI * if shines { self.whole } else { 1.0 });
+        let own = phi(&self.intensity, per_intensity);
+        let length = exact::clamp(PER_MEAN_DIRECTION * self.mean_cosine, -1.0, 1.0);
+        let m = flush3(self.axis() * exact::flush(length, pow2(-30)), pow2(-60));
+        moments(&self.p, if shines { own } else { 0.0 }, m)
+    }
+
+    #[inline(always)]
+    fn in_world(&self, instance: &Instance, index: u32) -> Self {
+        let axis = instance.direction_to_world(self.axis());
+        let turned = instance.direction_to_world(self.across());
+        // Across again, which a map that shears does not leave it.
+        let off = flush3(turned - axis * dot(turned, axis), pow2(-30));
+        let squared = length_squared(off);
+        let across = off * exact::rsqrt(exact::max(squared, LEAST_ACROSS));
+        let other = if exact::abs(axis.x) < 0.5 {
+            Vec3::new(1.0, 0.0, 0.0)
+        } else {
+            Vec3::new(0.0, 1.0, 0.0)
+        };
+        let any = flush3(cross(axis, other), pow2(-30));
+        let any = any * exact::rsqrt(exact::max(length_squared(any), LEAST_ACROSS));
+        let is_kept = squared > LEAST_ACROSS;
+        Self {
+            p: instance.vertex(self.p),
+            intensity: shining(&self.intensity, instance.radiance, self.has_flux()),
+            axis: [axis.x, axis.y, axis.z],
+            across: [
+                if is_kept { across.x } else { any.x },
+                if is_kept { across.y } else { any.y },
+                if is_kept { across.z } else { any.z },
+            ],
+            mesh: index,
+            flags: if instance.mirrors() {
+                self.flags ^ Self::MIRRORED
+            } else {
+                self.flags
+            },
+            ..*self
+        }
+    }
+
+    #[inline(always)]
+    fn point_for(&self, from: Vec3, _uv: [f32; 2]) -> LightPoint {
+        let within = within_cone(self.axis(), self.cos_outer, towards(self.place(), from));
+        let [r, g, b] = self.intensity;
+        at(&self.p, if within { [r, g, b] } else { [0.0; 3] })
+    }
+}

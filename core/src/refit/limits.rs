@@ -1,0 +1,95 @@
+//! The limits of a node's children: unions of masks, and beams, over the lights below that have flux.
+//!
+//! A union of masks is exact, so a child has a bit just where a light below it with flux has that bit. A walk that keeps to children with a
+//! common bit comes to no dead end. A beam holds those of all lights below.
+
+use super::BlasRoot;
+use crate::beam::Limits;
+use crate::instance::Instance;
+use crate::light::Light;
+use crate::node::{Node, kind};
+use crate::summary::Lanes;
+
+/// Whether layout `N` stores any.
+#[inline(always)]
+pub(crate) const fn has_limits<N: Node<W>, const W: usize>() -> bool {
+    N::HAS_MASKS || N::HAS_BEAMS
+}
+
+/// The limits of the children of a bottom level's `node`, for [`Node::set_limits`]; `children` are their summaries. Node `first` and those
+/// after it stand in `nodes`.
+#[inline(always)]
+pub(crate) fn limits_below<N: Node<W>, const W: usize>(
+    nodes: &[N],
+    first: u32,
+    triangles: &[N::Light],
+    node: &N,
+    children: &Lanes<W>,
+) -> [Limits; W] {
+    let mut limits = [Limits::NONE; W];
+    if has_limits::<N, W>() {
+        for slot in 0..W {
+            let (to, link) = (node.kind(slot), node.link(slot));
+            let below = link.wrapping_sub(first);
+            if to == kind::LIGHT && link < triangles.len() as u32 {
+                let light = &triangles[link as usize];
+                limits[slot].mask = light.mask();
+                if N::HAS_BEAMS {
+                    limits[slot].beam = light.beam();
+                }
+            } else if to == kind::INNER && below < nodes.len() as u32 {
+                limits[slot] = nodes[below as usize].merged_limits(&children.get(slot));
+            }
+        }
+    }
+    limits
+}
+
+/// The limits of the children of the top level's `node`.
+#[inline(always)]
+pub(super) fn limits_of_top<N: Node<W>, const W: usize>(
+    nodes: &[N],
+    instances: &[Instance],
+    roots: &[BlasRoot],
+    node: &N,
+    children: &Lanes<W>,
+) -> [Limits; W] {
+    let mut limits = [Limits::NONE; W];
+    if has_limits::<N, W>() {
+        for slot in 0..W {
+            let (to, link) = (node.kind(slot), node.link(slot));
+            if to == kind::MESH && link < instances.len() as u32 {
+                let instance = &instances[link as usize];
+                if instance.blas < roots.len() as u32 {
+                    limits[slot] = limits_of_instance(nodes, &roots[instance.blas as usize], instance);
+                }
+            } else if to == kind::INNER && link < nodes.len() as u32 {
+                limits[slot] = nodes[link as usize].merged_limits(&children.get(slot));
+            }
+        }
+    }
+    limits
+}
+
+/// The limits of a bottom level that `instance` puts into the world. They stand in the node of the root alone, so that the records of roots are
+/// the same without limits.
+#[inline(always)]
+pub(crate) fn limits_of_instance<N: Node<W>, const W: usize>(
+    nodes: &[N],
+    root: &BlasRoot,
+    instance: &Instance,
+) -> Limits {
+    if root.node < nodes.len() as u32 {
+        let own = nodes[root.node as usize].merged_limits(&root.summary());
+        Limits {
+            beam: if N::HAS_BEAMS {
+                own.beam.to_world(instance)
+            } else {
+                own.beam
+            },
+            ..own
+        }
+    } else {
+        Limits::NONE
+    }
+}

@@ -1,0 +1,194 @@
+//! Photometric profiles as the renderer shows them: a picture over all directions, and the numbers that a tree needs of it.
+
+use std::sync::Arc;
+
+use bytemuck::cast_slice;
+use lightbvh::light::infinite::{direction_at, place_of};
+use lightbvh_kernels::shading::picture::{self, PictureWords};
+use lightbvh_kernels::shading::skin::{HEADER_WORDS, SRGB_WORDS};
+
+use super::ies_in::Photometry;
+use super::paint::Picture;
+use super::srgb::linear_from_srgb;
+
+/// Sides of the picture: the least of which two texels fit between the angles of the table, or the greatest.
+const SIDES: [u32; 4] = [64, 128, 256, 512];
+/// Places along a side of a texel that the table is read at.
+const WITHIN: u32 = 3;
+/// What corners of a texel may miss of the cone around it, in cosine.
+const SLACK: f32 = 2.0e-4;
+
+/// A luminaire's profile.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    /// For messages.
+    pub name: String,
+    /// The file, for export.
+    pub file: Arc<Vec<u8>>,
+    /// What it sends, relative to [`peak`](Self::peak), encoded as sRGB: an unfolded octahedron with the axis in the middle.
+    pub picture: Picture,
+    /// Candela where the picture shows one; such that its integral is the table's.
+    pub peak: f32,
+    /// Integral of what the picture shows, over 2π.
+    pub whole: f32,
+    /// The mean cosine to the axis over that.
+    pub mean_cosine: f32,
+    /// Cosine of the angle beyond which the picture is black.
+    pub cos_outer: f32,
+}
+
+impl Profile {
+    /// Of a photometric file.
+    ///
+    /// # Errors
+    /// As [`Photometry::read`], and for a luminaire that sends nothing.
+    pub fn read(name: String, file: Vec<u8>) -> Result<Self, String> {
+        let table = Photometry::read(&file)?;
+        let step = table.least_step();
+        let side = SIDES
+            .into_iter()
+            .find(|side| 360.0 / f64::from(*side) <= step)
+            .unwrap_or(SIDES[3]);
+        let means = means(&table, side);
+        let greatest = means.iter().copied().fold(0.0, f64::max);
+        if greatest <= 0.0 {
+            return Err(String::from("it sends no light in any direction"));
+        }
+        let linear: Vec<f64> = (0..=255).map(|byte| f64::from(linear_from_srgb(byte))).collect();
+        let middles: Vec<f64> = linear.windows(2).map(|pair| (pair[0] + pair[1]) * 0.5).collect();
+        let texels = means.iter().flat_map(|mean| {
+            let byte = middles.partition_point(|middle| *middle <= mean / greatest) as u8;
+            [byte, byte, byte, 255]
+        });
+        let picture = Picture {
+            width: side,
+            height: side,
+            texels: Arc::new(texels.collect()),
+        };
+        let shown = Shown::of(&picture);
+        let sent = over_directions(side, |local| table.candela(local.map(f64::from)));
+        let seen = over_directions(side, |local| f64::from(shown.at(local)));
+        let tau = std::f64::consts::TAU;
+        Ok(Self {
+            name,
+            file: Arc::new(file),
+            peak: (greatest * (sent[0] / (greatest * seen[0]))) as f32,
+            whole: ((seen[0] / tau) as f32).min(2.0),
+            mean_cosine: ((seen[1] / seen[0]) as f32).clamp(-1.0, 1.0),
+            cos_outer: cos_outer(&picture)
+                .min((seen[1] / seen[0]) as f32 - 1.0e-6)
+                .max(-1.0),
+            picture,
+        })
+    }
+
+    /// What the picture shows towards a direction of the profile: x where horizontal angles begin, z its axis, y to their left.
+    pub fn shown(&self, local: [f32; 3]) -> f32 {
+        Shown::of(&self.picture).at(local)
+    }
+}
+
+/// The direction in the profile at a place of the octahedron, whose pole is y.
+fn local_at(place: [f32; 2]) -> [f32; 3] {
+    let [x, y, z] = direction_at(place);
+    [x, z, y]
+}
+
+/// The mean of the table over each texel.
+fn means(table: &Photometry, side: u32) -> Vec<f64> {
+    let fine = side * WITHIN;
+    let place = |k: u32| (2 * k + 1) as f32 / fine as f32 - 1.0;
+    let mut sums = vec![0.0; (side * side) as usize];
+    for row in 0..fine {
+        for column in 0..fine {
+            let local = local_at([place(column), place(row)]);
+            let texel = (row / WITHIN) * side + column / WITHIN;
+            sums[texel as usize] += table.candela(local.map(f64::from));
+        }
+    }
+    sums.iter().map(|sum| sum / f64::from(WITHIN * WITHIN)).collect()
+}
+
+/// Integrals over all directions of `value`, and of it times the cosine to the axis.
+fn over_directions(side: u32, value: impl Fn([f32; 3]) -> f64) -> [f64; 2] {
+    let fine = side * WITHIN;
+    let place = |k: u32| (2 * k + 1) as f32 / fine as f32 - 1.0;
+    let cell = 4.0 / (f64::from(fine) * f64::from(fine));
+    let mut sums = [0.0; 2];
+    for row in 0..fine {
+        for column in 0..fine {
+            let local = local_at([place(column), place(row)]);
+            // The octahedron |x| + |y| + |z| = 1 is 1/sum away in that direction; a part of the square is seen under the cube of that less.
+            let sum: f64 = local.iter().map(|x| f64::from(x.abs())).sum();
+            let own = cell * sum * sum * sum * value(local);
+            sums[0] += own;
+            sums[1] += own * f64::from(local[2]);
+        }
+    }
+    sums
+}
+
+/// The least cosine of a direction in which the picture shows anything: each texel shows up to the middles of those beside it.
+fn cos_outer(picture: &Picture) -> f32 {
+    let side = picture.width;
+    let mut least: f32 = 1.0;
+    for row in 0..side {
+        for column in 0..side {
+            if picture.texels[((row * side + column) * 4) as usize] == 0 {
+                continue;
+            }
+            let place =
+                |k: u32, by: f32| (((2 * k + 1) as f32 + 2.0 * by) / side as f32 - 1.0).clamp(-1.0, 1.0);
+            for by in [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0], [0.0, 0.0]] {
+                least = least.min(local_at([place(column, by[0]), place(row, by[1])])[2]);
+            }
+        }
+    }
+    (least - SLACK).max(-1.0)
+}
+
+/// The words of a picture of encoded colours that covers all directions, whose texels begin at word `texels`.
+pub(super) fn picture_words(picture: &Picture, texels: u32) -> PictureWords {
+    PictureWords {
+        width: picture.width,
+        height: picture.height,
+        flags: PictureWords::SRGB
+            | (PictureWords::CLAMP << PictureWords::WRAP_COLUMNS)
+            | (PictureWords::CLAMP << PictureWords::WRAP_ROWS),
+        transform: [1.0, 0.0, 0.0, 1.0, 0.0, 0.0],
+        texels,
+    }
+}
+
+/// The texels of a picture, a word each.
+pub(super) fn texel_words(picture: &Picture) -> impl Iterator<Item = u32> + '_ {
+    let texels = picture.texels.chunks_exact(4);
+    texels.map(|rgba| u32::from_le_bytes([rgba[0], rgba[1], rgba[2], rgba[3]]))
+}
+
+/// A picture as the kernels read it: what is integrated is what is shown.
+struct Shown {
+    words: Vec<u32>,
+    at: u32,
+}
+
+impl Shown {
+    fn of(picture: &Picture) -> Self {
+        let mut words = vec![0; HEADER_WORDS as usize];
+        words.extend((0..SRGB_WORDS).map(|byte| linear_from_srgb(byte as u8).to_bits()));
+        let texels = words.len() as u32;
+        words.extend(texel_words(picture));
+        let at = words.len() as u32;
+        words.extend_from_slice(cast_slice(&[picture_words(picture, texels)]));
+        Self { words, at }
+    }
+
+    fn at(&self, [x, y, z]: [f32; 3]) -> f32 {
+        let [u, v] = place_of([x, z, y]);
+        let own = picture::Picture {
+            words: &self.words,
+            at: self.at,
+        };
+        own.at([u * 0.5 + 0.5, v * 0.5 + 0.5]).r
+    }
+}
