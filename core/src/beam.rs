@@ -151,22 +151,14 @@ impl Union {
         Self { whole, unit_exponent }
     }
 
-    /// Takes `beam` in where it `shines`.
+    /// Takes `beam` in.
     #[inline(always)]
-    pub fn add(&mut self, shines: bool, beam: &Beam) {
+    pub fn add(&mut self, beam: &Beam) {
         let cosine = beam.cosine_about(self.whole.axis);
         let radius = beam.radius_about(self.whole.c, pow2(-self.unit_exponent));
         let own = &mut self.whole;
-        own.cos_theta_e = if shines {
-            exact::min(own.cos_theta_e, cosine)
-        } else {
-            own.cos_theta_e
-        };
-        own.radius = if shines {
-            exact::max(own.radius, radius)
-        } else {
-            own.radius
-        };
+        own.cos_theta_e = exact::min(own.cos_theta_e, cosine);
+        own.radius = exact::max(own.radius, radius);
     }
 
     #[inline(always)]

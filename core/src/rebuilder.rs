@@ -230,9 +230,12 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
             self.taken = None;
         }
         let flight = self.begin_flight(scene, &mut start);
-        if !start.swapped || !scene.is_top_large() {
-            self.reopen_some(scene);
-        }
+        let most = match start.swapped {
+            false => REOPENED,
+            true if scene.is_top_large() => 0,
+            true => 1,
+        };
+        self.reopen_some(scene, most);
         flight?;
         meshes?;
         Ok(start)
@@ -276,7 +279,9 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
             if let Some(gain) = rebuilt.gain_above() {
                 self.search.note_gain(gain);
             }
-            let wanted = scene.install_closed(rebuilt).map_err(|_| RebuildError::Foreign)?;
+            let wanted = scene
+                .install_as(rebuilt, false)
+                .map_err(|_| RebuildError::Foreign)?;
             for (opens, those) in [true, false].into_iter().zip(wanted) {
                 self.reopening
                     .extend(those.into_iter().map(|index| (index, opens)));
@@ -291,12 +296,12 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
 
     /// Opens or closes some of the instances that a rebuilt top level asks it for: as many parts go and come as a node has children, and each is put
     /// in where it costs least, which is as long as what else a frame has time for. Not in a frame in which a part of a large top level comes in.
-    fn reopen_some<I, T: Trails>(&mut self, scene: &mut Bvh<N, I, W, T>) {
+    fn reopen_some<I, T: Trails>(&mut self, scene: &mut Bvh<N, I, W, T>, most: usize) {
         if self.reopens.is_some_and(|of| !of.is_of_same(scene.now())) {
             self.reopening.clear();
             self.reopened.clear();
         }
-        for _ in 0..REOPENED {
+        for _ in 0..most {
             if let Some((index, opens)) = self.reopening.pop_front()
                 && scene.reopen_one(index, opens)
             {

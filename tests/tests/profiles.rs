@@ -73,7 +73,7 @@ fn floors_get_what_the_table_says() {
         let mut data = plain_floor(aim as f32);
         data.profiles.push(profile());
         // Above the origin; its -Z leans.
-        let lean = [0.3_f64, -0.9, 0.2];
+        let lean = [3.0_f64, -9.0, 2.0].map(|x| x / 94.0_f64.sqrt());
         let Transform::Matrix([x, y, z, _]) = along(lean) else {
             unreachable!("a matrix");
         };
@@ -93,7 +93,12 @@ fn floors_get_what_the_table_says() {
             |axis: [f32; 3]| axis.iter().zip(d).map(|(a, d)| f64::from(*a) * d).sum::<f64>() / squared.sqrt();
         let candela = table.candela([component(x), component(y), -component(z)]);
         let light = 2.0 * candela * height / squared.powf(1.5);
-        println!("{aim} {height}: {candela} cd");
+        let own = profile();
+        let local = [component(x), component(y), -component(z)].map(|x| x as f32);
+        println!(
+            "{aim} {height}: {candela} cd, shown {}",
+            own.shown(local) * own.peak
+        );
         // Pictures are of bytes and of means over texels: two hundredths of what is there.
         reflects(data, [light, 0.5 * light, 0.25 * light], [0.5; 3], 0.02);
     }

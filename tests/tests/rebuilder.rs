@@ -8,7 +8,7 @@ use std::time::Duration;
 use lightbvh::bvh::{RebuildParams, Rebuilt};
 use lightbvh::rebuilder::Swap;
 use lightbvh::{
-    Bvh, Edit, EmissiveTriangle, Eq4, InstanceId, LightBounds, MeshId, RebuildError, Rebuilder,
+    BuildParams, Bvh, Edit, EmissiveTriangle, Eq4, InstanceId, LightBounds, MeshId, RebuildError, Rebuilder,
     RebuilderParams, Transform,
 };
 use lightbvh_tests::edits::{Model, edits};
@@ -107,9 +107,18 @@ fn animate<const TEST: usize>(
     params: RebuilderParams,
     pace: impl Fn(usize) -> Pace,
 ) -> (Vec<Words>, usize) {
+    animate_as::<TEST>(seed, params, BuildParams::default(), pace)
+}
+
+fn animate_as<const TEST: usize>(
+    seed: u32,
+    params: RebuilderParams,
+    build: BuildParams,
+    pace: impl Fn(usize) -> Pace,
+) -> (Vec<Words>, usize) {
     slowed::spare();
     let random = &mut Random::new(seed);
-    let (mut scene, mut model) = (Tree::<TEST>::default(), Model::default());
+    let (mut scene, mut model) = (Tree::<TEST>::new(build), Model::default());
     let mut rebuilder = Rebuilder::new(params);
     let (mut frames, mut swaps) = (Vec::new(), 0);
     for frame in 0..FRAMES {
@@ -132,10 +141,16 @@ fn animate<const TEST: usize>(
     (frames, swaps)
 }
 
+/// No instance is opened: a rebuilder opens few in a frame, `install` all that are to be.
+const WHOLE: BuildParams = BuildParams {
+    opens: false,
+    ..BuildParams::BALANCED
+};
+
 /// The same frames with each rebuild run on the spot and swapped in at the start of the next frame.
 fn animate_inline<const TEST: usize>(seed: u32) -> Vec<Words> {
     let random = &mut Random::new(seed);
-    let (mut scene, mut model) = (Tree::<TEST>::default(), Model::default());
+    let (mut scene, mut model) = (Tree::<TEST>::new(WHOLE), Model::default());
     let mut flying: Option<Rebuilt<Slowed<TEST>, 4>> = None;
     (0..FRAMES)
         .map(|frame| {
@@ -175,8 +190,9 @@ fn the_worker_s_speed_does_not_show() {
             assert_same(&fast, &late, &format!("seed {seed}, after {after}"));
             assert!(swaps >= FRAMES / (after as usize + 2), "{swaps} swaps");
             if after == 1 {
+                let (whole, _) = animate_as::<TEST>(seed, params, WHOLE, |_| Pace::Full);
                 assert_same(
-                    &fast,
+                    &whole,
                     &animate_inline::<TEST>(seed),
                     &format!("seed {seed}, inline"),
                 );

@@ -211,7 +211,12 @@ fn images(scene: &Scene) -> Vec<(String, [f64; 3], [f64; 3])> {
 /// A floor that reflects half of all light, `aim` metres from the origin along x seen from above.
 pub fn plain_floor(aim: f32) -> SceneData {
     let mut data = floor(PLAIN, Vec::new(), [aim, 12.0]);
-    data.materials[0].paint = None;
+    data.materials[0] = Material {
+        paint: None,
+        metallic: 0.0,
+        roughness: 1.0,
+        ..data.materials[0].clone()
+    };
     data
 }
 

@@ -58,6 +58,8 @@ impl Changes {
     }
 }
 
+/// Entries of lists that an edit may sort: in some 50 µs.
+const SHORT: usize = 4096;
 /// Entries of a list that are never too many.
 const LEAST: usize = 256;
 
@@ -83,6 +85,8 @@ pub(super) struct Pending {
     pub written_instances: Vec<u32>,
     /// Whether all instances may have changed: their lists, which are empty then but for what came since, would be longer than the arrays.
     pub all_instances: bool,
+    /// How many entries were left when repeated ones were dropped last.
+    kept: usize,
 }
 
 impl Pending {
@@ -133,7 +137,13 @@ impl Pending {
     /// Says that all of an array may have changed once its list has more than three times as many entries, so many `instances`, `nodes` and
     /// `triangles`: no edit waits for repeated ones to be sought, and what a refit or a plan then does takes no longer than the edits that
     /// came before it.
+    ///
+    /// Before that repeated entries of short lists are dropped once they have doubled since that was done last.
     pub fn bound(&mut self, instances: usize, nodes: usize, triangles: usize) {
+        let length = self.len();
+        if length > 2 * self.kept + 64 && length <= SHORT {
+            self.sort();
+        }
         // A mirror copies a node with what it knew, so all are computed then.
         if self.written_nodes.len() > 3 * nodes + LEAST {
             self.written_nodes = alloc::vec![0..nodes as u32];
@@ -157,6 +167,39 @@ impl Pending {
             self.written_instances = Vec::new();
             self.all_instances = true;
             self.whole_top = true;
+        }
+    }
+
+    /// Drops repeated entries.
+    fn sort(&mut self) {
+        for list in [
+            &mut self.instances,
+            &mut self.top_nodes,
+            &mut self.written_instances,
+        ] {
+            list.sort_unstable();
+            list.dedup();
+        }
+        self.merge();
+        self.kept = self.len();
+    }
+
+    /// Makes ranges that touch one.
+    fn merge(&mut self) {
+        for list in [
+            &mut self.parts,
+            &mut self.written_nodes,
+            &mut self.written_triangles,
+            &mut self.written_trails,
+        ] {
+            *list = merged(core::mem::take(list));
+        }
+    }
+
+    /// Makes ranges that touch one in lists that are too long for that to be done as they grow.
+    pub fn merge_long(&mut self) {
+        if self.len() > SHORT {
+            self.merge();
         }
     }
 

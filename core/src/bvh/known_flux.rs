@@ -93,6 +93,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// be a bad one with them.
     pub(super) fn unsettle_bright(&mut self, leaves: &[u32], usual: f64) {
         for &leaf in leaves {
+            // Where the top level was built anew as it came in, it may have been opened or closed.
+            if self.placed[leaf as usize].node == INVALID {
+                continue;
+            }
             let flux = f64::from(self.in_world(leaf).phi());
             if flux > BRIGHT * usual && usual > 0.0 {
                 self.unsettle_above(self.placed[leaf as usize].node, flux);

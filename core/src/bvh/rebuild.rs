@@ -20,6 +20,10 @@ pub struct RebuildParams {
     /// for never. Of a top level of more than 1024 instances a [`Rebuilder`](crate::Rebuilder) builds parts that are worse by as much,
     /// and the nodes above them where those lost a twentieth at least. At the default of 1.1 trees were better than at 1, for two thirds to three quarters of
     /// the time where lamps mix and about the same where clusters of them change places (`docs/dynamics.md`, "When it pays").
+    ///
+    /// Worse is what lost its order. That the order edits made is not that of a new tree, as after 10^4 lamps have come in in the order of a scan, is
+    /// seen by a rebuilder alone, which tries parts in which much was built; by [`Bvh::rebuild`](crate::Bvh::rebuild) such a tree stays, unless it is
+    /// [`eager`](Self::eager).
     pub top: f64,
     /// A bottom level is once it is worse than when it was built by more than this factor; infinite for never. The factor is
     /// 1 / (1 - l), where l is the mean by flux, over the nodes, of how much more of their lights' variance of position lies between the
@@ -225,7 +229,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// What `params` wants built anew, and why, the top level first: it as a whole, in the mean over its lights, while a rebuilder asks
-    /// each part of a large one. A tree that is as built is not due. In time in proportion to the meshes refitted since they were built.
+    /// each part of a large one, and tries those in which much was built besides. A tree that is as built is not due. In time in proportion to the meshes refitted since they were built.
     #[must_use]
     pub fn due(&self, params: &RebuildParams) -> Vec<Due> {
         let top = Due {
@@ -273,13 +277,16 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// # Errors
     /// [`Foreign`] where it was taken from another light BVH; this one is as before then.
     pub fn install(&mut self, rebuilt: Rebuilt<N, W>) -> Result<(), Foreign> {
-        let [open, close] = self.install_closed(rebuilt)?;
-        self.reopen(&open, &close);
-        Ok(())
+        self.install_as(rebuilt, true).map(|_| ())
     }
 
-    /// The same, but for opening and closing instances: returns those that are to be opened, and those to be closed.
-    pub(crate) fn install_closed(&mut self, rebuilt: Rebuilt<N, W>) -> Result<[Vec<u32>; 2], Foreign> {
+    /// The same, and unless it `opens` them, but for opening and closing instances: returns those that are still to be opened, and those to be
+    /// closed.
+    pub(crate) fn install_as(
+        &mut self,
+        rebuilt: Rebuilt<N, W>,
+        opens: bool,
+    ) -> Result<[Vec<u32>; 2], Foreign> {
         let mut changes = [const { Vec::new() }; 2];
         if rebuilt.taken.tree != self.id.0 {
             return Err(Foreign);
@@ -294,6 +301,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let mut room = Quota::default();
         for top in &rebuilt.top {
             let wanted = self.install_top(top, rebuilt.taken.epoch, &mut room);
+            if opens {
+                self.reopen(&wanted[0], &wanted[1]);
+                continue;
+            }
             for (all, own) in changes.iter_mut().zip(wanted) {
                 all.extend(own);
             }

@@ -172,6 +172,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Turns changes into lists.
     fn gather(&mut self, mut pending: Pending) -> RefitPlan {
+        pending.merge_long();
         for list in [
             &mut pending.instances,
             &mut pending.top_nodes,

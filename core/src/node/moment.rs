@@ -309,9 +309,12 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMom
         if BEAMS {
             let per_unit = pow2(-self.unit_exponent());
             for slot in 0..W {
-                let shines = exact::mask(self.0[WORD_1][slot] & PHI_MASK);
-                let word = beam_word(&limits[slot].beam, &self.summary(slot), per_unit);
-                self.0[Self::BEAM][slot] = word & shines;
+                let mut word = 0;
+                // Most lights are no spots, and most nodes above are of spots that point anywhere.
+                if limits[slot].beam.is_narrow() && self.0[WORD_1][slot] & PHI_MASK != 0 {
+                    word = beam_word(&limits[slot].beam, &self.summary(slot), per_unit);
+                }
+                self.0[Self::BEAM][slot] = word;
             }
         }
     }
@@ -323,11 +326,20 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMom
             all.mask = self.merged_mask();
         }
         if BEAMS {
-            let mut merged = Union::about(whole.m, whole.c, self.unit_exponent());
+            let shines = |slot: usize| self.0[WORD_1][slot] & PHI_MASK != 0;
+            let mut are_narrow = true;
             for slot in 0..W {
-                merged.add(self.0[WORD_1][slot] & PHI_MASK != 0, &self.beam(slot));
+                are_narrow &= !shines(slot) | (self.0[Self::BEAM][slot] != 0);
             }
-            all.beam = merged.beam();
+            if are_narrow {
+                let mut merged = Union::about(whole.m, whole.c, self.unit_exponent());
+                for slot in 0..W {
+                    if shines(slot) {
+                        merged.add(&self.beam(slot));
+                    }
+                }
+                all.beam = merged.beam();
+            }
         }
         all
     }
