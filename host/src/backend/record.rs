@@ -9,8 +9,8 @@ use crate::words::{Field, Record};
 /// Words of a node of layout `N`; by place alone where the names of the layout's words are not known here.
 pub fn node_record<N: Node<W>, const W: usize>() -> Record {
     let words = size_of::<N>() / size_of::<u32>();
-    let known = [Words::<W>::COMPACT, Words::<W>::MOMENTS];
-    let names = ["compact", "moments"];
+    let known = [Words::<W>::COMPACT, Words::<W>::MOMENTS, Words::<W>::BEAMS];
+    let names = ["compact", "moments", "moments with beams"];
     let named = names.iter().zip(known).map(|(name, fields)| {
         let record = Record { name: "node", fields };
         (*name == N::NAME && record.words() == words).then_some(record)
@@ -47,6 +47,18 @@ impl<const W: usize> Words<W> {
         Field::any("extent", Self::EACH),
         Field::new("link", Self::EACH),
     ];
+    /// [`lightbvh::node::SpotMomentNode`].
+    const BEAMS: &'static [Field] = &[
+        Field::new("origin", 3),
+        Field::new("exponents", 1),
+        Field::new("unused", Self::EACH.saturating_sub(4)),
+        Field::any("center_kind", Self::EACH),
+        Field::any("center_phi", Self::EACH),
+        Field::any("normal", Self::EACH),
+        Field::any("extent", Self::EACH),
+        Field::new("link", Self::EACH),
+        Field::any("beam", Self::EACH),
+    ];
 }
 
 /// The words of any layout.
@@ -82,7 +94,7 @@ pub const PIXEL_RECORD: Record = Record {
 mod tests {
     use super::*;
     use lightbvh::FullNode;
-    use lightbvh_kernels::bvh::{Choice, Paper, Standard};
+    use lightbvh_kernels::bvh::{Choice, Kinds, Paper, Standard};
 
     fn covers<N: Node<W>, const W: usize>(first: &str) {
         let record = node_record::<N, W>();
@@ -94,6 +106,8 @@ mod tests {
     fn records_cover_their_nodes() {
         covers::<<Paper as Choice<4>>::Node, 4>("center_x[0]");
         covers::<<Standard as Choice<8>>::Node, 8>("origin[0]");
+        // Of lights of any kind too: without a name for it, a code of ones looks as if no kernel had written it.
+        covers::<<Kinds as Choice<8>>::Node, 8>("origin[0]");
         covers::<FullNode<2>, 2>("word[0]");
     }
 }

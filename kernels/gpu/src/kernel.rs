@@ -160,7 +160,7 @@ mod tests {
                 // Each pass has results of its own; nodes and lights have the layout of the choice.
                 if binding.name != "results" {
                     let is_own = match suffix {
-                        Some("_any") => matches!(binding.name, "triangles" | "before_triangles"),
+                        Some("_any") => matches!(binding.name, "nodes" | "triangles" | "before_triangles"),
                         _ => binding.name == "nodes",
                     };
                     let layout = suffix.filter(|_| is_own).unwrap_or("");

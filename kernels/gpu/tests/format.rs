@@ -6,7 +6,7 @@ use std::mem::offset_of;
 use std::ops::Range;
 
 use lightbvh::light::{
-    AnyLight, BoxLight, DiscLight, Light, PointLight, RectangleLight, SphereLight, SpotLight,
+    AnyLight, BoxLight, DiscLight, Light, PointLight, ProfileLight, RectangleLight, SphereLight, SpotLight,
 };
 use lightbvh::node::{LinkedMomentNode, LinkedSpotMomentNode, SpotMomentNode};
 use lightbvh::refit::BlasRoot;
@@ -157,6 +157,7 @@ fn lights_of_other_kinds_have_their_words() {
     }
     light!(PointLight: p, intensity, mesh);
     light!(SpotLight: p, intensity, axis, cos_inner, cos_outer, mesh);
+    light!(ProfileLight: p, intensity, axis, across, cos_outer, whole, mean_cosine, mesh, flags);
     light!(SphereLight: p, radius, radiance, mesh);
     light!(RectangleLight: p, half, radiance, mesh, flags);
     light!(DiscLight: p, half, radiance, mesh, flags);
@@ -196,12 +197,11 @@ fn buffers_have_their_strides_readers_and_writers() {
                 continue;
             }
             let stride = match (binding.name, layout) {
-                ("nodes", "_eq4" | "_narrow" | "_wide") | ("triangles", "_any") => {
+                ("nodes", "_eq4" | "_narrow" | "_wide" | "_any") | ("triangles", "_any") => {
                     let own = format!("`{layout}` ");
                     let after = strides.split_once(&*own).expect("its own").1;
                     after.split(',').next().unwrap_or(after)
                 }
-                // Over lights of any kind nodes are the default's.
                 ("nodes" | "triangles", _) => strides.split_once(',').expect("a first one").0,
                 ("results", _) => {
                     let own = format!("`{name}` ");
