@@ -302,10 +302,10 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
             self.reopened.clear();
         }
         for _ in 0..most {
-            if let Some((index, opens)) = self.reopening.pop_front()
-                && scene.reopen_one(index, opens)
-            {
-                self.reopened.push(index);
+            if let Some((index, opens)) = self.reopening.pop_front() {
+                if scene.reopen_one(index, opens) {
+                    self.reopened.push(index);
+                }
             }
         }
         // Once for all of them: the tree around is tried for what each of them changed.
