@@ -424,7 +424,8 @@ fn points_in_a_cone_see_how_bright_it_is() {
         if angle < 5.0 {
             let lone = share(row, 41.5);
             println!("row: {lone}");
-            assert!(lone > 1.0e-4, "{lone}");
+            // 0.012; without the depth of the set 0.0005.
+            assert!(lone > 0.005, "{lone}");
         }
     }
 }

@@ -58,7 +58,7 @@ impl Changes {
     }
 }
 
-/// Entries of lists that an edit may sort: in some 50 µs.
+/// Most entries of lists that an edit sorts.
 const SHORT: usize = 4096;
 /// Entries of a list that are never too many.
 const LEAST: usize = 256;
