@@ -9,6 +9,7 @@ use super::super::analytic::{AnalyticKind, AnalyticLight};
 use super::super::error::SceneError;
 use super::super::model::SceneData;
 use super::super::profile::Profile;
+use super::punctual::{one, white};
 use super::{Document, container};
 
 pub(in super::super) const NAME: &str = "EXT_lights_ies";
@@ -30,14 +31,6 @@ struct File {
     name: String,
     uri: Option<String>,
     buffer_view: Option<usize>,
-}
-
-fn white() -> [f32; 3] {
-    [1.0; 3]
-}
-
-fn one() -> f32 {
-    1.0
 }
 
 /// The photometric lights of the nodes in the scene; `place` is where each of the file's nodes went.

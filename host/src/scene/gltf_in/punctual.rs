@@ -55,11 +55,11 @@ impl Default for Cone {
     }
 }
 
-fn white() -> [f32; 3] {
+pub(super) fn white() -> [f32; 3] {
     [1.0; 3]
 }
 
-fn one() -> f32 {
+pub(super) fn one() -> f32 {
     1.0
 }
 
