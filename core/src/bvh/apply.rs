@@ -97,7 +97,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if !added.is_empty() && 2 * added.len() >= self.live.len() {
             self.build_top();
         } else {
-            let usual = self.usual_flux();
+            let usual = if added.is_empty() { 0.0 } else { self.usual_flux() };
             self.decide_added(&added);
             added = self.leaves_of_all(&added);
             let new = added.clone();
