@@ -32,13 +32,25 @@ const WIDEN_SIN: f32 = pow2(-11);
 const WIDEN_COS_DEFECT: f32 = pow2(-23);
 /// Lengths below this part of a unit count as zero, squared.
 const LEAST_SQUARE: f32 = pow2(-60);
-/// √3 and some: the diagonal of a cube.
+/// What a radius is rounded up by, as a factor: more than the error of the lengths that it is computed from.
 const LONGER: f32 = 1.001;
 /// Rounding of coordinates, as a part of them, and of lengths in units.
 const ROUNDING: f32 = pow2(-21);
 const LEAST_RADIUS: f32 = pow2(-18);
 /// How far from a similarity a map may be and count as one, in squared lengths of about 1.
 const UNEVEN: f32 = pow2(-14);
+
+/// An axis of any length up to 1 at length 1, and whether it has a direction at all.
+#[inline(always)]
+fn unit_axis(axis: Vec3) -> (Vec3, bool) {
+    let axis = flush3(axis, pow2(-30));
+    let squared = length_squared(axis);
+    let has_axis = squared > LEAST_AXIS;
+    (
+        axis * exact::rsqrt(if has_axis { squared } else { 1.0 }),
+        has_axis,
+    )
+}
 
 impl Beam {
     /// Light that may go anywhere.
@@ -76,10 +88,7 @@ impl Beam {
     /// 90° or about that. Rounded down.
     #[inline(always)]
     pub(crate) fn cosine_about(&self, axis: Vec3) -> f32 {
-        let axis = flush3(axis, pow2(-30));
-        let squared = length_squared(axis);
-        let has_axis = squared > LEAST_AXIS;
-        let unit = axis * exact::rsqrt(if has_axis { squared } else { 1.0 });
+        let (unit, has_axis) = unit_axis(axis);
         let cos_d = exact::clamp(dot(unit, self.axis), -1.0, 1.0);
         // In this form the sine is precise for small angles too.
         let across = flush3(self.axis - unit * cos_d, pow2(-30));
@@ -139,11 +148,9 @@ impl Union {
     /// Around none. Lengths are computed in units of two to `unit_exponent` metres.
     #[inline(always)]
     pub fn about(axis: Vec3, c: Vec3, unit_exponent: i32) -> Self {
-        let axis = flush3(axis, pow2(-30));
-        let squared = length_squared(axis);
-        let has_axis = squared > LEAST_AXIS;
+        let (unit, has_axis) = unit_axis(axis);
         let whole = Beam {
-            axis: axis * exact::rsqrt(if has_axis { squared } else { 1.0 }),
+            axis: unit,
             cos_theta_e: if has_axis { 1.0 } else { -1.0 },
             c,
             radius: 0.0,

@@ -55,7 +55,8 @@ fn open(bytes: &[u8], written: bool) {
     }
 }
 
-fn within_domain(frame: &Frame) {
+/// The numbers of a frame are in the domain of lights.
+pub(crate) fn within_domain(frame: &Frame) {
     let finite = |triangle: &[[f32; 3]; 3]| triangle.as_flattened().iter().all(|x| x.is_finite());
     assert!(frame.triangles.iter().all(|triangle| finite(&triangle.p)));
     let (count, meshes) = (frame.emissive.len(), frame.mesh_lights.len());

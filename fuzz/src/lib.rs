@@ -13,6 +13,8 @@ mod node_words;
 mod read_words;
 mod refit_equals_rebuild;
 mod sample_pmf;
+#[cfg(feature = "gltf")]
+mod texts;
 
 use std::ops::Range;
 
@@ -25,6 +27,8 @@ pub use node_words::node_words;
 pub use read_words::read_words;
 pub use refit_equals_rebuild::refit_equals_rebuild;
 pub use sample_pmf::sample_pmf;
+#[cfg(feature = "gltf")]
+pub use texts::texts;
 
 /// A target's name and body.
 pub type Target = (&'static str, fn(&[u8], Forms));
@@ -40,6 +44,8 @@ pub const TARGETS: &[Target] = &[
     ("read_words", read_words),
     ("refit_equals_rebuild", refit_equals_rebuild),
     ("sample_pmf", sample_pmf),
+    #[cfg(feature = "gltf")]
+    ("texts", texts),
 ];
 
 /// Which forms of a tree (layout, width, levels) an input goes through, where a target knows several.

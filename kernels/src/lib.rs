@@ -18,6 +18,7 @@ pub mod bvh;
 pub mod kinds;
 pub mod path;
 pub mod query;
+pub mod receivers;
 pub mod refit;
 pub mod render;
 pub mod restir;

@@ -1,14 +1,14 @@
 //! Lights of every kind in one tree, on every device: refits, samples, pmfs and points on lights.
 
-use bytemuck::{Pod, Zeroable, bytes_of, cast_slice, cast_slice_mut};
+use bytemuck::bytes_of;
 use lightbvh::importance::DefaultImportance;
 use lightbvh::light::{
     AnyLight, BoxLight, DiscLight, PointLight, ProfileLight, RectangleLight, SphereLight, SpotLight,
 };
-use lightbvh::refit::BlasRoot;
-use lightbvh::{Bvh, Edit, EmissiveTriangle, Instance, LightPoint, Random64, SampledLight, ShadingPoint};
-use lightbvh_gpu::{Buffer, Frame, KernelSet, Mirror, Pass as Refits, query_push};
-use lightbvh_host::vulkan::{self, Device, Options, Pass};
+use lightbvh::{Bvh, Edit, EmissiveTriangle, LightPoint, Random64, SampledLight, ShadingPoint};
+use lightbvh_gpu::{KernelSet, query_push};
+use lightbvh_host::backend::Mirrored;
+use lightbvh_host::vulkan::Options;
 use lightbvh_kernels::kinds::{AnyNode, light_point_for};
 use lightbvh_kernels::query::{PointsPush, Query};
 use lightbvh_tests::devices::on_each_device;
@@ -116,155 +116,32 @@ const KINDS: [Kind; 5] = [
     Kind::Extreme,
 ];
 
-/// The arrays of a light BVH on a device, which follows it by frames.
-struct Held<'a> {
-    device: &'a Device,
-    mirror: Mirror,
-    nodes: vulkan::Buffer<AnyNode>,
-    lights: vulkan::Buffer<AnyLight>,
-    instances: vulkan::Buffer<Instance>,
-    roots: vulkan::Buffer<BlasRoot>,
-    trails: vulkan::Buffer<u32>,
-}
-
-/// An array on a device again, of so many bytes and with what a frame copies into it.
-fn update<T: Pod>(
-    device: &Device,
-    array: &mut vulkan::Buffer<T>,
-    which: Buffer,
-    frame: &Frame,
-    scene: &Scene,
-) {
-    let mut held = array.read().expect("a read");
-    if let Some((_, bytes)) = frame.resizes.iter().find(|(buffer, _)| *buffer == which) {
-        // New memory holds anything.
-        let anything = bytemuck::pod_read_unaligned(&vec![0xcd; size_of::<T>()]);
-        held.resize((*bytes as usize / size_of::<T>()).max(1), anything);
+/// All words in use are the scene's.
+fn assert_is(held: &Mirrored<'_, AnyNode, 8>, scene: &Scene, what: &str) {
+    let (used, name) = (scene.plan_of_everything(), held.device().name());
+    let nodes = held.nodes().expect("a read");
+    for &node in used.bottom.nodes().iter().chain(used.top.nodes()) {
+        let (found, expected) = (nodes[node as usize], scene.tree().nodes[node as usize]);
+        assert_eq!(
+            bytes_of(&found),
+            bytes_of(&expected),
+            "{name} {what}: node {node}"
+        );
     }
-    for copy in frame.copies.iter().filter(|copy| copy.buffer == which) {
-        let bytes: &mut [u8] = cast_slice_mut(&mut held);
-        bytes[copy.bytes.start as usize..copy.bytes.end as usize].copy_from_slice(copy.source(scene));
-    }
-    *array = device.upload(&held).expect("an upload");
-}
-
-impl<'a> Held<'a> {
-    fn new(device: &'a Device) -> Self {
-        Self {
-            device,
-            mirror: Mirror::default(),
-            nodes: device.upload(&[AnyNode::zeroed()]).expect("an upload"),
-            lights: device.upload(&[AnyLight::zeroed()]).expect("an upload"),
-            instances: device.upload(&[Instance::zeroed()]).expect("an upload"),
-            roots: device.upload(&[BlasRoot::zeroed()]).expect("an upload"),
-            trails: device.upload(&[0]).expect("an upload"),
-        }
-    }
-
-    fn bind(&self, name: &str) -> Option<vulkan::Binding> {
-        Buffer::named(name).map(|buffer| match buffer {
-            Buffer::Nodes => self.nodes.bind(),
-            Buffer::Triangles => self.lights.bind(),
-            Buffer::Instances => self.instances.bind(),
-            Buffer::Roots => self.roots.bind(),
-            Buffer::Trails => self.trails.bind(),
-        })
-    }
-
-    /// Brings the arrays to what `scene` is, by its plan: copies and the passes over any kind of light.
-    fn follow(&mut self, scene: &mut Scene) {
-        let frame = self.mirror.frame(scene);
-        update(self.device, &mut self.nodes, Buffer::Nodes, &frame, scene);
-        update(self.device, &mut self.lights, Buffer::Triangles, &frame, scene);
-        update(self.device, &mut self.instances, Buffer::Instances, &frame, scene);
-        update(self.device, &mut self.roots, Buffer::Roots, &frame, scene);
-        update(self.device, &mut self.trails, Buffer::Trails, &frame, scene);
-        let refit = frame.refit;
-        if refit.dispatches.is_empty() {
-            return;
-        }
-        let list = self.device.upload(&refit.list).expect("an upload");
-        let mut pass = Pass::new();
-        for dispatch in &refit.dispatches {
-            let kernel = match dispatch.pass {
-                Refits::Bottom => KernelSet::ANY.refit_bottom,
-                Refits::Roots => KernelSet::ANY.refit_roots,
-                Refits::Top => KernelSet::ANY.refit_top,
-            };
-            let bindings: Vec<_> = kernel
-                .bindings
-                .iter()
-                .map(|binding| self.bind(binding.name).unwrap_or_else(|| list.bind()))
-                .collect();
-            let compiled = self.device.kernel(kernel.name).expect("a kernel");
-            pass.dispatch(
-                &compiled,
-                &bindings,
-                cast_slice(&dispatch.push()),
-                dispatch.push()[1],
-            );
-        }
-        self.device.run(&pass).expect("a run");
-    }
-
-    /// All words in use are the scene's.
-    fn assert_is(&self, scene: &Scene, what: &str) {
-        let used = scene.plan_of_everything();
-        let nodes = [used.bottom.nodes(), used.top.nodes()].concat();
-        let held = self.nodes.read().expect("a read");
-        for &node in &nodes {
-            let (found, expected) = (held[node as usize], scene.tree().nodes[node as usize]);
-            assert_eq!(
-                bytes_of(&found),
-                bytes_of(&expected),
-                "{} {what}: node {node}",
-                self.device.name()
-            );
-        }
-        let held = self.roots.read().expect("a read");
-        for &root in &used.roots {
-            let (found, expected) = (held[root as usize], scene.roots()[root as usize]);
-            assert_eq!(
-                bytes_of(&found),
-                bytes_of(&expected),
-                "{} {what}: root {root}",
-                self.device.name()
-            );
-        }
-    }
-
-    /// The results of `kernel` over so many queries.
-    fn ask<T: Pod>(
-        &self,
-        kernel: &lightbvh_gpu::kernel::Kernel,
-        count: usize,
-        push: &[u8],
-        extra: &[(&str, vulkan::Binding)],
-    ) -> Vec<T> {
-        let output = self.device.output::<T>(count).expect("an output");
-        let bindings: Vec<_> = kernel
-            .bindings
-            .iter()
-            .map(|binding| {
-                let own = extra
-                    .iter()
-                    .find(|(name, _)| *name == binding.name)
-                    .map(|(_, own)| own.clone());
-                own.or_else(|| self.bind(binding.name))
-                    .unwrap_or_else(|| output.bind())
-            })
-            .collect();
-        let compiled = self.device.kernel(kernel.name).expect("a kernel");
-        let mut pass = Pass::new();
-        pass.dispatch(&compiled, &bindings, push, count as u32);
-        self.device.run(&pass).expect("a run");
-        output.read().expect("the results")
+    let roots = held.roots().expect("a read");
+    for &root in &used.roots {
+        let (found, expected) = (roots[root as usize], scene.roots()[root as usize]);
+        assert_eq!(
+            bytes_of(&found),
+            bytes_of(&expected),
+            "{name} {what}: root {root}"
+        );
     }
 }
 
 /// Samples, their pmfs and points on their lights have the CPU's words.
-fn samples_agree(held: &Held<'_>, scene: &Scene, random: &mut Random) -> [usize; 8] {
-    let device = held.device;
+fn samples_agree(held: &Mirrored<'_, AnyNode, 8>, scene: &Scene, random: &mut Random) -> [usize; 8] {
+    let device = held.device();
     let points: Vec<ShadingPoint> = (0..QUERIES)
         .map(|k| ShadingPoint {
             p: [0; 3].map(|_| random.between(-30.0, 30.0)),
@@ -284,12 +161,14 @@ fn samples_agree(held: &Held<'_>, scene: &Scene, random: &mut Random) -> [usize;
     let tree = scene.tree();
     let asked = device.upload(&queries).expect("an upload");
     let push = query_push(QUERIES as u32, &tree);
-    let sampled: Vec<SampledLight> = held.ask(
-        KernelSet::ANY.sample,
-        QUERIES,
-        bytes_of(&push),
-        &[("queries", asked.bind())],
-    );
+    let sampled: Vec<SampledLight> = held
+        .ask(
+            KernelSet::ANY.sample,
+            QUERIES,
+            bytes_of(&push),
+            &[("queries", asked.bind())],
+        )
+        .expect("the answers");
     let mut kinds = [0; 8];
     for (query, found) in queries.iter().zip(&sampled) {
         let [high, low] = query.words;
@@ -313,12 +192,14 @@ fn samples_agree(held: &Held<'_>, scene: &Scene, random: &mut Random) -> [usize;
         })
         .collect();
     let which = device.upload(&which).expect("an upload");
-    let pmfs: Vec<f32> = held.ask(
-        KernelSet::ANY.pmf,
-        QUERIES,
-        bytes_of(&push),
-        &[("queries", which.bind())],
-    );
+    let pmfs: Vec<f32> = held
+        .ask(
+            KernelSet::ANY.pmf,
+            QUERIES,
+            bytes_of(&push),
+            &[("queries", which.bind())],
+        )
+        .expect("the answers");
     for (pmf, sample) in pmfs.iter().zip(&sampled) {
         assert_eq!(
             pmf.to_bits(),
@@ -330,18 +211,20 @@ fn samples_agree(held: &Held<'_>, scene: &Scene, random: &mut Random) -> [usize;
     let numbers: Vec<[f32; 2]> = points.iter().map(|_| [random.unit(), random.unit()]).collect();
     let picked = device.upload(&sampled).expect("an upload");
     let uv = device.upload(&numbers).expect("an upload");
-    let found: Vec<LightPoint> = held.ask(
-        KernelSet::ANY.light_points,
-        QUERIES,
-        bytes_of(&PointsPush {
-            count: QUERIES as u32,
-        }),
-        &[
-            ("queries", asked.bind()),
-            ("samples", picked.bind()),
-            ("numbers", uv.bind()),
-        ],
-    );
+    let found: Vec<LightPoint> = held
+        .ask(
+            KernelSet::ANY.light_points,
+            QUERIES,
+            bytes_of(&PointsPush {
+                count: QUERIES as u32,
+            }),
+            &[
+                ("queries", asked.bind()),
+                ("samples", picked.bind()),
+                ("numbers", uv.bind()),
+            ],
+        )
+        .expect("the answers");
     for (k, at) in found.iter().enumerate() {
         let expected = light_point_for(
             scene.triangles(),
@@ -378,7 +261,7 @@ fn lights_of_every_kind_agree_with_every_device() {
             })
             .collect();
         let ids = scene.apply(add).expect("instances").instances;
-        let mut held = Held::new(device);
+        let mut held = Mirrored::new(device, KernelSet::ANY).expect("arrays");
         let mut kinds = [0; 8];
         for frame in 0..6 {
             if frame > 0 {
@@ -394,9 +277,10 @@ fn lights_of_every_kind_agree_with_every_device() {
                 });
                 scene.apply(edits).expect("edits");
             }
-            held.follow(&mut scene);
+            scene.plan();
+            held.follow(&scene).expect("a frame");
             scene.refit();
-            held.assert_is(&scene, &format!("frame {frame}"));
+            assert_is(&held, &scene, &format!("frame {frame}"));
             let sampled = samples_agree(&held, &scene, random);
             kinds = std::array::from_fn(|k| kinds[k] + sampled[k]);
         }

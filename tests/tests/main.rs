@@ -37,6 +37,7 @@ mod pixel_numbers;
 mod points;
 mod profiles;
 mod rebuilder;
+mod receivers_device;
 mod refit;
 mod regressions;
 mod render_flush;

@@ -20,6 +20,19 @@ pub(super) struct Changes {
     pub is_planned: bool,
     /// Whether the last lists are those of all that a refit has to do.
     pub is_fresh: bool,
+    /// What of the last plan is to be counted by the refit that takes its lists.
+    pub counted: Counted,
+}
+
+/// What a refit counts at the nodes above. Plans count nothing: trees do not depend on them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Counted {
+    /// Leaves that were marked, some of them for what they were rebuilt by.
+    pub refitted: Vec<u32>,
+    /// Bottom levels that changed as a whole.
+    pub swept: Vec<u32>,
+    /// Those leaves, and all of bottom levels that changed.
+    pub all: Vec<u32>,
 }
 
 impl Changes {

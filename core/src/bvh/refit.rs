@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::changes::Pending;
+use super::changes::{Counted, Pending};
 use super::{Bvh, Trails};
 use crate::levels::Levels;
 use crate::node::Node;
@@ -67,7 +67,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         told.join(new);
         self.bound_changes();
         self.spell_out(&mut told);
-        self.planned = self.gather(told);
+        (self.planned, self.changes.counted) = self.gather(told);
         self.done = None;
         self.changes.is_fresh = is_whole;
         &self.planned
@@ -112,11 +112,13 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             self.blases[blas as usize].changed = self.epoch + 1;
             self.note_refitted(blas, self.epoch + 1);
         }
-        let work = if is_listed {
-            core::mem::take(&mut self.planned)
+        let (work, counted) = if is_listed {
+            let counted = core::mem::take(&mut self.changes.counted);
+            (core::mem::take(&mut self.planned), counted)
         } else {
             self.gather(pending)
         };
+        self.note_changes(&counted, &work.top);
         self.epoch += u64::from(work.computed() > 0);
         sweep::trees(&mut self.nodes, &self.triangles, &work.trees);
         for range in work.parts.ranges() {
@@ -170,8 +172,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         ((self.id.0, self.changes.plans), is_current)
     }
 
-    /// Turns changes into lists.
-    fn gather(&mut self, mut pending: Pending) -> RefitPlan {
+    /// Turns changes into lists, and what of them counts at the nodes above.
+    fn gather(&mut self, mut pending: Pending) -> (RefitPlan, Counted) {
         pending.merge_long();
         for list in [
             &mut pending.instances,
@@ -216,8 +218,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         } else {
             self.dirty_top(&instances, &pending.top_nodes, &mut work);
         }
-        self.note_changes(&pending.instances, &swept, &instances, &work.top);
-        work
+        let counted = Counted {
+            refitted: pending.instances,
+            swept,
+            all: instances,
+        };
+        (work, counted)
     }
 
     /// Lists all instances where all may have changed.

@@ -5,7 +5,7 @@ use glam::Vec3;
 
 use super::infinite::place_of;
 use super::punctual::{at, bounds, moments, phi, phi_per_intensity, within_cone};
-use super::record::{Each, Light, checked_emission, checked_place, shining, towards, unit};
+use super::record::{Each, Light, checked_emission, checked_place, of_mesh_at_place, shining, towards, unit};
 use super::{INVALID, LightError, LightPoint};
 use crate::beam::Beam;
 use crate::bounds::LightBounds;
@@ -112,7 +112,7 @@ impl Light for ProfileLight {
         flags: 0,
     };
 
-    const MESH_WORD: usize = core::mem::offset_of!(Self, mesh) / 4;
+    of_mesh_at_place!();
     const FLUX_POWER: u32 = 0;
     type Slots<const W: usize> = Each<Self, W>;
 
@@ -147,21 +147,6 @@ impl Light for ProfileLight {
         self.axis = unit(self.axis);
         self.across = unit(self.across);
         Ok(self)
-    }
-
-    #[inline(always)]
-    fn mesh(&self) -> u32 {
-        self.mesh
-    }
-
-    #[inline(always)]
-    fn of_mesh(self, mesh: u32) -> Self {
-        Self { mesh, ..self }
-    }
-
-    #[inline(always)]
-    fn centroid(&self) -> [f32; 3] {
-        self.p
     }
 
     fn reach(&self) -> f32 {

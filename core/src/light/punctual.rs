@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::record::{Each, Light, checked_emission, checked_place, shining, towards, unit};
+use super::record::{Each, Light, checked_emission, checked_place, of_mesh_at_place, shining, towards, unit};
 use super::{INVALID, LightError, LightPoint};
 use crate::beam::Beam;
 use crate::bounds::LightBounds;
@@ -131,7 +131,7 @@ impl Light for PointLight {
         mesh: INVALID,
     };
 
-    const MESH_WORD: usize = core::mem::offset_of!(Self, mesh) / 4;
+    of_mesh_at_place!();
     const FLUX_POWER: u32 = 0;
     type Slots<const W: usize> = Each<Self, W>;
 
@@ -139,21 +139,6 @@ impl Light for PointLight {
         self.p = checked_place("point light", self.p)?;
         self.intensity = checked_emission("intensity of a point light", self.intensity)?;
         Ok(self)
-    }
-
-    #[inline(always)]
-    fn mesh(&self) -> u32 {
-        self.mesh
-    }
-
-    #[inline(always)]
-    fn of_mesh(self, mesh: u32) -> Self {
-        Self { mesh, ..self }
-    }
-
-    #[inline(always)]
-    fn centroid(&self) -> [f32; 3] {
-        self.p
     }
 
     fn reach(&self) -> f32 {
@@ -240,7 +225,7 @@ impl Light for SpotLight {
         mesh: INVALID,
     };
 
-    const MESH_WORD: usize = core::mem::offset_of!(Self, mesh) / 4;
+    of_mesh_at_place!();
     const FLUX_POWER: u32 = 0;
     type Slots<const W: usize> = Each<Self, W>;
 
@@ -262,21 +247,6 @@ impl Light for SpotLight {
         }
         self.axis = unit(self.axis);
         Ok(self)
-    }
-
-    #[inline(always)]
-    fn mesh(&self) -> u32 {
-        self.mesh
-    }
-
-    #[inline(always)]
-    fn of_mesh(self, mesh: u32) -> Self {
-        Self { mesh, ..self }
-    }
-
-    #[inline(always)]
-    fn centroid(&self) -> [f32; 3] {
-        self.p
     }
 
     fn reach(&self) -> f32 {

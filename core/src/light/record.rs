@@ -264,3 +264,27 @@ pub(super) fn towards(p: Vec3, q: Vec3) -> Vec3 {
     let scaled = flush3(away * pow2(-greatest_exponent(away, -100)), pow2(-60));
     scaled * exact::rsqrt(exact::max(length_squared(scaled), pow2(-60)))
 }
+
+/// What all kinds with a place `p` and a `mesh` have alike.
+macro_rules! of_mesh_at_place {
+    () => {
+        const MESH_WORD: usize = core::mem::offset_of!(Self, mesh) / 4;
+
+        #[inline(always)]
+        fn mesh(&self) -> u32 {
+            self.mesh
+        }
+
+        #[inline(always)]
+        fn of_mesh(self, mesh: u32) -> Self {
+            Self { mesh, ..self }
+        }
+
+        #[inline(always)]
+        fn centroid(&self) -> [f32; 3] {
+            self.p
+        }
+    };
+}
+
+pub(super) use of_mesh_at_place;

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::record::{Each, Light, checked_emission, checked_place, greatest, shining};
+use super::record::{Each, Light, checked_emission, checked_place, greatest, of_mesh_at_place, shining};
 use super::round::circle;
 use super::{INVALID, LightError, LightPoint};
 use crate::bounds::LightBounds;
@@ -66,7 +66,7 @@ impl Light for SphereLight {
         mesh: INVALID,
     };
 
-    const MESH_WORD: usize = core::mem::offset_of!(Self, mesh) / 4;
+    of_mesh_at_place!();
     type Slots<const W: usize> = Each<Self, W>;
 
     fn checked(mut self) -> Result<Self, LightError> {
@@ -77,21 +77,6 @@ impl Light for SphereLight {
             return Err(LightError::Radius { value: self.radius });
         }
         Ok(self)
-    }
-
-    #[inline(always)]
-    fn mesh(&self) -> u32 {
-        self.mesh
-    }
-
-    #[inline(always)]
-    fn of_mesh(self, mesh: u32) -> Self {
-        Self { mesh, ..self }
-    }
-
-    #[inline(always)]
-    fn centroid(&self) -> [f32; 3] {
-        self.p
     }
 
     fn reach(&self) -> f32 {

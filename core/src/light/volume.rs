@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::record::{Each, Light, checked_emission, checked_place, greatest, shining};
+use super::record::{Each, Light, checked_emission, checked_place, greatest, of_mesh_at_place, shining};
 use super::{INVALID, LightError, LightPoint};
 use crate::bounds::LightBounds;
 use crate::cone::Cone;
@@ -111,7 +111,7 @@ impl Light for BoxLight {
         mesh: INVALID,
     };
 
-    const MESH_WORD: usize = core::mem::offset_of!(Self, mesh) / 4;
+    of_mesh_at_place!();
     const FLUX_POWER: u32 = 3;
     type Slots<const W: usize> = Each<Self, W>;
 
@@ -122,21 +122,6 @@ impl Light for BoxLight {
         }
         self.radiance = checked_emission("radiance of a box", self.radiance)?;
         Ok(self)
-    }
-
-    #[inline(always)]
-    fn mesh(&self) -> u32 {
-        self.mesh
-    }
-
-    #[inline(always)]
-    fn of_mesh(self, mesh: u32) -> Self {
-        Self { mesh, ..self }
-    }
-
-    #[inline(always)]
-    fn centroid(&self) -> [f32; 3] {
-        self.p
     }
 
     fn reach(&self) -> f32 {

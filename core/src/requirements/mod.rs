@@ -13,6 +13,7 @@
 
 mod declared;
 mod facts;
+mod kinds;
 mod model;
 mod orientation;
 mod scene;
@@ -26,6 +27,7 @@ use crate::moments::LightMoments;
 
 pub use declared::{Changes, Declared};
 pub use facts::Fact;
+pub use kinds::LightKinds;
 pub use model::{Layout, Model, ModelError, Structure, Updates};
 pub use orientation::Orientation;
 pub(crate) use scene::Placed;

@@ -9,6 +9,7 @@ mod device_arrays;
 mod error;
 mod follow;
 mod held;
+mod mirrored;
 mod record;
 mod restir;
 mod scene;
@@ -18,6 +19,7 @@ pub use batches::{Integrator, all_candidates};
 pub use cpu::CpuBackend;
 pub use device::DeviceBackend;
 pub use error::BackendError;
+pub use mirrored::Mirrored;
 pub use record::{PIXEL_RECORD, PMF_RECORD, SAMPLED_RECORD, node_record};
 pub use restir::{
     Combination, History, LightRemap, RESERVOIR_RECORD, Restir, RestirFrame, RestirOptions, SURFACE_RECORD,

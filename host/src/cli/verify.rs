@@ -2,6 +2,7 @@
 //! device against the CPU, word for word.
 
 mod frames;
+mod receivers;
 mod refits;
 mod restir;
 mod side;
@@ -25,6 +26,9 @@ use crate::method::{Importance, MethodLight, Target};
 use crate::scene::{BUILT_IN, Scene};
 use subject::Subject;
 use tally::{Tallies, Tally};
+
+/// Most receivers of each sort in a scene.
+const RECEIVERS: u64 = 20_000;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -138,6 +142,14 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         }
     }
     bar.finish_and_clear();
+    // The kernels of masks, leaves and fog are over triangles, by the default's importance.
+    let asked_for = (asked.0.clamp(1, RECEIVERS) as u32, args.seed);
+    let lit_by_triangles = scenes
+        .iter()
+        .filter(|scene| !scene.has_kinds() && !opened.is_empty());
+    for scene in lit_by_triangles.filter(|_| importances.contains(&Importance::Moments)) {
+        receivers::compare(scene, asked_for, &opened, &mut tallies)?;
+    }
 
     let plan = frames::Plan {
         frames: args.frames.clone(),

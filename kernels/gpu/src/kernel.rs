@@ -153,14 +153,24 @@ mod tests {
     fn equal_names_are_arrays_of_equal_strides() {
         let mut seen: Vec<(&str, &str, u32)> = Vec::new();
         for kernel in KERNELS {
-            let suffix = ["_eq4", "_narrow", "_wide", "_any"]
-                .into_iter()
-                .find(|suffix| kernel.name.ends_with(suffix));
+            let suffix = [
+                "_eq4",
+                "_narrow",
+                "_wide",
+                "_any",
+                "_linked",
+                "_transmissive",
+                "_segment",
+            ]
+            .into_iter()
+            .find(|suffix| kernel.name.ends_with(suffix));
             for binding in kernel.bindings {
                 // Each pass has results of its own; nodes and lights have the layout of the choice.
                 if binding.name != "results" {
                     let is_own = match suffix {
                         Some("_any") => matches!(binding.name, "nodes" | "triangles" | "before_triangles"),
+                        Some("_linked") => matches!(binding.name, "nodes" | "triangles" | "queries"),
+                        Some("_transmissive" | "_segment") => binding.name == "queries",
                         _ => binding.name == "nodes",
                     };
                     let layout = suffix.filter(|_| is_own).unwrap_or("");

@@ -30,7 +30,7 @@ pub mod table;
 
 pub use buffer::Buffer;
 pub use frame::{Copy, Frame, Mirror};
-pub use query::{Query, query_push};
+pub use query::{LinkedQuery, Query, SegmentQuery, TransmissiveQuery, query_push};
 pub use refit::{Dispatch, Pass, Refit};
 #[cfg(feature = "kernels")]
 pub use set::{EQ4, KernelSet, MOMENTS, NotCompiled};

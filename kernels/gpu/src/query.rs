@@ -1,6 +1,7 @@
 //! What the kernels `sample` and `pmf` are asked.
 
 use bytemuck::{Pod, Zeroable};
+use lightbvh::importance::{LinkedPoint, RaySegment, TransmissivePoint};
 use lightbvh::{LightTree, Random64, ShadingPoint, TreeWords};
 
 /// An element of the buffer `queries`. `sample` answers with a [`SampledLight`](lightbvh::SampledLight), `pmf` with an `f32`.
@@ -34,6 +35,89 @@ impl Query {
     }
 }
 
+/// What `sample_linked` and `pmf_linked` are asked ([`KernelSet::LINKED`](crate::KernelSet::LINKED)), as [`Query`].
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct LinkedQuery {
+    /// The point to be lit, of the domain of [`ShadingPoint::checked`].
+    pub point: ShadingPoint,
+    /// Its bits: [`LinkedPoint::mask`].
+    pub mask: u32,
+    /// As of [`Query`].
+    pub words: [u32; 2],
+}
+
+/// What `sample_transmissive` and `pmf_transmissive` are asked ([`KernelSet::TRANSMISSIVE`](crate::KernelSet::TRANSMISSIVE)), as [`Query`].
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct TransmissiveQuery {
+    /// The point to be lit, of the domain of [`TransmissivePoint::checked`].
+    pub receiver: TransmissivePoint,
+    /// As of [`Query`].
+    pub words: [u32; 2],
+}
+
+/// What `sample_segment` and `pmf_segment` are asked ([`KernelSet::SEGMENT`](crate::KernelSet::SEGMENT)), as [`Query`].
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct SegmentQuery {
+    /// The piece to be lit, of the domain of [`RaySegment::checked`].
+    pub segment: RaySegment,
+    /// As of [`Query`].
+    pub words: [u32; 2],
+}
+
+impl LinkedQuery {
+    /// Asks for what `LightTree::sample_for(receiver, random)` gives.
+    #[must_use]
+    pub fn sample(receiver: LinkedPoint<ShadingPoint>, random: impl Into<Random64>) -> Self {
+        let LinkedPoint { point, mask } = receiver;
+        let words = Query::sample(point, random).words;
+        Self { point, mask, words }
+    }
+
+    /// Asks for what `LightTree::pmf_for(receiver, light, instance)` gives.
+    #[must_use]
+    pub fn pmf(receiver: LinkedPoint<ShadingPoint>, light: u32, instance: u32) -> Self {
+        let LinkedPoint { point, mask } = receiver;
+        let words = [light, instance];
+        Self { point, mask, words }
+    }
+}
+
+impl TransmissiveQuery {
+    /// Asks for what `LightTree::sample_for(receiver, random)` gives.
+    #[must_use]
+    pub fn sample(receiver: TransmissivePoint, random: impl Into<Random64>) -> Self {
+        let words = Query::sample(receiver.point, random).words;
+        Self { receiver, words }
+    }
+
+    /// Asks for what `LightTree::pmf_for(receiver, light, instance)` gives.
+    #[must_use]
+    pub fn pmf(receiver: TransmissivePoint, light: u32, instance: u32) -> Self {
+        let words = [light, instance];
+        Self { receiver, words }
+    }
+}
+
+impl SegmentQuery {
+    /// Asks for what `LightTree::sample_for(segment, random)` gives.
+    #[must_use]
+    pub fn sample(segment: RaySegment, random: impl Into<Random64>) -> Self {
+        let Random64 { high, low } = random.into();
+        let words = [high, low];
+        Self { segment, words }
+    }
+
+    /// Asks for what `LightTree::pmf_for(segment, light, instance)` gives.
+    #[must_use]
+    pub fn pmf(segment: RaySegment, light: u32, instance: u32) -> Self {
+        let words = [light, instance];
+        Self { segment, words }
+    }
+}
+
 /// The push constants of `sample` and `pmf` for `count` queries. They may change with every edit.
 #[must_use]
 pub fn query_push<N, I, const W: usize>(count: u32, tree: &LightTree<'_, N, I, W>) -> [u32; 6] {
@@ -44,7 +128,7 @@ pub fn query_push<N, I, const W: usize>(count: u32, tree: &LightTree<'_, N, I, W
 #[cfg(all(test, feature = "kernels"))]
 mod tests {
     use super::*;
-    use crate::{EQ4, MOMENTS};
+    use crate::{EQ4, KernelSet, MOMENTS};
     use lightbvh::{LightBvh, SampledLight};
 
     const POINT: ShadingPoint = ShadingPoint {
@@ -54,13 +138,20 @@ mod tests {
 
     #[test]
     fn queries_and_answers_fit_the_kernels() {
-        for set in [&MOMENTS, &EQ4] {
+        for (set, query) in [
+            (&MOMENTS, size_of::<Query>()),
+            (&EQ4, size_of::<Query>()),
+            (&KernelSet::ANY, size_of::<Query>()),
+            (&KernelSet::LINKED, size_of::<LinkedQuery>()),
+            (&KernelSet::TRANSMISSIVE, size_of::<TransmissiveQuery>()),
+            (&KernelSet::SEGMENT, size_of::<SegmentQuery>()),
+        ] {
             for (kernel, answer) in [
                 (set.sample, size_of::<SampledLight>()),
                 (set.pmf, size_of::<f32>()),
             ] {
                 let stride = |name| kernel.binding(name).unwrap().stride as usize;
-                assert_eq!(stride("queries"), size_of::<Query>(), "{}", kernel.name);
+                assert_eq!(stride("queries"), query, "{}", kernel.name);
                 assert_eq!(stride("results"), answer, "{}", kernel.name);
             }
         }

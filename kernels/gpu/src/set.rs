@@ -27,7 +27,10 @@ pub struct KernelSet {
 }
 
 /// The kernels of `LightBvh`: `Bvh<MomentNode<8>, Defensive<Moments, 6>, 8>`.
-pub static MOMENTS: KernelSet = KernelSet {
+pub static MOMENTS: KernelSet = DEFAULT;
+
+/// A constant takes others from constants alone.
+const DEFAULT: KernelSet = KernelSet {
     refit_bottom: &table::REFIT_BOTTOM,
     refit_roots: &table::REFIT_ROOTS,
     refit_top: &table::REFIT_TOP,
@@ -58,6 +61,33 @@ impl KernelSet {
         sample: &table::SAMPLE_ANY,
         pmf: &table::PMF_ANY,
         light_points: &table::LIGHT_POINTS_ANY,
+    };
+
+    /// The kernels of light linking, `Bvh<Lit<LinkedMomentNode<8>, LinkedTriangle>, Linked<Leveled<Moments, 9>>, 8>`. They are asked
+    /// [`LinkedQuery`](crate::LinkedQuery)s.
+    pub const LINKED: Self = Self {
+        refit_bottom: &table::REFIT_BOTTOM_LINKED,
+        refit_roots: &table::REFIT_ROOTS_LINKED,
+        refit_top: &table::REFIT_TOP_LINKED,
+        sample: &table::SAMPLE_LINKED,
+        pmf: &table::PMF_LINKED,
+        light_points: &table::LIGHT_POINTS_LINKED,
+    };
+
+    /// [`MOMENTS`] for receivers with two sides: lights of the same trees, by `LightBvh::by::<Defensive<Transmissive<Moments>, 6>>`. They are
+    /// asked [`TransmissiveQuery`](crate::TransmissiveQuery)s.
+    pub const TRANSMISSIVE: Self = Self {
+        sample: &table::SAMPLE_TRANSMISSIVE,
+        pmf: &table::PMF_TRANSMISSIVE,
+        ..DEFAULT
+    };
+
+    /// [`MOMENTS`] for pieces of rays through a volume, by `LightBvh::by::<Defensive<Subtended<Moments>, 6>>`. They are asked
+    /// [`SegmentQuery`](crate::SegmentQuery)s; kernel `segment_places` chooses a place on each.
+    pub const SEGMENT: Self = Self {
+        sample: &table::SAMPLE_SEGMENT,
+        pmf: &table::PMF_SEGMENT,
+        ..DEFAULT
     };
 }
 
@@ -126,8 +156,8 @@ impl KernelSet {
 
 #[cfg(test)]
 mod tests {
-    use lightbvh::light::AnyLight;
-    use lightbvh::node::{Holds, Lit, SpotMomentNode};
+    use lightbvh::light::{AnyLight, LinkedTriangle};
+    use lightbvh::node::{Holds, LinkedMomentNode, Lit, SpotMomentNode};
     use lightbvh::requirements::Updates;
     use lightbvh::{CompactNode, MomentNode};
 
@@ -213,5 +243,8 @@ mod tests {
         fits::<MomentNode<8>>(&MOMENTS, "");
         fits::<CompactNode<4>>(&EQ4, "_eq4");
         fits::<Lit<SpotMomentNode<8>, AnyLight>>(&KernelSet::ANY, "_any");
+        fits::<Lit<LinkedMomentNode<8>, LinkedTriangle>>(&KernelSet::LINKED, "_linked");
+        fits::<MomentNode<8>>(&KernelSet::TRANSMISSIVE, "");
+        fits::<MomentNode<8>>(&KernelSet::SEGMENT, "");
     }
 }

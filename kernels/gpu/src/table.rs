@@ -34,6 +34,21 @@ pub static LIGHT_POINTS_ANY: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `light_points_linked`.
+pub static LIGHT_POINTS_LINKED: Kernel = Kernel {
+    name: "light_points_linked",
+    bytes: include_bytes!("../spirv/light_points_linked.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "triangles", access: Read, stride: 60 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 2, name: "samples", access: Read, stride: 12 },
+        Binding { binding: 3, name: "numbers", access: Read, stride: 8 },
+        Binding { binding: 4, name: "results", access: Write, stride: 44 },
+    ],
+    push_constants: 4,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `path_bvh`.
 pub static PATH_BVH: Kernel = Kernel {
     name: "path_bvh",
@@ -221,6 +236,21 @@ pub static PMF_EQ4: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `pmf_linked`.
+pub static PMF_LINKED: Kernel = Kernel {
+    name: "pmf_linked",
+    bytes: include_bytes!("../spirv/pmf_linked.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "nodes", access: Read, stride: 224 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 2, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 3, name: "queries", access: Read, stride: 36 },
+        Binding { binding: 4, name: "results", access: Write, stride: 4 },
+    ],
+    push_constants: 24,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `pmf_narrow`.
 pub static PMF_NARROW: Kernel = Kernel {
     name: "pmf_narrow",
@@ -245,6 +275,36 @@ pub static PMF_NATIVE: Kernel = Kernel {
         Binding { binding: 1, name: "instances", access: Read, stride: 136 },
         Binding { binding: 2, name: "trails", access: Read, stride: 4 },
         Binding { binding: 3, name: "queries", access: Read, stride: 32 },
+        Binding { binding: 4, name: "results", access: Write, stride: 4 },
+    ],
+    push_constants: 24,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `pmf_segment`.
+pub static PMF_SEGMENT: Kernel = Kernel {
+    name: "pmf_segment",
+    bytes: include_bytes!("../spirv/pmf_segment.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 2, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 3, name: "queries", access: Read, stride: 32 },
+        Binding { binding: 4, name: "results", access: Write, stride: 4 },
+    ],
+    push_constants: 24,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `pmf_transmissive`.
+pub static PMF_TRANSMISSIVE: Kernel = Kernel {
+    name: "pmf_transmissive",
+    bytes: include_bytes!("../spirv/pmf_transmissive.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 2, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 3, name: "queries", access: Read, stride: 40 },
         Binding { binding: 4, name: "results", access: Write, stride: 4 },
     ],
     push_constants: 24,
@@ -305,6 +365,19 @@ pub static REFIT_BOTTOM_EQ4: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `refit_bottom_linked`.
+pub static REFIT_BOTTOM_LINKED: Kernel = Kernel {
+    name: "refit_bottom_linked",
+    bytes: include_bytes!("../spirv/refit_bottom_linked.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "list", access: Read, stride: 4 },
+        Binding { binding: 1, name: "triangles", access: Read, stride: 60 },
+        Binding { binding: 2, name: "nodes", access: ReadWrite, stride: 224 },
+    ],
+    push_constants: 8,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `refit_roots`.
 pub static REFIT_ROOTS: Kernel = Kernel {
     name: "refit_roots",
@@ -338,6 +411,19 @@ pub static REFIT_ROOTS_EQ4: Kernel = Kernel {
     bindings: &[
         Binding { binding: 0, name: "list", access: Read, stride: 4 },
         Binding { binding: 1, name: "nodes", access: Read, stride: 112 },
+        Binding { binding: 2, name: "roots", access: ReadWrite, stride: 52 },
+    ],
+    push_constants: 8,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `refit_roots_linked`.
+pub static REFIT_ROOTS_LINKED: Kernel = Kernel {
+    name: "refit_roots_linked",
+    bytes: include_bytes!("../spirv/refit_roots_linked.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "list", access: Read, stride: 4 },
+        Binding { binding: 1, name: "nodes", access: Read, stride: 224 },
         Binding { binding: 2, name: "roots", access: ReadWrite, stride: 52 },
     ],
     push_constants: 8,
@@ -381,6 +467,20 @@ pub static REFIT_TOP_EQ4: Kernel = Kernel {
         Binding { binding: 1, name: "instances", access: Read, stride: 136 },
         Binding { binding: 2, name: "roots", access: Read, stride: 52 },
         Binding { binding: 3, name: "nodes", access: ReadWrite, stride: 112 },
+    ],
+    push_constants: 8,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `refit_top_linked`.
+pub static REFIT_TOP_LINKED: Kernel = Kernel {
+    name: "refit_top_linked",
+    bytes: include_bytes!("../spirv/refit_top_linked.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "list", access: Read, stride: 4 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 2, name: "roots", access: Read, stride: 52 },
+        Binding { binding: 3, name: "nodes", access: ReadWrite, stride: 224 },
     ],
     push_constants: 8,
     workgroup: [64, 1, 1],
@@ -880,6 +980,21 @@ pub static SAMPLE_EQ4: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `sample_linked`.
+pub static SAMPLE_LINKED: Kernel = Kernel {
+    name: "sample_linked",
+    bytes: include_bytes!("../spirv/sample_linked.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "nodes", access: Read, stride: 224 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 2, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 3, name: "queries", access: Read, stride: 36 },
+        Binding { binding: 4, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 24,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `sample_narrow`.
 pub static SAMPLE_NARROW: Kernel = Kernel {
     name: "sample_narrow",
@@ -910,6 +1025,36 @@ pub static SAMPLE_NATIVE: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `sample_segment`.
+pub static SAMPLE_SEGMENT: Kernel = Kernel {
+    name: "sample_segment",
+    bytes: include_bytes!("../spirv/sample_segment.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 2, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 3, name: "queries", access: Read, stride: 32 },
+        Binding { binding: 4, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 24,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `sample_transmissive`.
+pub static SAMPLE_TRANSMISSIVE: Kernel = Kernel {
+    name: "sample_transmissive",
+    bytes: include_bytes!("../spirv/sample_transmissive.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 1, name: "instances", access: Read, stride: 136 },
+        Binding { binding: 2, name: "trails", access: Read, stride: 4 },
+        Binding { binding: 3, name: "queries", access: Read, stride: 40 },
+        Binding { binding: 4, name: "results", access: Write, stride: 12 },
+    ],
+    push_constants: 24,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `sample_wide`.
 pub static SAMPLE_WIDE: Kernel = Kernel {
     name: "sample_wide",
@@ -922,6 +1067,20 @@ pub static SAMPLE_WIDE: Kernel = Kernel {
         Binding { binding: 4, name: "results", access: Write, stride: 12 },
     ],
     push_constants: 24,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `segment_places`.
+pub static SEGMENT_PLACES: Kernel = Kernel {
+    name: "segment_places",
+    bytes: include_bytes!("../spirv/segment_places.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "queries", access: Read, stride: 32 },
+        Binding { binding: 1, name: "points", access: Read, stride: 44 },
+        Binding { binding: 2, name: "parts", access: Read, stride: 4 },
+        Binding { binding: 3, name: "results", access: Write, stride: 8 },
+    ],
+    push_constants: 4,
     workgroup: [64, 1, 1],
 };
 
@@ -941,6 +1100,7 @@ pub static SELF_TEST: Kernel = Kernel {
 pub static KERNELS: &[&Kernel] = &[
     &LIGHT_POINTS,
     &LIGHT_POINTS_ANY,
+    &LIGHT_POINTS_LINKED,
     &PATH_BVH,
     &PATH_BVH_ANY,
     &PATH_BVH_EQ4,
@@ -951,18 +1111,24 @@ pub static KERNELS: &[&Kernel] = &[
     &PMF,
     &PMF_ANY,
     &PMF_EQ4,
+    &PMF_LINKED,
     &PMF_NARROW,
     &PMF_NATIVE,
+    &PMF_SEGMENT,
+    &PMF_TRANSMISSIVE,
     &PMF_WIDE,
     &REFIT_BOTTOM,
     &REFIT_BOTTOM_ANY,
     &REFIT_BOTTOM_EQ4,
+    &REFIT_BOTTOM_LINKED,
     &REFIT_ROOTS,
     &REFIT_ROOTS_ANY,
     &REFIT_ROOTS_EQ4,
+    &REFIT_ROOTS_LINKED,
     &REFIT_TOP,
     &REFIT_TOP_ANY,
     &REFIT_TOP_EQ4,
+    &REFIT_TOP_LINKED,
     &RENDER_BVH,
     &RENDER_BVH_ANY,
     &RENDER_BVH_EQ4,
@@ -988,8 +1154,12 @@ pub static KERNELS: &[&Kernel] = &[
     &SAMPLE,
     &SAMPLE_ANY,
     &SAMPLE_EQ4,
+    &SAMPLE_LINKED,
     &SAMPLE_NARROW,
     &SAMPLE_NATIVE,
+    &SAMPLE_SEGMENT,
+    &SAMPLE_TRANSMISSIVE,
     &SAMPLE_WIDE,
+    &SEGMENT_PLACES,
     &SELF_TEST,
 ];

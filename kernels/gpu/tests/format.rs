@@ -177,9 +177,20 @@ fn buffers_have_their_strides_readers_and_writers() {
     for buffer in Buffer::ALL {
         assert!(rows.iter().any(|row| code(row[0]) == buffer.name()), "{buffer:?}");
     }
-    let own = ["refit_", "sample", "pmf", "render_", "path_", "restir_"];
+    let own = [
+        "refit_", "sample", "pmf", "render_", "path_", "restir_", "light_", "segment_",
+    ];
+    let layouts = [
+        "_eq4",
+        "_narrow",
+        "_wide",
+        "_any",
+        "_linked",
+        "_transmissive",
+        "_segment",
+    ];
     for kernel in KERNELS {
-        let (name, layout) = ["_eq4", "_narrow", "_wide", "_any"]
+        let (name, layout) = layouts
             .into_iter()
             .find_map(|suffix| Some((kernel.name.strip_suffix(suffix)?, suffix)))
             .unwrap_or((kernel.name, ""));
@@ -189,31 +200,42 @@ fn buffers_have_their_strides_readers_and_writers() {
             continue;
         }
         for binding in kernel.bindings {
-            let Some(row) = rows.iter().find(|row| code(row[0]) == binding.name) else {
+            let names = |row: &&Vec<&str>| row[0].split(", ").position(|name| code(name) == binding.name);
+            let Some((row, place)) = rows.iter().find_map(|row| Some((row, names(&row)?))) else {
                 continue;
             };
             let (strides, writers, readers) = (row[1], row[2], row[3]);
-            if binding.name == "results" && !["sample", "pmf"].contains(&name) {
+            let is_told = ["sample", "pmf", "light_points", "segment_places"].contains(&name);
+            if binding.name == "results" && !is_told {
                 continue;
             }
             let stride = match (binding.name, layout) {
-                ("nodes", "_eq4" | "_narrow" | "_wide" | "_any") | ("triangles", "_any") => {
+                ("nodes", "_eq4" | "_narrow" | "_wide" | "_any" | "_linked")
+                | ("triangles", "_any" | "_linked")
+                | ("queries", "_linked" | "_transmissive" | "_segment") => {
                     let own = format!("`{layout}` ");
                     let after = strides.split_once(&*own).expect("its own").1;
                     after.split(',').next().unwrap_or(after)
                 }
-                ("nodes" | "triangles", _) => strides.split_once(',').expect("a first one").0,
+                ("nodes" | "triangles" | "queries", _) => strides.split_once(',').expect("a first one").0,
                 ("results", _) => {
                     let own = format!("`{name}` ");
                     let after = strides.split_once(&*own).expect("its results").1;
                     after.split(',').next().unwrap_or(after)
                 }
-                _ => strides,
+                // "12; 8 (two `f32`)", of two buffers in one row.
+                _ => {
+                    let own = strides.split("; ").nth(place).expect("a stride");
+                    own.split(' ').next().unwrap_or(own)
+                }
             };
             assert_eq!(stride.parse(), Ok(binding.stride), "{name}: {binding:?}");
             let named = |cell: &str| {
-                cell.split(", ").map(code).any(|own| {
-                    own == name || own.strip_suffix('*').is_some_and(|start| name.starts_with(start))
+                let names = cell.split("; ").flat_map(|part| part.split(", "));
+                names.map(code).any(|own| {
+                    own == name
+                        || own == kernel.name
+                        || own.strip_suffix('*').is_some_and(|start| name.starts_with(start))
                 })
             };
             if binding.access != Access::Read {

@@ -2,6 +2,7 @@
 
 use super::Top;
 use super::rebuild::{PART, TopTree};
+use crate::bvh::changes::Counted;
 use crate::bvh::{Bvh, Trails};
 use crate::levels::Levels;
 use crate::node::Node;
@@ -50,22 +51,17 @@ impl Top {
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Counts the changes of instances, and children that came and went, at all nodes above them, of which `top` lists each with all above. Of
-    /// `refitted` instances those count that were edited since the last count, and all of `swept` bottom levels: that some of a mesh's triangles
-    /// changed, or that its tree is another, is nothing to the top level, as long as its flux is about the same. `all` are those and these.
-    pub(in crate::bvh) fn note_changes(
-        &mut self,
-        refitted: &[u32],
-        swept: &[u32],
-        all: &[u32],
-        top: &Levels,
-    ) {
+    /// refitted instances those count that were edited since the last count, and all of swept bottom levels: that some of a mesh's triangles
+    /// changed, or that its tree is another, is nothing to the top level, as long as its flux is about the same.
+    pub(in crate::bvh) fn note_changes(&mut self, counted: &Counted, top: &Levels) {
+        let Counted { refitted, swept, all } = counted;
         let now = self.epoch + 1;
         let since = core::mem::replace(&mut self.top.counted_at, self.epoch);
-        let mut counted = core::mem::take(&mut self.top.counted);
+        let mut counts = core::mem::take(&mut self.top.counted);
         let mut count = |leaf: u32| {
             let number = self.top.number(self.placed[leaf as usize].node);
             if number != INVALID {
-                counted[number as usize] += 1;
+                counts[number as usize] += 1;
             }
         };
         for &leaf in refitted {
@@ -92,7 +88,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         // Each after those below it.
         for &node in top.nodes() {
             let number = self.top.number(node) as usize;
-            let count = core::mem::take(&mut counted[number]);
+            let count = core::mem::take(&mut counts[number]);
             // A node that was built since the last refit was built of what it finds.
             if count > 0 && self.top.tried[number] < now {
                 self.top.changes[number] = bounded_sum(self.top.changes[number], count);
@@ -102,13 +98,13 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             }
             let above = self.top.number(self.parents[node as usize]);
             if above != INVALID {
-                counted[above as usize] += count;
+                counts[above as usize] += count;
                 if self.top.seen[number] == now {
                     self.top.seen[above as usize] = now;
                 }
             }
         }
-        self.top.counted = counted;
+        self.top.counted = counts;
     }
 
     /// A part has nothing to gain: its nodes are as good as built. Of what was tried above parts that is said of the nodes above parts

@@ -10,7 +10,8 @@ mod subject;
 mod surfaces;
 
 use lightbvh::BuildParams;
-use lightbvh::requirements::{Changes, Declared, Requirements};
+use lightbvh::light::AnyLight;
+use lightbvh::requirements::{Changes, Declared, LightKinds, Requirements};
 use lightbvh_gpu::KernelSet;
 use lightbvh_kernels::bvh::{Node, WIDTH};
 
@@ -25,7 +26,7 @@ use super::{Context, Outcome, table};
 use crate::cli::table::news;
 use crate::error::HostError;
 use crate::scene::{Instances, Scene};
-use crate::workload::lights_at;
+use crate::workload::{lights_at, lights_of};
 
 pub(super) use self::options::Args;
 
@@ -75,6 +76,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         moved,
         motion,
         surfaces,
+        kinds: kinds(&scene, args.frame)?,
         requirements,
         chosen,
         asked_for: model != chosen,
@@ -87,6 +89,15 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         report.print()?;
     }
     Ok(Outcome::good_if(report.holds()))
+}
+
+/// The kinds of light of a scene, where there are others than triangles.
+fn kinds(scene: &Scene, frame: u32) -> Result<Option<LightKinds>, HostError> {
+    if scene.analytic_count() == 0 {
+        return Ok(None);
+    }
+    let lights = lights_of::<AnyLight>(scene, frame)?;
+    Ok(Some(LightKinds::of(lights.triangles())))
 }
 
 fn declared(args: &Args, motion: &Motion, surfaces: &Surfaces) -> Declared {

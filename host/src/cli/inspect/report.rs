@@ -1,6 +1,7 @@
 //! What `lightbvh inspect` says.
 
-use lightbvh::requirements::{Fact, Model, Requirements, Structure};
+use lightbvh::requirements::{Fact, LightKinds, Model, Requirements, Structure};
+use lightbvh_kernels::bvh::WIDTH;
 use serde_json::{Value, json};
 
 use super::motion::Motion;
@@ -21,6 +22,8 @@ pub(super) struct Report<'a> {
     pub moved: u32,
     pub motion: Motion,
     pub surfaces: Surfaces,
+    /// Where there are other lights than triangles.
+    pub kinds: Option<LightKinds>,
     pub requirements: Requirements,
     pub chosen: Model,
     /// Whether another was asked for.
@@ -53,6 +56,9 @@ impl Report<'_> {
             "facts": facts,
             "motion": self.motion,
             "surfaces": self.surfaces,
+            "kinds": self.kinds.map(|kinds| json!({
+                "said": kinds.said(), "narrow": kinds.narrow, "light": kinds.light_type(), "node": kinds.node_type(WIDTH),
+            })),
             "chosen": model_json(&self.chosen),
             "reasons": self.requirements.reasons(),
             "model": model_json(&self.checked.model),
@@ -87,6 +93,15 @@ impl Report<'_> {
         text += &format!("\nthe smallest model that is sufficient: {}\n", self.chosen);
         for reason in self.requirements.reasons() {
             text += &format!("  {reason}\n");
+        }
+        if let Some(kinds) = &self.kinds {
+            text += &format!(
+                "a tree over its lights of all kinds: Bvh<{}, Defensive<Moments, 6>, {WIDTH}>\n  lights: {}; {} of them send their light into a \
+                 cone of less than 90 degrees\n",
+                kinds.node_type(WIDTH),
+                kinds.said(),
+                kinds.narrow
+            );
         }
         table::print_text(&text)?;
         self.print_check()?;

@@ -5,16 +5,11 @@ use std::rc::Rc;
 use gltf::json::mesh::Semantic;
 
 use super::super::error::SceneError;
+use super::super::glow::Glow;
 use super::attributes::Attributes;
 use super::material::Look;
 use super::texture::Placed;
 use super::{Document, RADIANCE_ATTRIBUTE};
-
-/// Texels looked at for one primitive, about: 2^24.
-const MAX_LOOKUPS: u32 = 1 << 24;
-
-/// Finest subdivision of one triangle for the mean of a texture.
-const MAX_STEPS: f64 = 4096.0;
 
 /// The texture that the last primitive glowed by, with its material: neighbours often share it.
 pub(super) type Shared = Option<(usize, Option<Rc<Placed>>)>;
@@ -64,13 +59,11 @@ pub(super) fn radiance(
         ));
         return Ok(None);
     };
-    let steps = (f64::from(MAX_LOOKUPS) / triangles.len().max(1) as f64)
-        .sqrt()
-        .min(MAX_STEPS) as u32;
+    let steps = Glow::max_steps(triangles.len());
     let mut radiance = Vec::with_capacity(triangles.len());
     for &[a, b, c] in triangles {
         let corner = |vertex| Ok(coordinates[of_vertex(coordinates.len(), vertex)?]);
-        let mean = placed.mean_over([corner(a)?, corner(b)?, corner(c)?], steps);
+        let mean = placed.glow.mean_over([corner(a)?, corner(b)?, corner(c)?], steps);
         radiance.push([0, 1, 2].map(|i| mean[i] * factor[i]));
     }
     Ok(Some(radiance))

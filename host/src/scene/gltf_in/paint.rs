@@ -2,12 +2,12 @@
 
 use gltf::json;
 use gltf::json::material::AlphaMode;
-use gltf::json::texture::{Info, MagFilter, WrappingMode};
+use gltf::json::texture::Info;
 use gltf::json::validation::Checked::Valid;
 use serde_json::{Map, Value};
 
 use super::super::error::SceneError;
-use super::super::paint::{Opacity, Paint, Texture, Wrap};
+use super::super::paint::{Opacity, Paint, Texture};
 use super::Document;
 use super::texture::Transform;
 
@@ -101,19 +101,7 @@ impl Document<'_> {
         let Some(picture) = self.kept(index, element)? else {
             return Ok(None);
         };
-        let texture = self.get(&self.root.textures, index, "texture", element)?;
-        let (mut wrap, mut is_nearest) = ([Wrap::Repeat; 2], false);
-        if let Some(sampler) = texture.sampler {
-            let sampler = self.get(&self.root.samplers, sampler, "sampler", element)?;
-            is_nearest = sampler.mag_filter == Some(Valid(MagFilter::Nearest));
-            for (wrap, checked) in wrap.iter_mut().zip([sampler.wrap_s, sampler.wrap_t]) {
-                *wrap = match checked {
-                    Valid(WrappingMode::ClampToEdge) => Wrap::Clamp,
-                    Valid(WrappingMode::MirroredRepeat) => Wrap::Mirror,
-                    _ => Wrap::Repeat,
-                };
-            }
-        }
+        let (wrap, is_nearest) = self.sampler(index, element)?;
         let transform: Option<Transform> = match others {
             Some(others) => self.extension(others, "KHR_texture_transform", element)?,
             None => None,

@@ -7,6 +7,7 @@ use std::rc::Rc;
 use super::super::check::MAX_TRIANGLES;
 use super::super::error::SceneError;
 use super::super::frame::emits;
+use super::super::glow::Glow;
 use super::super::model::{Material, Mesh, Node, Primitive, SceneData};
 use super::super::notes::{Notes, Place};
 use super::super::read_file::read_unpacked;
@@ -18,18 +19,27 @@ use crate::vector::{cross, dot, sub};
 /// Most vertices of a polygon.
 const MAX_CORNERS: usize = 1 << 16;
 
-/// A corner of a face: a vertex, and a normal where it has one.
-type Corner = (u32, Option<u32>);
+/// A corner of a face: a vertex, and texture coordinates and a normal where it has them.
+type Corner = (u32, Option<u32>, Option<u32>);
 
-/// A triangle's vertices, and the sum of its normals where all its corners have one.
-type Face = ([u32; 3], Option<[f32; 3]>);
+/// A triangle.
+struct Face {
+    vertices: [u32; 3],
+    /// Texture coordinates of each; [`NONE`] for a corner without.
+    coordinates: [u32; 3],
+    /// The sum of its normals where all its corners have one.
+    normal: Option<[f32; 3]>,
+}
+
+/// No texture coordinates.
+const NONE: u32 = u32::MAX;
 
 /// What a file has said so far.
 struct Reading<'a> {
     file: &'a Rc<str>,
     positions: Vec<[f32; 3]>,
     normals: Vec<[f32; 3]>,
-    textures: usize,
+    coordinates: Vec<[f32; 2]>,
     /// Names of groups, in the order of their first face.
     groups: Vec<String>,
     by_name: HashMap<String, u32>,
@@ -55,7 +65,7 @@ pub(super) fn read(
         file,
         positions: Vec::new(),
         normals: Vec::new(),
-        textures: 0,
+        coordinates: Vec::new(),
         groups: Vec::new(),
         by_name: HashMap::new(),
         materials: Vec::new(),
@@ -78,7 +88,16 @@ pub(super) fn read(
         match word {
             "v" => reading.positions.push(numbers::<3>(file, line, rest)?),
             "vn" => reading.normals.push(numbers::<3>(file, line, rest)?),
-            "vt" => reading.textures += 1,
+            "vt" => {
+                let lies = texture_coordinates(rest);
+                if lies.is_none() {
+                    notes.add(
+                        &place(),
+                        "texture coordinates that are no numbers, or beyond 2^20, count as 0",
+                    );
+                }
+                reading.coordinates.push(lies.unwrap_or_default());
+            }
             "f" => {
                 let part = *part.get_or_insert_with(|| reading.part(&object, &group, &material));
                 reading.face(line, rest, part)?;
@@ -144,6 +163,54 @@ fn libraries(
     Ok(())
 }
 
+/// Greatest texture coordinate, as a scene takes them.
+const FARTHEST: f32 = (1 << 20) as f32;
+
+/// One or two coordinates, a third is left out; `None` where they are no numbers or lie too far.
+fn texture_coordinates(rest: &str) -> Option<[f32; 2]> {
+    let mut words = rest.split_ascii_whitespace();
+    let next = |word: Option<&str>| {
+        let value: f32 = word?.parse().ok()?;
+        (-FARTHEST..=FARTHEST).contains(&value).then_some(value)
+    };
+    let first = next(words.next())?;
+    let second = words.next();
+    let second = if second.is_some() { next(second)? } else { 0.0 };
+    Some([first, second])
+}
+
+/// The corners of a part: equal ones once. Time and memory are in proportion to the part.
+struct Corners<'a> {
+    /// Of parts that are painted, corners with texture coordinates of their own.
+    by_both: Option<HashMap<(u32, u32), u32>>,
+    /// Of others, by vertex; [`NONE`] of all before and after.
+    by_vertex: &'a mut [u32],
+    used: Vec<(u32, u32)>,
+}
+
+impl Corners<'_> {
+    fn index(&mut self, corner: (u32, u32)) -> u32 {
+        let next = self.used.len() as u32;
+        let place = match &mut self.by_both {
+            Some(known) => known.entry(corner).or_insert(NONE),
+            None => &mut self.by_vertex[corner.0 as usize],
+        };
+        if *place == NONE {
+            *place = next;
+            self.used.push(corner);
+        }
+        *place
+    }
+
+    /// What there is, in the order in which it came.
+    fn finish(self) -> Vec<(u32, u32)> {
+        for &(vertex, _) in &self.used {
+            self.by_vertex[vertex as usize] = NONE;
+        }
+        self.used
+    }
+}
+
 impl Reading<'_> {
     /// The place in `parts` of what a group has of a material.
     fn part(&mut self, object: &str, group: &str, material: &str) -> usize {
@@ -187,12 +254,16 @@ impl Reading<'_> {
         let faces = &mut self.parts[part].1;
         for pair in corners[1..].windows(2) {
             let triangle = [corners[0], pair[0], pair[1]];
-            let normals = triangle.map(|(_, normal)| normal.map(|n| self.normals[n as usize]));
-            let sum = match normals {
+            let normals = triangle.map(|(_, _, normal)| normal.map(|n| self.normals[n as usize]));
+            let normal = match normals {
                 [Some(a), Some(b), Some(c)] => Some([0, 1, 2].map(|i| a[i] + b[i] + c[i])),
                 _ => None,
             };
-            faces.push((triangle.map(|(vertex, _)| vertex), sum));
+            faces.push(Face {
+                vertices: triangle.map(|(vertex, _, _)| vertex),
+                coordinates: triangle.map(|(_, texture, _)| texture.unwrap_or(NONE)),
+                normal,
+            });
         }
         self.triangles += corners.len() as u64 - 2;
         self.corners = corners;
@@ -215,7 +286,7 @@ impl Reading<'_> {
             Some(text) => self.index(line, text, what, count).map(Some),
         };
         let vertex = next("vertex", self.positions.len())?;
-        next("texture coordinate", self.textures)?;
+        let texture = next("texture coordinate", self.coordinates.len())?;
         let normal = next("normal", self.normals.len())?;
         let missing = || {
             wrong(
@@ -225,7 +296,7 @@ impl Reading<'_> {
                 REPAIR,
             )
         };
-        Ok((vertex.ok_or_else(missing)?, normal))
+        Ok((vertex.ok_or_else(missing)?, texture, normal))
     }
 
     /// An index from 1, or from -1 for the last one so far, as one from 0.
@@ -281,37 +352,61 @@ impl Reading<'_> {
                 primitives: Vec::new(),
             })
             .collect();
-        let mut place_of = vec![u32::MAX; self.positions.len()];
+        let mut place_of = vec![NONE; self.positions.len()];
+        let glow_of = |material: u32| library.glows.get(&self.materials[material as usize]);
         for ((group, material), faces) in &self.parts {
-            let lights = emits(data.materials[*material as usize].radiance);
+            let own = &data.materials[*material as usize];
+            let glow = glow_of(*material);
+            let lights = emits(own.radiance) || glow.is_some();
+            let is_painted = own.paint.is_some();
             let mut primitive = Primitive {
                 material: *material,
                 ..Primitive::default()
             };
-            let mut used = Vec::new();
-            for (triangle, normal) in faces {
-                let mut triangle = *triangle;
-                if lights && normal.is_some_and(|normal| self.faces_away(triangle, normal)) {
-                    triangle.swap(1, 2);
+            let mut corners = Corners {
+                by_both: is_painted.then(HashMap::new),
+                by_vertex: &mut place_of,
+                used: Vec::new(),
+            };
+            for face in faces {
+                let mut order = [0, 1, 2];
+                if lights
+                    && face
+                        .normal
+                        .is_some_and(|normal| self.faces_away(face.vertices, normal))
+                {
+                    order.swap(1, 2);
                 }
-                primitive.triangles.push(triangle.map(|vertex| {
-                    let place = &mut place_of[vertex as usize];
-                    if *place == u32::MAX {
-                        *place = used.len() as u32;
-                        used.push(vertex);
-                    }
-                    *place
-                }));
+                let corner = |k: usize| (face.vertices[k], face.coordinates[k]);
+                primitive.triangles.push(order.map(|k| corners.index(corner(k))));
             }
+            let used = corners.finish();
+            let lies = |(_, texture): &(u32, u32)| {
+                let known = self.coordinates.get(*texture as usize);
+                known.copied().unwrap_or_default()
+            };
             primitive.positions = used
                 .iter()
-                .map(|&vertex| self.positions[vertex as usize])
+                .map(|&(vertex, _)| self.positions[vertex as usize])
                 .collect();
-            for vertex in used {
-                place_of[vertex as usize] = u32::MAX;
+            let has_some = used.iter().any(|&(_, texture)| texture != NONE);
+            if is_painted && has_some {
+                let coordinates: Vec<_> = used.iter().map(lies).collect();
+                if let Some(glow) = glow {
+                    let factor = own.paint.map_or([0.0; 3], |paint| paint.radiance);
+                    let steps = Glow::max_steps(primitive.triangles.len());
+                    let radiance = primitive.triangles.iter().map(|triangle| {
+                        let corners = triangle.map(|vertex| coordinates[vertex as usize]);
+                        let mean = glow.mean_over(corners, steps);
+                        [0, 1, 2].map(|k| mean[k] * factor[k])
+                    });
+                    primitive.radiance = Some(radiance.collect());
+                }
+                primitive.coordinates = Some(coordinates);
             }
             meshes[*group as usize].primitives.push(primitive);
         }
+        data.pictures = library.pictures.into_kept();
         for (index, mesh) in (0..).zip(meshes) {
             data.nodes.push(Node {
                 name: mesh.name.clone(),

@@ -4,7 +4,7 @@
 //! - polygons, cut into triangles around their first vertex; indices from 1, or negative ones from the end; lines that go on after `\`;
 //! - objects and groups, each a node of its own with a primitive for each material: a mesh light is what a group has of a material that emits;
 //! - `Kd`, `Ks` of mirrors (`illum` 3 and 5), `Ns` and `Pr` as roughness, `Pm` as metallic, `d` and `Tr`, glass (`illum` 4, 6, 7 and 9), `Ke`;
-//! - `map_Kd` and `map_Ke` as their mean colours.
+//! - `map_Kd` with the opacity of `map_d`, and `map_Ke`, which are shown; lights have the mean of `map_Ke` over each triangle.
 //!
 //! Where vertices of a face that emits have normals, they say which side emits; else its front does, as in glTF. The format has no unit and no
 //! camera: coordinates are metres, +Y is up, and `Ke` is radiance in W/(m² sr).

@@ -1,27 +1,70 @@
 //! MTL libraries.
 
 use std::collections::HashMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use super::super::error::SceneError;
-use super::super::mean_picture::{Encoding, Mean, Pictures};
+use super::super::glow::Glow;
 use super::super::model::Material;
 use super::super::notes::{Notes, Place};
+use super::super::paint::{Opacity, Paint, Texture, Wrap};
+use super::super::picture_file::{Encoding, Kept, Mean, Pictures};
 use super::beside;
 use super::lines::{Lines, numbers, split};
+
+/// A picture, its mean, and where it lies.
+#[derive(Clone, Debug)]
+struct Map {
+    path: PathBuf,
+    mean: Mean,
+    placing: Placing,
+}
+
+/// Options of a map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Placing {
+    scale: [f32; 2],
+    offset: [f32; 2],
+    is_clamped: bool,
+}
+
+impl Placing {
+    const PLAIN: Self = Self {
+        scale: [1.0; 2],
+        offset: [0.0; 2],
+        is_clamped: false,
+    };
+
+    fn wrap(&self) -> [Wrap; 2] {
+        [if self.is_clamped {
+            Wrap::Clamp
+        } else {
+            Wrap::Repeat
+        }; 2]
+    }
+
+    /// The second coordinate of the format grows upward, rows go down.
+    fn transform(&self) -> [[f32; 2]; 3] {
+        let ([sx, sy], [ox, oy]) = (self.scale, self.offset);
+        [[sx, 0.0], [0.0, -sy], [ox, 1.0 - oy]]
+    }
+}
 
 /// What a library says of a material.
 #[derive(Clone, Debug, Default)]
 struct Entry {
     diffuse: Option<[f32; 3]>,
-    diffuse_map: Option<Mean>,
+    diffuse_map: Option<Map>,
     specular: [f32; 3],
     exponent: Option<f32>,
     emission: Option<[f32; 3]>,
-    emission_map: Option<Mean>,
+    emission_map: Option<Map>,
+    opacity_map: Option<Map>,
     dissolve: Option<f32>,
     transparency: Option<f32>,
+    /// It glows by a picture that cannot be had.
+    is_dark: bool,
     illumination: i32,
     roughness: Option<f32>,
     metallic: f32,
@@ -31,7 +74,9 @@ struct Entry {
 #[derive(Debug, Default)]
 pub(super) struct Library {
     pub materials: HashMap<String, Material>,
-    pictures: Pictures,
+    /// What those glow by that have a picture of it, by the same names.
+    pub glows: HashMap<String, Glow>,
+    pub pictures: Pictures,
 }
 
 impl Library {
@@ -72,16 +117,12 @@ impl Library {
                 "map_Kd" => entry.diffuse_map = self.picture(rest, folder, &place, notes),
                 "map_Ke" | "map_ke" => {
                     entry.emission_map = self.picture(rest, folder, &place, notes);
-                    if entry.emission_map.is_none() {
-                        // What is known to glow somewhere is not taken to glow everywhere.
-                        entry.emission_map = Some(Mean {
-                            rgb: [0.0; 3],
-                            alpha: 1.0,
-                        });
-                    }
+                    // What is known to glow somewhere is not taken to glow everywhere.
+                    entry.is_dark = entry.emission_map.is_none();
                 }
-                "map_d" | "map_Ks" | "map_Ns" | "map_Pr" | "map_Pm" | "map_Bump" | "map_bump" | "bump"
-                | "norm" | "disp" | "map_Ka" | "refl" => {
+                "map_d" => entry.opacity_map = self.picture(rest, folder, &place, notes),
+                "map_Ks" | "map_Ns" | "map_Pr" | "map_Pm" | "map_Bump" | "map_bump" | "bump" | "norm"
+                | "disp" | "map_Ka" | "refl" => {
                     notes.add(&place, format!("textures by `{word}` are left out"));
                 }
                 _ => {}
@@ -92,30 +133,92 @@ impl Library {
     }
 
     fn close(&mut self, entry: Option<(String, Entry)>) {
-        if let Some((name, entry)) = entry {
-            let material = entry.material(&name);
-            self.materials.entry(name).or_insert(material);
+        if let Some((name, entry)) = entry.filter(|(name, _)| !self.materials.contains_key(name)) {
+            let mut material = entry.material(&name);
+            material.paint = self.paint(&entry, &material);
+            material.masked = material
+                .paint
+                .is_some_and(|paint| paint.opacity != Opacity::Opaque);
+            let glow = entry
+                .emission_map
+                .as_ref()
+                .filter(|_| entry.radiance() != [0.0; 3]);
+            let glow = glow.and_then(|map| {
+                let kept = self.pictures.keep(&map.path, None)?;
+                let (wrap, transform) = (map.placing.wrap(), map.placing.transform());
+                Some(Glow::new(kept.pixels, wrap, false, transform))
+            });
+            if let Some(glow) = glow {
+                self.glows.insert(name.clone(), glow);
+            }
+            self.materials.insert(name, material);
         }
     }
 
-    /// The mean of a map, whose name comes after its options.
+    /// What is painted on a material, where it has pictures that are shown.
+    fn paint(&mut self, entry: &Entry, material: &Material) -> Option<Paint> {
+        let shown = |kept: Kept, placing: &Placing| Texture {
+            picture: kept.picture,
+            is_color: true,
+            is_nearest: false,
+            wrap: placing.wrap(),
+            transform: placing.transform(),
+        };
+        let is_mirror = entry.is_mirror();
+        let opacity = entry.opacity_map.as_ref();
+        let base = entry.diffuse_map.as_ref().filter(|_| !is_mirror);
+        let base_texture = base.and_then(|map| {
+            let kept = self
+                .pictures
+                .keep(&map.path, opacity.map(|opacity| opacity.path.as_path()))?;
+            Some(shown(kept, &map.placing))
+        });
+        let glow_texture = entry
+            .emission_map
+            .as_ref()
+            .filter(|_| entry.radiance() != [0.0; 3])
+            .and_then(|map| Some(shown(self.pictures.keep(&map.path, None)?, &map.placing)));
+        let [r, g, b] = match base_texture {
+            Some(_) => entry.base().map(|x| x.clamp(0.0, 1.0)),
+            None => material.base_color,
+        };
+        let paint = Paint {
+            base: [r, g, b, 1.0],
+            metallic: material.metallic,
+            roughness: material.roughness,
+            bump: 0.0,
+            radiance: entry.radiance(),
+            base_texture,
+            rough_texture: None,
+            bump_texture: None,
+            glow_texture,
+            opacity: match (base_texture, opacity) {
+                (Some(_), Some(_)) => Opacity::Cut(0.5),
+                _ => Opacity::Opaque,
+            },
+            transmission: 0.0,
+        };
+        // Glass is left out as a whole.
+        (paint.is_seen() && !material.is_clear()).then_some(paint)
+    }
+
+    /// A map, whose name comes after its options.
     fn picture(
         &mut self,
         rest: &str,
         folder: Option<&Path>,
         place: &Place,
         notes: &mut Notes,
-    ) -> Option<Mean> {
-        let name = map_name(rest).replace('\\', "/");
+    ) -> Option<Map> {
+        let (placing, name) = map_options(rest);
+        let name = name.replace('\\', "/");
         let Some(folder) = folder else {
             notes.add(place, "pictures are left out, as there is no folder to look in");
             return None;
         };
-        match self.pictures.mean(&beside(folder, &name), Encoding::Srgb) {
-            Ok(mean) => {
-                notes.add(place, "textures are replaced by their mean colours");
-                Some(mean)
-            }
+        let path = beside(folder, &name);
+        match self.pictures.mean(&path, Encoding::Srgb) {
+            Ok(mean) => Some(Map { path, mean, placing }),
             Err(problem) => {
                 notes.add(
                     place,
@@ -152,38 +255,81 @@ fn color(
     Ok(Some(rgb))
 }
 
-/// The file of a map, after options as `-s 1 1 1` and `-clamp on`; names may have spaces.
-fn map_name(rest: &str) -> &str {
+/// The options of a map, as `-s 1 1 1` and `-clamp on`, and the file after them, whose name may have spaces. Of options that are not known values are passed.
+fn map_options(rest: &str) -> (Placing, &str) {
+    let mut placing = Placing::PLAIN;
     let mut rest = rest.trim();
     while rest.starts_with('-') {
-        let (_, after) = split(rest);
+        let (option, after) = split(rest);
         rest = after;
+        let mut values = Vec::new();
         loop {
             let (word, after) = split(rest);
-            let is_value = word.parse::<f32>().is_ok() || matches!(word, "on" | "off");
+            let number = word.parse::<f32>().ok().filter(|x| x.is_finite());
+            let is_value = number.is_some() || matches!(word, "on" | "off");
             if !is_value || after.is_empty() {
                 break;
             }
+            placing.is_clamped = match option {
+                "-clamp" => word == "on",
+                _ => placing.is_clamped,
+            };
+            values.extend(number);
             rest = after;
         }
+        // What is not there is as it was.
+        let into = match option {
+            "-s" => &mut placing.scale,
+            "-o" => &mut placing.offset,
+            _ => continue,
+        };
+        for (into, value) in into.iter_mut().zip(values) {
+            *into = value;
+        }
     }
-    rest
+    (placing, rest)
+}
+
+fn luminance([r, g, b]: [f32; 3]) -> f32 {
+    0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 
 impl Entry {
+    /// The colour that a map of it multiplies.
+    fn base(&self) -> [f32; 3] {
+        match self.diffuse.unwrap_or([0.8; 3]) {
+            // Exporters write black beside a map that says all.
+            [0.0, 0.0, 0.0] if self.diffuse_map.is_some() => [1.0; 3],
+            base => base,
+        }
+    }
+
+    /// The radiance that a map of it multiplies.
+    fn radiance(&self) -> [f32; 3] {
+        match self.emission.unwrap_or([0.0; 3]) {
+            _ if self.is_dark => [0.0; 3],
+            [0.0, 0.0, 0.0] if self.emission_map.is_some() => [1.0; 3],
+            radiance => radiance,
+        }
+    }
+
+    /// Whether it reflects as a mirror more than of its colour.
+    fn is_mirror(&self) -> bool {
+        let mut base = self.base();
+        if let Some(map) = &self.diffuse_map {
+            base = [0, 1, 2].map(|i| base[i] * map.mean.rgb[i] as f32);
+        }
+        matches!(self.illumination, 3 | 5) && luminance(self.specular) > luminance(base)
+    }
+
     fn material(&self, name: &str) -> Material {
         let unit = |x: f32| x.clamp(0.0, 1.0);
-        let luminance = |[r, g, b]: [f32; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
-        let mut base = self.diffuse.unwrap_or([0.8; 3]);
-        if let Some(map) = self.diffuse_map {
-            // Exporters write black beside a map that says all.
-            if base == [0.0; 3] {
-                base = [1.0; 3];
-            }
-            base = [0, 1, 2].map(|i| base[i] * map.rgb[i] as f32);
+        let mut base = self.base();
+        if let Some(map) = &self.diffuse_map {
+            base = [0, 1, 2].map(|i| base[i] * map.mean.rgb[i] as f32);
         }
         let mut metallic = unit(self.metallic);
-        let is_mirror = matches!(self.illumination, 3 | 5) && luminance(self.specular) > luminance(base);
+        let is_mirror = self.is_mirror();
         if is_mirror {
             (base, metallic) = (self.specular, 1.0);
         }
@@ -203,12 +349,9 @@ impl Entry {
             (None, Some(transparency)) => transparency,
             (None, None) => 0.0,
         };
-        let mut radiance = self.emission.unwrap_or([0.0; 3]);
-        if let Some(map) = self.emission_map {
-            if radiance == [0.0; 3] {
-                radiance = [1.0; 3];
-            }
-            radiance = [0, 1, 2].map(|i| radiance[i] * map.rgb[i] as f32);
+        let mut radiance = self.radiance();
+        if let Some(map) = &self.emission_map {
+            radiance = [0, 1, 2].map(|i| radiance[i] * map.mean.rgb[i] as f32);
         }
         Material {
             name: name.to_owned(),

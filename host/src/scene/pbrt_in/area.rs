@@ -1,6 +1,6 @@
 //! Area lights: what shapes emit.
 
-use super::super::mean_picture::Encoding;
+use super::super::picture_file::Encoding;
 use super::params::Params;
 use super::state::Loader;
 use super::{resolve, shown};
@@ -73,7 +73,7 @@ impl Loader<'_> {
         let scale = self.scale(params);
         Some(AreaLight {
             radiance: [0, 1, 2].map(|i| radiance[i] * scale[i]),
-            power: params.number("power").filter(|&power| power > 0.0),
+            power: self.positive(params, "power"),
             is_two_sided: params.flag("twosided"),
         })
     }

@@ -69,7 +69,14 @@ impl Loader<'_> {
         if let Some(half) = params.number("halffov") {
             degrees = 2.0 * half;
         }
-        let is_perspective = degrees > 0.0 && degrees < 180.0 && kind != "orthographic";
+        let is_angle = degrees > 0.0 && degrees < 180.0;
+        if !is_angle {
+            self.note(
+                &params.place,
+                format!("a camera whose `fov` is {degrees}, not between 0 and 180 degrees, is left out; the scene is seen from elsewhere"),
+            );
+        }
+        let is_perspective = is_angle && kind != "orthographic";
         let window = params.numbers("screenwindow").first_chunk().copied();
         let is_window = |[left, right, low, high]: &[f64; 4]| left != right && low != high;
         self.camera = Some(Camera {

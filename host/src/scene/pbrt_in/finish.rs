@@ -80,6 +80,7 @@ impl Loader<'_> {
             });
             self.data.cameras.push(Camera { node, yfov });
         }
+        self.data.pictures = self.pictures.into_kept();
         self.data.warnings = self.notes.into_warnings();
         Scene::new(self.data)
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use image::Rgb32FImage;
 use lightbvh::light::infinite::{Environment, MAX_LEVELS};
 
-use super::super::mean_picture::{from_srgb, is_linear};
+use super::super::picture_file::{from_srgb, is_linear};
 use super::super::transform::{Affine, unit_or};
 use super::params::Params;
 use super::state::Loader;
@@ -85,7 +85,7 @@ fn longitude_latitude([x, y, z]: [f64; 3]) -> [f64; 2] {
 impl Loader<'_> {
     pub fn infinite_light(&mut self, params: &Params) {
         let scale = self.scale(params);
-        let lux = params.number("illuminance").filter(|&lux| lux > 0.0);
+        let lux = self.positive(params, "illuminance");
         let color = self.light_color(params, &["L"]);
         if params.find("portal").is_some() {
             self.note(&params.place, "portals of infinite lights are left out");

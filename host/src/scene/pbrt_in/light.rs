@@ -40,9 +40,21 @@ impl Loader<'_> {
     fn intensity(&mut self, params: &Params, whole: f64) -> [f64; 3] {
         let color = self.light_color(params, &["I"]);
         let scale = self.scale(params);
-        let power = params.number("power").filter(|&power| power > 0.0);
+        let power = self.positive(params, "power");
         let by = power.map_or(1.0, |power| power / whole);
         [0, 1, 2].map(|i| color[i] * scale[i] * by)
+    }
+
+    /// A quantity of light, where one is given; what is not above zero is left out.
+    pub fn positive(&mut self, params: &Params, name: &str) -> Option<f64> {
+        let given = params.number(name)?;
+        if given <= 0.0 {
+            self.note(
+                &params.place,
+                format!("`{name}` of a light is {given}, not above 0, and left out"),
+            );
+        }
+        Some(given).filter(|&given| given > 0.0)
     }
 
     fn point(&mut self, kind: &str, params: &Params) {
@@ -100,7 +112,7 @@ impl Loader<'_> {
     fn distant(&mut self, params: &Params) {
         let color = self.light_color(params, &["L"]);
         let scale = self.scale(params);
-        let given = params.number("illuminance").filter(|&lux| lux > 0.0);
+        let given = self.positive(params, "illuminance");
         let by = given.unwrap_or(1.0);
         let from = params.point("from").unwrap_or([0.0; 3]);
         let to = params.point("to").unwrap_or([0.0, 0.0, 1.0]);

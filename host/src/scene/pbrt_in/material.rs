@@ -1,6 +1,7 @@
 //! Materials of pbrt as base colour, metal, roughness and what goes through.
 
 use super::super::model::Material;
+use super::super::paint::{Opacity, Paint};
 use super::params::Params;
 use super::shown;
 use super::state::Loader;
@@ -42,6 +43,7 @@ impl Loader<'_> {
                 let mut base = self.base(params, &["reflectance"], 0.25);
                 let scale = params.number("scale").unwrap_or(1.0);
                 base.base_color = base.base_color.map(|x| (x * scale as f32).clamp(0.0, 1.0));
+                base.paint = base.paint.filter(|_| scale == 1.0);
                 self.note(
                     &params.place,
                     "what diffuse surfaces let through is left out; they reflect",
@@ -99,6 +101,12 @@ impl Loader<'_> {
                 format!("surfaces of material `{kind}` are left out unless they emit"),
             );
         }
+        if let Some(paint) = &mut material.paint {
+            (paint.metallic, paint.roughness) = (material.metallic, material.roughness);
+        }
+        if material.is_clear() {
+            material.paint = None;
+        }
         // The same words in every order of materials.
         material.name = if name.is_empty() {
             kind.to_owned()
@@ -108,13 +116,42 @@ impl Loader<'_> {
         self.add_material(material)
     }
 
-    /// A diffuse surface.
+    /// A diffuse surface, with the picture that it may have.
     fn base(&mut self, params: &Params, names: &[&str], default: f32) -> Material {
         let rgb = self.surface_color(params, names);
         Material {
             base_color: rgb.map_or([default; 3], |rgb| rgb.map(|x| x as f32)),
+            paint: self.picture_of(params, names),
             ..Material::default()
         }
+    }
+
+    /// The picture of a surface's colour. [`material`](Self::material) brings the rest to what the material is.
+    fn picture_of(&mut self, params: &Params, names: &[&str]) -> Option<Paint> {
+        let param = params.find_any(names).filter(|param| param.kind == "texture")?;
+        let (texture, factor) = self.textures.get(param.words.first()?)?.shown?;
+        let is_factor = factor.iter().all(|x| (0.0..=1.0).contains(x));
+        if !is_factor {
+            self.note(
+                &params.place,
+                "textures that are made brighter are replaced by their mean colours",
+            );
+            return None;
+        }
+        let [r, g, b] = factor.map(|x| x as f32);
+        Some(Paint {
+            base: [r, g, b, 1.0],
+            metallic: 0.0,
+            roughness: 1.0,
+            bump: 0.0,
+            radiance: [0.0; 3],
+            base_texture: Some(texture),
+            rough_texture: None,
+            bump_texture: None,
+            glow_texture: None,
+            opacity: Opacity::Opaque,
+            transmission: 0.0,
+        })
     }
 
     /// With the roughness that pbrt's α has.
@@ -140,6 +177,7 @@ impl Loader<'_> {
         let base = Material {
             base_color: rgb.map(|x| x as f32),
             metallic: 1.0,
+            paint: self.picture_of(params, &[reflectance]),
             ..Material::default()
         };
         self.glossy(params, base, roughness, 0.0)

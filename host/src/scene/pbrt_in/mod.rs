@@ -9,7 +9,7 @@
 //!   longitude and latitude where the picture is no square;
 //! - colours as RGB, blackbodies, spectra in the file, in files and by name; as in pbrt, light that is not given as RGB has the luminance `scale`;
 //! - perspective cameras. pbrt's cameras are left-handed: z is mirrored where the camera is, so that the picture is not;
-//! - materials, as near as two lobes come to them; textures as their mean colours. Surfaces of glass and of none are left out.
+//! - materials, as near as two lobes come to them; pictures of their colours, other textures as their means. Surfaces of glass and of none are left out.
 //!
 //! What is not read is named in [`super::SceneData::warnings`], once for each kind.
 

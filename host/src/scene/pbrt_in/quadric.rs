@@ -19,27 +19,38 @@ const MANY: u32 = 1000;
 /// Sizes that a light by formula may have, metres.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-9..=1e9;
 
+/// The corners of a grid, and its triangles.
+struct Grid {
+    positions: Vec<[f32; 3]>,
+    coordinates: Vec<[f32; 2]>,
+    triangles: Vec<[u32; 3]>,
+}
+
 /// A grid of points: `around` steps of an angle up to `sweep`, `along` steps of `profile`, which gives radius and z. Its front is to the right of
 /// the profile's way as the angle grows: outward where z falls.
-fn grid(
-    [around, along]: [u32; 2],
-    sweep: f64,
-    profile: impl Fn(f64) -> [f64; 2],
-) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
-    let is_closed = sweep >= TAU - 1e-6;
-    let columns = if is_closed { around } else { around + 1 };
-    let mut positions = Vec::new();
+fn grid([around, along]: [u32; 2], sweep: f64, profile: impl Fn(f64) -> [f64; 2]) -> Grid {
+    // Where it closes its first points are there twice: pictures begin and end there.
+    let columns = around + 1;
+    let (mut positions, mut coordinates) = (Vec::new(), Vec::new());
     for row in 0..=along {
         let [radius, z] = profile(f64::from(row) / f64::from(along));
         for column in 0..columns {
-            let (sine, cosine) = libm::sincos(sweep * f64::from(column) / f64::from(around));
+            let is_start = column == around && sweep >= TAU - 1e-6;
+            let turned = if is_start { 0 } else { column };
+            let (sine, cosine) = libm::sincos(sweep * f64::from(turned) / f64::from(around));
             positions.push([radius * cosine, radius * sine, z].map(|x| x as f32));
+            // As pbrt has them: by the angle, and from the lowest or the inner edge to the other.
+            let [u, v] = [
+                f64::from(column) / f64::from(around),
+                f64::from(row) / f64::from(along),
+            ];
+            coordinates.push([u as f32, (1.0 - v) as f32]);
         }
     }
     let mut triangles = Vec::new();
     for row in 0..along {
         for column in 0..around {
-            let at = |row: u32, column: u32| row * columns + column % columns;
+            let at = |row: u32, column: u32| row * columns + column;
             let [a, b, c, d] = [
                 at(row, column),
                 at(row + 1, column),
@@ -55,7 +66,11 @@ fn grid(
             }
         }
     }
-    (positions, triangles)
+    Grid {
+        positions,
+        coordinates,
+        triangles,
+    }
 }
 
 impl Loader<'_> {
@@ -184,15 +199,16 @@ impl Loader<'_> {
         name: &str,
         params: &Params,
         key: String,
-        grid: impl FnOnce() -> (Vec<[f32; 3]>, Vec<[u32; 3]>),
+        grid: impl FnOnce() -> Grid,
     ) -> Result<(), SceneError> {
         let make = || {
-            let (positions, triangles) = grid();
+            let grid = grid();
             Surface {
-                positions,
+                positions: grid.positions,
                 normals: Vec::new(),
-                per_light: triangles.len(),
-                triangles,
+                coordinates: grid.coordinates,
+                per_light: grid.triangles.len(),
+                triangles: grid.triangles,
             }
         };
         self.add(make, name.into(), Some(key), &params.place)

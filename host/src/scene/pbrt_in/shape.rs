@@ -15,12 +15,17 @@ use super::state::{Loader, Placed};
 use super::{REPAIR, resolve, shown, wrong};
 use crate::vector::{cross, dot, sub};
 
+/// Greatest texture coordinate, as a scene takes them.
+const FARTHEST: f32 = (1 << 20) as f32;
+
 /// Triangles in the space of their shape.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Surface {
     pub positions: Vec<[f32; 3]>,
     /// One for each position, or none.
     pub normals: Vec<[f32; 3]>,
+    /// Texture coordinates of each position, or none.
+    pub coordinates: Vec<[f32; 2]>,
     /// Counter-clockwise seen from the side that emits, unless normals say otherwise.
     pub triangles: Vec<[u32; 3]>,
     /// How many triangles in a row are one light of pbrt.
@@ -89,9 +94,11 @@ impl Loader<'_> {
             );
             normals.clear();
         }
+        let coordinates = self.texture_coordinates(params, positions.len());
         let surface = Surface {
             positions,
             normals,
+            coordinates,
             triangles: triangles.to_vec(),
             per_light: 1,
         };
@@ -114,13 +121,31 @@ impl Loader<'_> {
         }
         // Corners at (0,0), (1,0), (0,1), (1,1); the front is that of the first axis turned to the second.
         let halves = |&[a, b, c, d]: &[u32; 4]| [[a, b, d], [a, d, c]];
+        let coordinates = self.texture_coordinates(params, positions.len());
         let surface = Surface {
             positions,
             normals: Vec::new(),
+            coordinates,
             triangles: patches.iter().flat_map(halves).collect(),
             per_light: 2,
         };
         self.add(move || surface, "bilinearmesh".into(), None, &params.place)
+    }
+
+    /// Where the vertices of a mesh lie on pictures; none where that is not said of each.
+    fn texture_coordinates(&mut self, params: &Params, vertices: usize) -> Vec<[f32; 2]> {
+        let Some(param) = params.find_any(&["uv", "st"]) else {
+            return Vec::new();
+        };
+        let (pairs, rest) = param.numbers.as_chunks::<2>();
+        if pairs.len() != vertices || !rest.is_empty() {
+            self.note(
+                &params.place,
+                "texture coordinates that are not as many as the positions are left out",
+            );
+            return Vec::new();
+        }
+        pairs.iter().map(|pair| pair.map(|x| x as f32)).collect()
     }
 
     fn ply_mesh(&mut self, params: &Params) -> Result<(), SceneError> {
@@ -153,6 +178,7 @@ impl Loader<'_> {
         let make = move || Surface {
             positions: mesh.positions.clone(),
             normals: mesh.normals.clone(),
+            coordinates: mesh.coordinates.clone(),
             triangles: mesh.triangles.clone(),
             per_light: 1,
         };
@@ -196,8 +222,17 @@ impl Loader<'_> {
                 triangle.swap(1, 2);
             }
         }
+        let far = |uv: &[f32; 2]| !uv.iter().all(|x| (-FARTHEST..=FARTHEST).contains(x));
+        if surface.coordinates.iter().any(far) {
+            self.note(place, "texture coordinates beyond 2^20 are left out");
+            surface.coordinates.clear();
+        }
+        let is_painted = self.data.materials[graphics.material as usize].paint.is_some();
         let mut primitive = Primitive {
             material: graphics.material,
+            // What emits shows no pictures.
+            coordinates: (is_painted && !surface.coordinates.is_empty() && graphics.area.is_none())
+                .then(|| std::mem::take(&mut surface.coordinates)),
             ..Primitive::default()
         };
         if let Some(area) = &graphics.area {
@@ -254,6 +289,7 @@ impl Loader<'_> {
         let mut own = self.data.materials[material as usize].clone();
         own.radiance = radiance;
         own.double_sided = is_two_sided;
+        own.paint = None;
         if emits(radiance) {
             own.name = format!("{} that emits", own.name);
         }

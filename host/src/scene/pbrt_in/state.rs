@@ -6,9 +6,9 @@ use std::rc::Rc;
 
 use super::super::check::MAX_TRIANGLES;
 use super::super::error::SceneError;
-use super::super::mean_picture::Pictures;
 use super::super::model::{Material, Primitive, SceneData};
 use super::super::notes::{Notes, Place};
+use super::super::picture_file::Pictures;
 use super::super::ply_in::PlyMesh;
 use super::super::transform::Affine;
 use super::area::AreaLight;

@@ -1,6 +1,7 @@
-//! Textures: their mean colours. A picture's place in a material would be kept here.
+//! Textures: their mean colours, and pictures that the renderer shows.
 
-use super::super::mean_picture::Encoding;
+use super::super::paint::{Texture as Shown, Wrap};
+use super::super::picture_file::Encoding;
 use super::params::Params;
 use super::state::Loader;
 use super::{resolve, shown};
@@ -10,13 +11,85 @@ use super::{resolve, shown};
 pub(super) struct Texture {
     /// Linear RGB; all three the same of numbers.
     pub mean: [f64; 3],
+    /// A picture and a factor on it, of which that is the mean.
+    pub shown: Option<(Shown, [f64; 3])>,
 }
 
 impl Loader<'_> {
     /// `Texture "name" "kind" "class"`.
     pub fn texture(&mut self, name: String, class: &str, params: &Params) {
         let mean = self.mean_of(class, params);
-        self.textures.insert(name, Texture { mean });
+        let shown = match class {
+            "imagemap" => self.shown_picture(params),
+            "scale" => self.scaled_picture(params),
+            _ => None,
+        };
+        self.textures.insert(name, Texture { mean, shown });
+    }
+
+    /// A picture times a number or a colour, either of them named first.
+    fn scaled_picture(&mut self, params: &Params) -> Option<(Shown, [f64; 3])> {
+        let pairs = [
+            (["tex", "tex1"], ["scale", "tex2"]),
+            (["scale", "tex2"], ["tex", "tex1"]),
+        ];
+        for (of, by) in pairs {
+            let named = |params: &Params, names: &[&str]| {
+                let word = params.find_any(names)?.words.first()?;
+                self.textures.get(word)?.shown
+            };
+            let Some((picture, factor)) = named(params, &of) else {
+                continue;
+            };
+            if named(params, &by).is_some() {
+                return None;
+            }
+            let scale = by.iter().find_map(|name| self.unclamped(params, name));
+            let scale = scale.unwrap_or([1.0; 3]);
+            return Some((picture, [0, 1, 2].map(|k| factor[k] * scale[k])));
+        }
+        None
+    }
+
+    /// The picture of an `imagemap`, where the renderer can show it as it is.
+    fn shown_picture(&mut self, params: &Params) -> Option<(Shown, [f64; 3])> {
+        let is_plain = params.string("mapping").is_none_or(|mapping| mapping == "uv");
+        if !is_plain || params.flag("invert") {
+            self.note(
+                &params.place,
+                "textures that are inverted, or lie by another mapping than uv, are replaced by their mean colours",
+            );
+            return None;
+        }
+        let path = resolve(self.folder, params.string("filename").unwrap_or_default())?;
+        let kept = self.pictures.keep(&path, None)?;
+        let number = |name: &str, default: f64| params.number(name).unwrap_or(default);
+        let [us, vs] = [number("uscale", 1.0), number("vscale", 1.0)];
+        let [ud, vd] = [number("udelta", 0.0), number("vdelta", 0.0)];
+        let wrap = match params.string("wrap") {
+            Some("clamp") => Wrap::Clamp,
+            Some("black") => {
+                self.note(
+                    &params.place,
+                    "textures that end in black go on as at their edges",
+                );
+                Wrap::Clamp
+            }
+            _ => Wrap::Repeat,
+        };
+        let shown = Shown {
+            picture: kept.picture,
+            is_color: encoding(params) == Encoding::Srgb,
+            is_nearest: false,
+            wrap: [wrap; 2],
+            // The second coordinate grows upward, rows go down.
+            transform: [
+                [us as f32, 0.0],
+                [0.0, -vs as f32],
+                [ud as f32, (1.0 - vd) as f32],
+            ],
+        };
+        Some((shown, [number("scale", 1.0); 3]))
     }
 
     fn mean_of(&mut self, class: &str, params: &Params) -> [f64; 3] {
@@ -90,10 +163,7 @@ impl Loader<'_> {
 
     fn picture(&mut self, params: &Params) -> [f64; 3] {
         let file = params.string("filename").unwrap_or_default().to_owned();
-        let encoding = match params.string("encoding") {
-            Some("linear") => Encoding::Linear,
-            _ => Encoding::Srgb,
-        };
+        let encoding = encoding(params);
         let scale = params.number("scale").unwrap_or(1.0);
         let mean = match resolve(self.folder, &file) {
             Some(path) => self.pictures.mean(&path, encoding),
@@ -101,7 +171,6 @@ impl Loader<'_> {
         };
         match mean {
             Ok(mean) => {
-                self.note(&params.place, "textures are replaced by their mean colours");
                 let is_inverted = params.flag("invert");
                 mean.rgb.map(|x| {
                     let x = x * scale;
@@ -113,5 +182,12 @@ impl Loader<'_> {
                 [0.5; 3]
             }
         }
+    }
+}
+
+fn encoding(params: &Params) -> Encoding {
+    match params.string("encoding") {
+        Some("linear") => Encoding::Linear,
+        _ => Encoding::Srgb,
     }
 }

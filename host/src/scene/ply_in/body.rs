@@ -128,6 +128,17 @@ fn vertices(
         ));
     }
     let has_normals = !places[3..].contains(&None);
+    // As pbrt and others name them.
+    let pairs = [
+        ["u", "v"],
+        ["s", "t"],
+        ["texture_u", "texture_v"],
+        ["texture_s", "texture_t"],
+    ];
+    let lies = pairs.iter().find_map(|names| {
+        let [u, v] = names.map(place);
+        Some([u?, v?])
+    });
     let mut row = vec![0.0_f32; element.properties.len()];
     for index in 0..element.count {
         for (property, value) in element.properties.iter().zip(&mut row) {
@@ -146,6 +157,9 @@ fn vertices(
         out.positions.push(pick([x, y, z]));
         if has_normals {
             out.normals.push(pick([nx, ny, nz]));
+        }
+        if let Some(lies) = lies {
+            out.coordinates.push(lies.map(|place| row[place]));
         }
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! PLY in: triangle meshes, in text or binary of either byte order, as they are or by gzip.
 //!
-//! Read are positions, normals and faces; polygons are cut into triangles around their first vertex. Other properties and elements are
+//! Read are positions, normals, texture coordinates and faces; polygons are cut into triangles around their first vertex. Other properties and elements are
 //! read past. A PLY file has no material: as a scene of its own it is a grey surface that an environment map or suns can light.
 //! A count is believed once there are as many bytes as it needs.
 
@@ -21,6 +21,8 @@ pub(super) struct PlyMesh {
     pub positions: Vec<[f32; 3]>,
     /// One for each position, or none.
     pub normals: Vec<[f32; 3]>,
+    /// Texture coordinates of each position, or none.
+    pub coordinates: Vec<[f32; 2]>,
     /// Indices below the number of positions.
     pub triangles: Vec<[u32; 3]>,
 }

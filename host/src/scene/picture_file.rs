@@ -1,11 +1,14 @@
-//! Mean colours of pictures, within limits.
+//! Pictures in files beside a scene, within limits: their mean colours, and the pictures that the renderer shows.
 
 use std::collections::HashMap;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
+use std::sync::Arc;
 
-use image::{DynamicImage, ImageReader, Limits};
+use image::{DynamicImage, ImageReader, Limits, RgbaImage};
 
+use super::paint::Picture;
 use super::pfm;
 use super::read_file::read_file;
 
@@ -34,10 +37,23 @@ pub(super) struct Mean {
     pub alpha: f64,
 }
 
+/// A picture that the renderer shows.
+#[derive(Clone, Debug)]
+pub(super) struct Kept {
+    /// Its number among those of the scene.
+    pub picture: u32,
+    pub pixels: Rc<RgbaImage>,
+}
+
+/// What a kept picture is made of: a file, and another one that says its opacity.
+type Source = (PathBuf, Option<PathBuf>);
+
 /// What has been decoded, with what was wrong with it.
 #[derive(Debug, Default)]
 pub(super) struct Pictures {
     means: HashMap<(PathBuf, Encoding), Result<Mean, String>>,
+    kept: Vec<Rc<RgbaImage>>,
+    by_source: HashMap<Source, Option<Kept>>,
     pixels: u64,
 }
 
@@ -51,6 +67,62 @@ impl Pictures {
         let mean = self.decode(path).map(|picture| mean_of(&picture, encoding));
         self.means.insert(key, mean.clone());
         mean
+    }
+
+    /// A file whose mean is known, as a picture that is shown; `None` where its numbers are light, which bytes cannot hold, and where it cannot be read. With
+    /// `opacity` its opacity is that of another file: its alpha, or where that is opaque its red.
+    pub fn keep(&mut self, path: &Path, opacity: Option<&Path>) -> Option<Kept> {
+        let source = (path.to_owned(), opacity.map(Path::to_owned));
+        if let Some(known) = self.by_source.get(&source) {
+            return known.clone();
+        }
+        let kept = self.made(path, opacity).map(|pixels| {
+            let pixels = Rc::new(pixels);
+            self.kept.push(Rc::clone(&pixels));
+            Kept {
+                picture: self.kept.len() as u32 - 1,
+                pixels,
+            }
+        });
+        self.by_source.insert(source, kept.clone());
+        kept
+    }
+
+    fn made(&mut self, path: &Path, opacity: Option<&Path>) -> Option<RgbaImage> {
+        let picture = self.decode(path).ok().filter(|picture| !is_linear(picture))?;
+        let mut pixels = picture.to_rgba8();
+        match opacity {
+            None => pixels.pixels_mut().for_each(|pixel| pixel.0[3] = u8::MAX),
+            Some(opacity) => {
+                let other = self.decode(opacity).ok()?;
+                let other = other.to_rgba8();
+                let has_alpha = other.pixels().any(|pixel| pixel.0[3] < u8::MAX);
+                let (size, of) = (pixels.dimensions(), other.dimensions());
+                let at = |k: u32, size: u32, of: u32| {
+                    ((u64::from(k) * u64::from(of) / u64::from(size)) as u32).min(of - 1)
+                };
+                for (x, y, pixel) in pixels.enumerate_pixels_mut() {
+                    let other = other.get_pixel(at(x, size.0, of.0), at(y, size.1, of.1));
+                    pixel.0[3] = other.0[if has_alpha { 3 } else { 0 }];
+                }
+            }
+        }
+        Some(pixels)
+    }
+
+    /// All that is kept, by number.
+    pub fn into_kept(self) -> Vec<Picture> {
+        drop(self.by_source);
+        let pictures = self.kept.into_iter().map(|pixels| {
+            let (width, height) = pixels.dimensions();
+            let pixels = Rc::try_unwrap(pixels).unwrap_or_else(|shared| (*shared).clone());
+            Picture {
+                width,
+                height,
+                texels: Arc::new(pixels.into_raw()),
+            }
+        });
+        pictures.collect()
     }
 
     /// The pixels of a file.

@@ -1,0 +1,226 @@
+//! The loaders of text: pbrt, OBJ, PLY.
+
+use arbitrary::{Result, Unstructured};
+use lightbvh_host::scene::{Scene, SceneError};
+
+use crate::Forms;
+use crate::gltf::within_domain;
+
+/// What pbrt files are made of.
+const PBRT: &[&str] = &[
+    "Identity",
+    "Translate",
+    "Scale",
+    "Rotate",
+    "LookAt",
+    "Transform",
+    "ConcatTransform",
+    "CoordinateSystem",
+    "CoordSysTransform",
+    "ReverseOrientation",
+    "AttributeBegin",
+    "AttributeEnd",
+    "TransformBegin",
+    "TransformEnd",
+    "ObjectBegin",
+    "ObjectEnd",
+    "ObjectInstance",
+    "WorldBegin",
+    "WorldEnd",
+    "Attribute",
+    "MediumInterface",
+    "NamedMaterial",
+    "MakeNamedMaterial",
+    "Material",
+    "Texture",
+    "Shape",
+    "LightSource",
+    "AreaLightSource",
+    "Camera",
+    "Film",
+    "Sampler",
+    "ActiveTransform",
+    "Include",
+    "ColorSpace",
+    "Option",
+    "\"perspective\"",
+    "\"orthographic\"",
+    "\"diffuse\"",
+    "\"conductor\"",
+    "\"dielectric\"",
+    "\"mix\"",
+    "\"imagemap\"",
+    "\"scale\"",
+    "\"constant\"",
+    "\"checkerboard\"",
+    "\"trianglemesh\"",
+    "\"bilinearmesh\"",
+    "\"plymesh\"",
+    "\"sphere\"",
+    "\"disk\"",
+    "\"cylinder\"",
+    "\"loopsubdiv\"",
+    "\"point\"",
+    "\"spot\"",
+    "\"distant\"",
+    "\"infinite\"",
+    "\"goniometric\"",
+    "\"a\"",
+    "\"b\"",
+    "\"shape\"",
+    "\"light\"",
+    "\"point3 P\"",
+    "\"integer indices\"",
+    "\"point2 uv\"",
+    "\"normal N\"",
+    "\"float radius\"",
+    "\"float zmin\"",
+    "\"float phimax\"",
+    "\"float fov\"",
+    "\"float screenwindow\"",
+    "\"rgb L\"",
+    "\"rgb I\"",
+    "\"blackbody L\"",
+    "\"spectrum L\"",
+    "\"float power\"",
+    "\"float scale\"",
+    "\"float illuminance\"",
+    "\"float coneangle\"",
+    "\"float conedeltaangle\"",
+    "\"bool twosided\"",
+    "\"rgb reflectance\"",
+    "\"texture reflectance\"",
+    "\"float roughness\"",
+    "\"string filename\"",
+    "\"string materials\"",
+    "\"texture tex\"",
+    "\"float amount\"",
+    "\"spectrum eta\"",
+    "\"metal-Cu-eta\"",
+    "\"float alpha\"",
+    "\"point3 from\"",
+    "\"point3 to\"",
+    "true",
+    "false",
+    "[",
+    "]",
+    "[",
+    "]",
+];
+
+/// What OBJ files are made of.
+const OBJ: &[&str] = &[
+    "v", "vn", "vt", "f", "f", "f", "o", "g", "usemtl", "mtllib", "l", "p", "s", "\n", "\n", "\n", "\\\n",
+    "#", "a", "b", "1/1/1", "2//2", "3/3", "1/2/3", "-1", "-2", "-3//-1", "1", "2", "3",
+];
+
+/// What headers of PLY files are made of, and numbers after them.
+const PLY: &[&str] = &[
+    "ply\nformat ascii 1.0\n",
+    "element vertex",
+    "element face",
+    "element x",
+    "property float x\n",
+    "property float y\n",
+    "property double z\n",
+    "property float nx\n",
+    "property float ny\n",
+    "property float nz\n",
+    "property float u\n",
+    "property float v\n",
+    "property list uchar int vertex_indices\n",
+    "property list int float junk\n",
+    "property uchar red\n",
+    "end_header\n",
+    "comment\n",
+    "\n",
+    "0",
+    "1",
+    "2",
+    "3",
+];
+
+/// Numbers, of which some are at the edge of what is taken.
+const NUMBERS: &[&str] = &[
+    "0",
+    "1",
+    "-1",
+    "2",
+    "0.5",
+    "3",
+    "4",
+    "8",
+    "-0",
+    "1e-3",
+    "90",
+    "180",
+    "360",
+    "1e10",
+    "1e20",
+    "1e30",
+    "1e38",
+    "3.5e38",
+    "-1e30",
+    "1e-30",
+    "1e-45",
+    "1e300",
+    "nan",
+    "inf",
+    "1048577",
+    "4294967296",
+    "18446744073709551616",
+    "0x10",
+    "1.5.2",
+    "",
+];
+
+/// A pbrt, OBJ or PLY file, of any bytes or of words that such files are made of: refused, or a scene whose frames hold numbers in the domain.
+pub fn texts(data: &[u8], _: Forms) {
+    let run = |u: &mut Unstructured<'_>| -> Result<()> {
+        let kind: u8 = u.arbitrary()?;
+        let (words, read): (&[&str], fn(&[u8]) -> _) = match kind % 3 {
+            0 => (PBRT, |bytes| Scene::read_pbrt_slice("fuzz.pbrt", bytes, None)),
+            1 => (OBJ, |bytes| Scene::read_obj_slice("fuzz.obj", bytes, None)),
+            _ => (PLY, |bytes| Scene::read_ply_slice("fuzz.ply", bytes)),
+        };
+        let bytes = match kind / 3 % 8 {
+            0 => u.bytes(u.len())?.to_vec(),
+            _ => text(u, words)?.into_bytes(),
+        };
+        open(read(&bytes));
+        Ok(())
+    };
+    let _ = run(&mut Unstructured::new(data));
+}
+
+/// Words and numbers until the input ends: a quarter of them numbers, and now and then several in a row, as points come.
+fn text(u: &mut Unstructured<'_>, words: &[&str]) -> Result<String> {
+    let mut text = String::new();
+    while !u.is_empty() && text.len() < 1 << 16 {
+        let which: u8 = u.arbitrary()?;
+        match which {
+            0..=63 => text += u.choose(NUMBERS)?,
+            64..=79 => {
+                for _ in 0..u.int_in_range(2..=12)? {
+                    text += u.choose(&NUMBERS[..8])?;
+                    text.push(' ');
+                }
+            }
+            _ => text += u.choose(words)?,
+        }
+        text.push(if which & 7 == 0 { '\n' } else { ' ' });
+    }
+    Ok(text)
+}
+
+fn open(read: std::result::Result<Scene, SceneError>) {
+    match read {
+        Ok(scene) => {
+            for frame in [0, 11] {
+                within_domain(&scene.frame(frame));
+            }
+            assert!(scene.warnings().iter().all(|warning| !warning.is_empty()));
+        }
+        Err(error) => assert!(!error.to_string().is_empty()),
+    }
+}
