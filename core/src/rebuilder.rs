@@ -235,7 +235,8 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
             true if scene.is_top_large() => 0,
             true => 1,
         };
-        self.reopen_some(scene, most);
+        let closed = scene.close_for_stages(most);
+        self.reopen_some(scene, most - closed);
         flight?;
         meshes?;
         Ok(start)
@@ -261,7 +262,9 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
             let began = Clock::start();
             let waits = self.params.swap == Swap::Deterministic;
             let built = self.worker.as_ref().and_then(|worker| worker.outcome(waits));
-            start.waited += began.elapsed();
+            if waits {
+                start.waited += began.elapsed();
+            }
             built
         };
         let Some(built) = built else {
@@ -327,13 +330,17 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
             || (self.taken == Some(now)
                 && self.search.is_done()
                 && !self.meshes.has_small()
+                && !self.meshes.has_resting()
                 && !self.meshes.has_lost())
         {
             return;
         }
         let worn = scene.worn_since(&self.params.rebuild, self.taken);
         let strained = scene.strained_since(&self.params.rebuild, self.taken);
-        self.meshes.await_turn(worn, strained, scene, &self.params);
+        let unsettled = scene.unsettled_since(&self.params.rebuild, self.taken);
+        let rests_since = self.search.rests_since();
+        self.meshes
+            .await_turn([worn, strained, unsettled], rests_since, scene, &self.params);
         let takes_turns = scene.is_top_large() && self.meshes.has_small();
         let is_tops_turn = takes_turns && core::mem::replace(&mut self.is_tops_turn, false);
         let mut top = Vec::new();

@@ -48,6 +48,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let mut topologies = build_each(&new_meshes.collect::<Vec<_>>(), &self.params).into_iter();
         let mut updated = Added::default();
         let (mut added, mut moved) = (Vec::new(), Vec::new());
+        let (mut brightened, mut reshaped) = (Vec::new(), Vec::new());
         for edit in edits {
             match edit {
                 Edit::AddMesh { triangles } => {
@@ -76,11 +77,16 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                     self.place(instance.index);
                     if self.is_otherwise_bright(instance.index) {
                         moved.push(instance.index);
+                        let placed = &self.placed[instance.index as usize];
+                        if placed.radiance > placed.hung_radiance {
+                            brightened.push(instance.index);
+                        }
                     }
                 }
                 Edit::SetTriangles { mesh, triangles } => {
                     let blas = self.meshes[mesh.index as usize].blas;
                     self.write_triangles(blas, &triangles);
+                    reshaped.push(blas);
                 }
                 Edit::SetTriangleRange {
                     mesh,
@@ -97,11 +103,15 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if !added.is_empty() && 2 * added.len() >= self.live.len() {
             self.build_top();
         } else {
-            let usual = if added.is_empty() { 0.0 } else { self.usual_flux() };
+            let has_new = !added.is_empty() || !brightened.is_empty();
+            let usual = if has_new { self.usual_flux() } else { 0.0 };
+            let jumped = self.take_jumped(reshaped);
+            moved.extend(&jumped);
             self.decide_added(&added);
+            brightened.extend(&added);
             added = self.leaves_of_all(&added);
-            let new = added.clone();
-            self.take_misplaced(moved, &mut added);
+            let new = self.leaves_of_all(&brightened);
+            self.take_misplaced(moved, &jumped, &mut added);
             added.sort_unstable();
             self.insert_instances(&added);
             self.unsettle_bright(&new, usual);

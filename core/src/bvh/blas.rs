@@ -50,6 +50,8 @@ pub(super) struct Blas {
     pub parts: Range<u32>,
     /// How many are.
     pub opened: u32,
+    /// Triangles that changed since the tree was made, those that are brighter than the others counting as so many more.
+    pub unsettled: u32,
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
@@ -74,6 +76,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             adopted: 0,
             parts: 0..0,
             opened: 0,
+            unsettled: 0,
         };
         put(&mut self.blases, index, empty.clone(), &empty);
         put(
@@ -135,6 +138,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let range = start..start + triangles.len() as u32;
         self.cover_triangles(range.end);
         let powers = self.powers_with(index, range.clone(), triangles);
+        self.unsettle_mesh(index, triangles);
         let own = &mut self.triangles[range.start as usize..range.end as usize];
         for (to, from) in own.iter_mut().zip(triangles) {
             *to = from.of_mesh(index);
@@ -179,6 +183,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         blas.levels = levels;
         blas.is_unlisted = false;
         blas.misfits.clear();
+        blas.unsettled = 0;
         blas.depth = topology.depth;
         blas.created = created;
         self.roots[index as usize].node = nodes.start;

@@ -98,6 +98,8 @@ pub(super) struct Pending {
     pub written_instances: Vec<u32>,
     /// Whether all instances may have changed: their lists, which are empty then but for what came since, would be longer than the arrays.
     pub all_instances: bool,
+    /// Whether all nodes may have been written, and so are to be computed. Their triangles are no others for that.
+    pub all_nodes: bool,
     /// How many entries were left when repeated ones were dropped last.
     kept: usize,
 }
@@ -126,6 +128,7 @@ impl Pending {
             && self.written_trails.is_empty()
             && self.written_instances.is_empty()
             && !self.all_instances
+            && !self.all_nodes
     }
 
     /// Takes over what another list holds.
@@ -145,6 +148,7 @@ impl Pending {
         self.written_trails.extend(other.written_trails);
         self.written_instances.extend(other.written_instances);
         self.all_instances |= other.all_instances;
+        self.all_nodes |= other.all_nodes;
     }
 
     /// Says that all of an array may have changed once its list has more than three times as many entries, so many `instances`, `nodes` and
@@ -160,7 +164,7 @@ impl Pending {
         // A mirror copies a node with what it knew, so all are computed then.
         if self.written_nodes.len() > 3 * nodes + LEAST {
             self.written_nodes = alloc::vec![0..nodes as u32];
-            self.parts = alloc::vec![0..triangles as u32];
+            self.all_nodes = true;
             self.whole_top = true;
         }
         for (list, length) in [

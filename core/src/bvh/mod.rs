@@ -52,6 +52,7 @@ mod tests;
 mod top;
 mod touched;
 mod trails;
+mod unsettled;
 mod validate;
 
 use alloc::vec::Vec;

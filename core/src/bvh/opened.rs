@@ -249,7 +249,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     fn can_open(&self, index: u32) -> bool {
         let blas = self.blas_index(&self.placed[index as usize]);
-        self.opens() && parts_below::<N, W>(&self.nodes[self.roots[blas as usize].node as usize]) > 0
+        self.opens()
+            && !self.stays_closed(blas)
+            && parts_below::<N, W>(&self.nodes[self.roots[blas as usize].node as usize]) > 0
     }
 
     /// Gives an instance that hangs nowhere parts; false where its mesh has none.
@@ -258,7 +260,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let blas = self.meshes[mesh as usize].blas;
         let root = self.roots[blas as usize].node;
         let count = parts_below::<N, W>(&self.nodes[root as usize]);
-        if count == 0 {
+        if count == 0 || self.stays_closed(blas) {
             return false;
         }
         if self.blases[blas as usize].opened == 0 {
@@ -396,6 +398,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             adopted: 0,
             parts: 0..0,
             opened: 0,
+            unsettled: 0,
         };
         let nothing = BlasRoot::new(INVALID, &N::Summary::EMPTY);
         for (index, slot) in parts.zip(0..) {

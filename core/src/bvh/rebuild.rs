@@ -201,6 +201,27 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         found
     }
 
+    /// The bottom levels refitted since then of which much changed a little at a time.
+    #[cfg(feature = "std")]
+    pub(crate) fn unsettled_since(&self, params: &RebuildParams, since: Option<Taken>) -> Vec<u32> {
+        let mut found = self.refitted_since_taken(params, since);
+        found.retain(|&blas| self.is_unsettled(blas));
+        found
+    }
+
+    /// Records of the top level that follow a bottom level's root.
+    #[cfg(feature = "std")]
+    pub(crate) fn leaves_of_mesh(&self, blas: u32) -> usize {
+        let own = &self.blases[blas as usize];
+        self.meshes[own.mesh as usize].users.len() + (own.opened as usize) * own.parts.len()
+    }
+
+    /// Whether more instances of a bottom level are opened than are opened anew in one frame.
+    #[cfg(feature = "std")]
+    pub(crate) fn is_much_opened(&self, blas: u32) -> bool {
+        self.blases[blas as usize].opened > super::stage::AT_ONCE
+    }
+
     /// The bottom levels refitted since then that are to be built anew.
     pub(crate) fn worn_since(&self, params: &RebuildParams, since: Option<Taken>) -> Vec<u32> {
         let mut found = self.refitted_since_taken(params, since);

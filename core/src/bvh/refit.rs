@@ -190,27 +190,37 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             written_instances: joined(pending.written_instances.clone()),
             ..RefitPlan::default()
         };
-        let mut instances = pending.instances.clone();
         let (touched, parts) = self.touched(&mut pending);
-        pending.blases.iter().for_each(|&blas| self.list_levels(blas));
+        let swept: Vec<u32> = pending.blases.iter().copied().collect();
+        let changed = swept.iter().chain(&pending.built).chain(&touched);
+        let users = changed.flat_map(|&blas| {
+            let own = &self.blases[blas as usize];
+            let users = &self.meshes[own.mesh as usize].users;
+            users.iter().flat_map(|&user| self.leaves_of(user))
+        });
+        let mut instances = pending.instances.clone();
+        instances.extend(users);
+
+        let (mut computed, mut roots) = (pending.blases, pending.built);
         let mut lists: Vec<&Levels> = parts.iter().collect();
+        roots.extend(touched);
+        if pending.all_nodes {
+            let used = (0..).zip(&self.blases).filter(|(_, blas)| !blas.nodes.is_empty());
+            computed.extend(used.map(|(index, _)| index));
+            lists.clear();
+        }
+        computed.iter().for_each(|&blas| self.list_levels(blas));
         work.parts = Levels::join(&lists);
-        for &blas in &pending.blases {
+        for &blas in &computed {
             let own = &self.blases[blas as usize];
             work.trees.push(own.nodes.clone());
             lists.push(&own.levels);
         }
         work.bottom = Levels::join(&lists);
-        let swept: Vec<u32> = pending.blases.iter().copied().collect();
-        let mut changed = pending.blases;
-        changed.extend(pending.built);
-        changed.extend(touched);
-        for blas in changed {
-            let own = &self.blases[blas as usize];
+        roots.extend(computed);
+        for blas in roots {
             work.roots.push(blas);
-            work.roots.extend(own.parts.clone());
-            let users = &self.meshes[own.mesh as usize].users;
-            instances.extend(users.iter().flat_map(|&user| self.leaves_of(user)));
+            work.roots.extend(self.blases[blas as usize].parts.clone());
         }
 
         if pending.whole_top || instances.len() > self.live.len() / MOST {

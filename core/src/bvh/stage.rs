@@ -10,6 +10,7 @@ mod fit;
 mod job;
 mod part;
 mod place;
+mod reopen;
 mod settle;
 
 use alloc::boxed::Box;
@@ -19,7 +20,10 @@ use core::ops::Range;
 
 use self::dirty::Dirty;
 pub(crate) use self::job::{MeshJob, MeshTree};
+pub(super) use self::part::MISFITS;
 use self::part::Part;
+#[cfg(feature = "std")]
+pub(crate) use self::reopen::AT_ONCE;
 use super::{Bvh, Trails};
 use crate::levels::Levels;
 use crate::node::Node;
@@ -58,6 +62,10 @@ pub(super) struct Staged {
     dirty: Dirty,
     /// The part that it is of, where it is not of all: its triangles stay, and its nodes are computed apart.
     part: Option<Part>,
+    /// What was [unsettled](super::blas::Blas::unsettled) when it began.
+    unsettled: u32,
+    /// Where among the mesh's instances those that are to be closed first are looked for, while it waits for that.
+    closes: Option<u32>,
 }
 
 /// Who builds beside the frames of a light BVH: what is under way ends with it.
@@ -81,6 +89,8 @@ impl Staged {
             fresh: 0,
             dirty: Dirty::default(),
             part: None,
+            unsettled: 0,
+            closes: None,
         }
     }
 
@@ -114,7 +124,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.drop_stage(blas);
         self.epoch += 1;
         let count = self.blas_len(blas);
-        let staged = Staged::new(self.id.0, self.epoch, builder, count);
+        let staged = Staged {
+            unsettled: self.blases[blas as usize].unsettled,
+            ..Staged::new(self.id.0, self.epoch, builder, count)
+        };
         let id = self.stage(blas, staged);
         Some((id, MeshJob::new(&self.params, count)))
     }
@@ -162,6 +175,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.epoch += 1;
         own.created = self.epoch;
         own.adopted = staged.number;
+        own.unsettled = own.unsettled.saturating_sub(staged.unsettled);
         own.depth = staged.depth;
         self.retired
             .push(core::mem::replace(&mut own.levels, staged.levels));

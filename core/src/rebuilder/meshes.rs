@@ -23,6 +23,8 @@ pub(super) struct Meshes<N: Holds, const W: usize> {
     waiting: Queue,
     /// Those that changed and are worth keeping, of which parts may not be.
     strained: Queue,
+    /// Those of which much changed a little at a time, until they are at rest.
+    resting: Queue,
     /// Those whose trees came to nothing since the last frame ended.
     lost: Vec<u32>,
     /// Small ones, which are put in place at once, as many as a frame has room for.
@@ -65,8 +67,35 @@ enum At<N: Holds, const W: usize> {
     Over,
 }
 
+/// What a thread made, and the time that was waited for it; none where it is not to be waited for.
+fn outcome<N: Node<W>, const W: usize>(
+    worker: &Worker<N, W>,
+    params: &RebuilderParams,
+    start: &mut FrameStart,
+) -> Option<Built<N, W>> {
+    let waits = params.swap == Swap::Deterministic;
+    let began = Clock::start();
+    let made = worker.outcome(waits);
+    if waits {
+        start.waited += began.elapsed();
+    }
+    made
+}
+
+/// Whether a bottom level is to be built anew: it is worn, or much of it changed a little at a time.
+fn is_wanted<N: Node<W>, I, const W: usize, T: Trails>(
+    scene: &Bvh<N, I, W, T>,
+    blas: u32,
+    params: &RebuilderParams,
+) -> bool {
+    scene.is_worn(blas, &params.rebuild) || scene.is_unsettled(blas)
+}
+
 /// Most meshes that a frame searches for a part to be built anew.
 const SEARCHED: usize = 2;
+
+/// Of a mesh that more records of the top level follow no parts are built: each would have all of them refitted.
+const MANY: usize = 256;
 
 /// Most waiting meshes that a frame looks at.
 const LOOKED_AT: usize = 256;
@@ -77,6 +106,7 @@ impl<N: Holds, const W: usize> Default for Meshes<N, W> {
             under_way: Vec::new(),
             waiting: Queue::default(),
             strained: Queue::default(),
+            resting: Queue::default(),
             lost: Vec::new(),
             small: Queue::default(),
             idle: Vec::new(),
@@ -112,29 +142,45 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
         !self.lost.is_empty()
     }
 
+    /// Whether any may be at rest one day.
+    pub fn has_resting(&self) -> bool {
+        !self.resting.is_empty()
+    }
+
     /// Whether small meshes wait.
     pub fn has_small(&self) -> bool {
         !self.small.is_empty()
     }
 
-    /// Of those refitted lately, `worn` are to be built, once others are done, and large ones among `strained` looked at.
+    /// Of those refitted lately, `worn` are to be built, once others are done, large ones among `strained` looked at, and `unsettled` ones built once
+    /// nothing of them has changed since the epoch `rests_since`.
     pub fn await_turn<I, T: Trails>(
         &mut self,
-        worn: Vec<u32>,
-        strained: Vec<u32>,
+        [worn, strained, unsettled]: [Vec<u32>; 3],
+        rests_since: u64,
         scene: &Bvh<N, I, W, T>,
         params: &RebuilderParams,
     ) {
         let lost = core::mem::take(&mut self.lost).into_iter();
-        let lost = lost.filter(|&blas| scene.is_worn(blas, &params.rebuild));
-        let worn: Vec<u32> = lost.chain(worn).collect();
+        let lost = lost.filter(|&blas| is_wanted(scene, blas, params));
+        let mut worn: Vec<u32> = lost.chain(worn).collect();
         for blas in strained {
-            if scene.blas_len(blas) > most_at_once(params) {
+            if scene.blas_len(blas) > most_at_once(params) && scene.leaves_of_mesh(blas) <= MANY {
                 self.strained.push(blas);
             }
         }
+        unsettled.into_iter().for_each(|blas| self.resting.push(blas));
+        for _ in 0..LOOKED_AT.min(self.resting.len()) {
+            let Some(blas) = self.resting.pop() else { break };
+            match scene.is_unsettled(blas) {
+                true if scene.is_at_rest(blas, rests_since) => worn.push(blas),
+                true => self.resting.push(blas),
+                false => {}
+            }
+        }
         for blas in worn {
-            if scene.blas_len(blas) <= most_at_once(params) || scene.is_single_level() {
+            let is_small = scene.blas_len(blas) <= most_at_once(params) && !scene.is_much_opened(blas);
+            if is_small || scene.is_single_level() {
                 self.small.push(blas);
             } else if !self.is_under_way(blas, false) {
                 self.waiting.push(blas);
@@ -159,7 +205,7 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
         for _ in 0..LOOKED_AT {
             let Some(blas) = self.small.first() else { break };
             // It may have gone, or been built by another.
-            let count = if scene.is_worn(blas, &params.rebuild) {
+            let count = if is_wanted(scene, blas, params) {
                 scene.blas_len(blas)
             } else {
                 0
@@ -206,9 +252,12 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
                 break;
             }
             // It may have gone, or been built by another.
-            let is_worn = scene.is_worn(blas, &params.rebuild);
+            let is_wanted = is_wanted(scene, blas, params);
             // What is not worn is asked for again where it gets worse.
-            if let Some((id, job)) = is_worn.then(|| scene.begin_stage(blas, &self.builder)).flatten() {
+            if let Some((id, job)) = is_wanted
+                .then(|| scene.begin_stage(blas, &self.builder))
+                .flatten()
+            {
                 let at = self.make_room(job, params.after, thread);
                 self.under_way.push(Flight {
                     id,
@@ -257,9 +306,7 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
                 Some(_) if left > 1 => At::Room(left - 1, worker),
                 Some(false) => At::Room(0, worker),
                 Some(true) => {
-                    let began = Clock::start();
-                    let made = worker.outcome(params.swap == Swap::Deterministic);
-                    start.waited += began.elapsed();
+                    let made = outcome(&worker, params, start);
                     match made {
                         Some(Ok((Product::Room(job), _))) => At::Copied(job, Some(worker)),
                         Some(made) => taken(made, &mut result),
@@ -282,9 +329,7 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
             }
             At::Inline(left, built) if left > 1 => At::Inline(left - 1, built),
             At::Built(_, worker) => {
-                let began = Clock::start();
-                let built = worker.outcome(params.swap == Swap::Deterministic);
-                start.waited += began.elapsed();
+                let built = outcome(&worker, params, start);
                 match built {
                     Some(built) => {
                         // One that has seen a panic is replaced.

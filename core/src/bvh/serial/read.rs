@@ -11,6 +11,7 @@ use crate::bvh::blas::Blas;
 use crate::bvh::check::factor;
 use crate::bvh::known_flux::KnownFlux;
 use crate::bvh::powers::Powers;
+use crate::bvh::stage::MISFITS;
 use crate::bvh::top::{MOST_EDITS, Top};
 use crate::bvh::{Bvh, EditReason, InstanceState, Mesh};
 use crate::levels::Levels;
@@ -90,6 +91,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 adopted: 0,
                 parts: 0..0,
                 opened: 0,
+                unsettled: 0,
             };
             if mesh != INVALID {
                 words.expect(mesh < header.meshes, "mesh of a bottom level")?;
@@ -99,6 +101,14 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 blas.parts = read_parts(words, header.blases)?;
                 let known = KnownFlux::from_word(words.one()?);
                 blas.known_flux = known.ok_or_else(|| words.wrong("flux of a mesh"))?;
+                blas.unsettled = words.one()?;
+                let misfits = words.one()?;
+                words.expect(misfits as usize <= MISFITS, "number of subtrees without another")?;
+                for _ in 0..misfits {
+                    let node = words.one()?;
+                    words.expect(blas.nodes.contains(&node), "subtree without another")?;
+                    blas.misfits.push(node);
+                }
             }
             self.blases.push(blas);
         }

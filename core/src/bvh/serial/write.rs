@@ -74,7 +74,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 blas.triangles.end,
             ]);
             write_parts(words, &blas.parts);
-            words.push(blas.known_flux.word());
+            words.extend([blas.known_flux.word(), blas.unsettled, blas.misfits.len() as u32]);
+            words.extend(&blas.misfits);
         }
         words.extend(
             self.meshes

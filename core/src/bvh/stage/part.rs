@@ -21,7 +21,7 @@ use crate::trail::{BitTrail, max_levels, word_levels};
 /// Nodes that one search for such a part looks at.
 const LOOKED_AT: usize = 128;
 /// Nodes known to have no other tree of as many nodes from which on no part of a mesh is built: until parts around them were, or the whole is worn.
-const MISFITS: usize = 64;
+pub(in crate::bvh) const MISFITS: usize = 64;
 /// Bytes of a frame that take about the time of a node that is put in place, with its triangles.
 const PLACED: usize = 128;
 /// Bytes that take about the time of a triangle that is copied again, and of a node computed apart.

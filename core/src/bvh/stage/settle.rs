@@ -82,6 +82,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.changes.new.written_nodes.extend(merged(written));
         let staged = self.staged(id)?;
         let is_settled = staged.dirty.count() == 0 && staged.changed.count() == 0;
+        if is_settled && !self.fits_parts(id.blas) {
+            self.await_closing(id.blas);
+            return Some(false);
+        }
         if is_settled {
             self.adopt_stage(id.blas);
         }
@@ -123,7 +127,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         for blas in self.staging.clone() {
             let own = &self.blases[blas as usize];
             let is_ready = own.staged.as_ref().is_some_and(|staged| staged.is_placed);
-            if is_ready && self.is_swept(blas) {
+            if is_ready && self.is_swept(blas) && self.fits_parts(blas) {
                 self.adopt_stage(blas);
                 self.changes.new.mark_blas(blas);
             }

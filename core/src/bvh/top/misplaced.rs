@@ -5,8 +5,11 @@ use alloc::vec::Vec;
 use super::cost::Cluster;
 use crate::bvh::{Bvh, Trails};
 use crate::exact::hash;
-use crate::node::{Node, kind};
+use crate::moments::LightMoments;
+use crate::node::{Holds, Node, kind};
+use crate::refit;
 use crate::summary::Summary;
+use crate::sweep;
 use crate::tree::INVALID;
 
 /// An instance is put in elsewhere once it adds this part to what its node costs.
@@ -27,14 +30,36 @@ const FAR_IN: u32 = 4;
 /// It has strayed where a node beside is nearer by this factor of squared distance, and it has come so far itself.
 const NEARER: f64 = 4.0;
 
+/// Triangles of a mesh that is looked at where all of them are set.
+const JUMPS: usize = 1024;
+
+/// Flux and centre of lights in the space of their mesh; `None` where none has flux.
+fn center_of<N>(lights: &[N::Light]) -> Option<(f64, [f32; 3])>
+where
+    N: Holds,
+{
+    let (mut phi, mut sum) = (0.0, [0.0; 3]);
+    for light in lights {
+        let own = LightMoments::of_light(light);
+        let flux = f64::from(own.phi());
+        phi += flux;
+        let c = own.center().to_array();
+        for k in 0..3 {
+            sum[k] += flux * f64::from(c[k]);
+        }
+    }
+    (phi > 0.0).then(|| (phi, sum.map(|x| (x / phi) as f32)))
+}
+
 /// Squared distance, m².
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum()
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Takes those of `moved` instances, which may repeat, out of the top level that make their nodes wide, and adds them to `out`.
-    pub(in crate::bvh) fn take_misplaced(&mut self, mut moved: Vec<u32>, out: &mut Vec<u32>) {
+    /// Takes those of `moved` instances, which may repeat, out of the top level that make their nodes wide, and adds them to `out`. Those of them
+    /// that `jumped`, in order, are looked at more closely.
+    pub(in crate::bvh) fn take_misplaced(&mut self, mut moved: Vec<u32>, jumped: &[u32], out: &mut Vec<u32>) {
         moved.sort_unstable();
         moved.dedup();
         let mut misplaced: Vec<(f64, u32)> = Vec::new();
@@ -42,7 +67,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             for leaf in self.leaves_of(index) {
                 self.note_center(leaf);
                 let mut excess = self.excess(leaf);
-                if excess == 0.0 && self.has_its_turn(leaf) {
+                let has_its_turn = self.has_its_turn(leaf) || jumped.binary_search(&index).is_ok();
+                if excess == 0.0 && has_its_turn {
                     excess = self.strayed(leaf);
                 }
                 if excess > 0.0 {
@@ -73,6 +99,57 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     fn note_flicker(&mut self, index: u32) {
         let placed = &mut self.placed[index as usize];
         placed.flickers |= placed.hung_radiance > FACTOR * placed.radiance;
+    }
+
+    /// Of bottom levels whose triangles were all set, which may repeat: the instances that lie far from where they were, in order. What is known of
+    /// their meshes is brought up to date, as the next refit would. Others are looked at no closer: a mesh that sways costs a sum over its
+    /// triangles.
+    pub(in crate::bvh) fn take_jumped(&mut self, mut reshaped: Vec<u32>) -> Vec<u32> {
+        let mut jumped = Vec::new();
+        reshaped.sort_unstable();
+        reshaped.dedup();
+        reshaped.retain(|&blas| self.blas_len(blas) <= JUMPS && !self.single);
+        for blas in reshaped {
+            let range = self.blases[blas as usize].triangles.clone();
+            let mesh = center_of::<N>(&self.triangles[range.start as usize..range.end as usize]);
+            let Some((phi, center)) = mesh else { continue };
+            let before = jumped.len();
+            for &user in &self.meshes[self.blases[blas as usize].mesh as usize].users {
+                let instance = &self.instances[user as usize];
+                let own = Cluster {
+                    phi: phi * f64::from(instance.flux),
+                    center: instance.vertex(center).map(f64::from),
+                    spread: 0.0,
+                    count: 1,
+                };
+                // Parts of an opened one stay, for a rebuild.
+                if self.placed[user as usize].parts.is_empty() && self.has_jumped(user, &own) {
+                    jumped.push(user);
+                }
+            }
+            if jumped.len() > before {
+                let nodes = self.blases[blas as usize].nodes.clone();
+                let (first, range) = (nodes.start, nodes.start as usize..nodes.end as usize);
+                sweep::bottom_sweep(&mut self.nodes[range], first, &self.triangles, &[first]);
+                self.roots[blas as usize] = refit::root(&self.nodes, first);
+            }
+        }
+        jumped.sort_unstable();
+        jumped
+    }
+
+    /// Whether an instance that would be `own` now lies farther from where the last refit saw it than what its node holds is wide, and not so near to
+    /// that as lights around are.
+    fn has_jumped(&self, index: u32, own: &Cluster) -> bool {
+        let placed = &self.placed[index as usize];
+        if placed.node == INVALID || self.parents[placed.node as usize] == INVALID {
+            return false;
+        }
+        let words = &self.nodes[placed.node as usize];
+        let was = words.summary(placed.slot as usize).center().to_array();
+        let whole = words.merged();
+        let squared = distance(own.center, was.map(f64::from));
+        squared > f64::from(whole.spread()) && squared > 0.0
     }
 
     /// What an instance that is misplaced costs more where it is; 0 of one that is not. Looks at a slot of each of the two nodes above,

@@ -59,7 +59,7 @@ impl Search {
     }
 
     /// What has not changed since this epoch is at rest.
-    fn rests_since(&self) -> u64 {
+    pub fn rests_since(&self) -> u64 {
         self.ended[self.oldest]
     }
 

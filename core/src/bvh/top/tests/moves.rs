@@ -141,3 +141,71 @@ fn edits_before_the_first_refit_are_put_where_they_belong() {
     }
     assert_eq!(trees[0], trees[1]);
 }
+
+/// Lights whose vertices are set anew are where those are: a lamp that jumps so is put in elsewhere as one that is moved, one that sways stays.
+#[test]
+fn meshes_whose_vertices_jump_are_put_in_elsewhere() {
+    let mut scene = LightBvh::default();
+    let at = |k: u16, by: f32| {
+        let [x, y, z] = [k % 10, k / 10 % 10, k / 100].map(|k| 4.0 * f32::from(k));
+        triangle([[x + by, y, z], [x + by + 1.0, y, z], [x + by, y + 1.0, z]])
+    };
+    let add: vec::Vec<_> = (0..1000_u16)
+        .map(|k| Edit::AddMesh {
+            triangles: vec![at(k, 0.0)],
+        })
+        .collect();
+    let meshes = scene.apply(add).expect("meshes").meshes;
+    let add = meshes.iter().map(|&mesh| Edit::AddInstance {
+        mesh,
+        transform: Transform::at([0.0; 3]),
+        radiance: 1.0,
+    });
+    let add = add.collect();
+    let ids = scene.apply(add).expect("instances").instances;
+    scene.refit();
+    for k in [0_u16, 99, 500, 999] {
+        let set = |by: f32| {
+            is_put_elsewhere(&scene, |scene| {
+                let mesh = scene.mesh_of(scene.instance_id(ids[usize::from(k)].index()).expect("there"));
+                scene
+                    .set_triangles(mesh.expect("there"), vec![at(k, by)])
+                    .expect("as many");
+            })
+        };
+        assert!(!set(0.5) && !set(-0.5), "{k}: it sways");
+        assert!(set(200.0) && set(-200.0), "{k}: it jumps");
+    }
+    // Words are those of a refit, and where it went it is among its neighbours.
+    scene
+        .set_triangles(meshes[0], vec![at(999, 0.5)])
+        .expect("as many");
+    scene.refit();
+    scene.validate().expect("valid");
+    let mut above = scene.placed[ids[0].index() as usize].node;
+    for _ in 0..2 {
+        above = scene.parents[above as usize];
+    }
+    let is_near = (0..1000).filter(|&k| {
+        let mut node = scene.placed[ids[k].index() as usize].node;
+        while node != INVALID && node != above {
+            node = scene.parents[node as usize];
+        }
+        node == above
+    });
+    let near: vec::Vec<_> = is_near.collect();
+    assert!(near.contains(&999) && !near.contains(&1), "{near:?}");
+}
+
+/// Lamps that come on among dim ones are as new to the tree around them as lamps that are added.
+#[test]
+fn lamps_that_come_on_are_bright_ones() {
+    let (mut scene, ids) = grid(10);
+    let root = scene.top.number(scene.top.root) as usize;
+    scene.set_radiance(ids[500], 1e4).expect("there");
+    // It outshines all: all of the tree is to be tried.
+    assert!(scene.top.changes[root] >= 500, "{}", scene.top.changes[root]);
+    let (mut scene, ids) = grid(10);
+    scene.set_radiance(ids[500], 10.0).expect("there");
+    assert_eq!(scene.top.changes[root], 0, "the others outshine it");
+}

@@ -1,0 +1,83 @@
+//! Trees that cannot be opened as their predecessors were.
+
+extern crate std;
+
+use std::vec::Vec;
+
+use super::AT_ONCE;
+use crate::bvh::stage::tests::lamps;
+use crate::bvh::{RebuildParams, RebuilderParams, Swap};
+use crate::kit::Random;
+use crate::rebuilder::Rebuilder;
+use crate::{Edit, EmissiveTriangle, LightBvh, MeshId, MomentNode, ShadingPoint, Transform};
+
+/// Opened instances of a mesh, which then changes so that its new tree has lights below its root: three that shine far away.
+fn scene(count: u32) -> (LightBvh, MeshId, Vec<EmissiveTriangle>) {
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(lamps(1)).expect("a mesh");
+    let random = &mut Random(4);
+    let add = (0..count).map(|_| Edit::AddInstance {
+        mesh,
+        transform: Transform::at((random.vector() * 10.0).to_array()),
+        radiance: 1.0,
+    });
+    let add = add.collect();
+    bvh.apply(add).expect("instances");
+    bvh.refit();
+    assert_eq!(bvh.blases[0].opened, count, "all are opened");
+    let mut others = lamps(2);
+    for (k, light) in (1..).zip(&mut others[..3]) {
+        let far = 300.0 * k as f32;
+        light.p = light.p.map(|[x, y, z]| [x + far, y + 50.0, z + 300.0]);
+        light.radiance = [200.0; 3];
+    }
+    (bvh, mesh, others)
+}
+
+/// Two instances at most are closed in a frame, and the tree comes in when two are left; a mesh that changes as a whole in each frame, which takes a tree as
+/// it is refitted, waits alike.
+#[test]
+fn instances_are_closed_a_few_in_each_frame() {
+    for sways in [false, true] {
+        let (mut bvh, mesh, others) = scene(40);
+        let mut own: Rebuilder<MomentNode<8>, 8> = Rebuilder::new(RebuilderParams {
+            swap: Swap::Deterministic,
+            rebuild: RebuildParams {
+                top: f64::INFINITY,
+                ..RebuildParams::default()
+            },
+            ..RebuilderParams::default()
+        });
+        bvh.set_triangles(mesh, others.clone()).expect("as many");
+        bvh.refit();
+        own.end_frame(&bvh);
+        let created = bvh.blases[0].created;
+        let (mut before, mut frames) = (40, 0);
+        while bvh.blases[0].created == created {
+            own.begin_frame(&mut bvh).expect("no panic");
+            if sways {
+                bvh.set_triangles(mesh, others.clone()).expect("as many");
+            }
+            let is_in = bvh.blases[0].created != created;
+            bvh.refit();
+            own.end_frame(&bvh);
+            let opened = bvh.blases[0].opened;
+            let is_in = is_in || bvh.blases[0].created != created;
+            assert!(opened + AT_ONCE >= before, "{opened} of {before}");
+            assert!(!is_in || before <= 2 * AT_ONCE, "{before} were open");
+            (before, frames) = (opened, frames + 1);
+            assert!(frames < 1000);
+            bvh.validate().expect("valid");
+        }
+        let lit = ShadingPoint {
+            p: [1.0, 2.0, 3.0],
+            n: [0.0; 3],
+        };
+        let sum: f64 = (0..40)
+            .flat_map(|k| (0..3000).map(move |light| (k, light)))
+            .filter_map(|(k, light)| bvh.pmf_of(&lit, bvh.instance_id(k)?, light))
+            .map(f64::from)
+            .sum();
+        assert!((sum - 1.0).abs() < 1e-5, "{sum}");
+    }
+}
