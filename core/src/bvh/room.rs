@@ -153,4 +153,23 @@ mod tests {
         bvh.triangle_ranges.give(ends[0]..ends[0] + 3000);
         assert!(bvh.take_triangles(3000, &mut 0).is_some());
     }
+
+    /// Small trees and parts of the top level find room too, after each edit that brings a mesh.
+    #[test]
+    fn a_quarter_of_all_nodes_finds_room() {
+        let mut bvh = LightBvh::default();
+        for k in 0..800 {
+            let small = (0..40).map(|k| line(k, 1.0)).collect();
+            bvh.add_mesh(small).expect("a mesh");
+            let room = [
+                bvh.nodes.capacity() - bvh.nodes.len(),
+                bvh.parents.capacity() - bvh.parents.len(),
+                bvh.quality.capacity() - bvh.quality.len(),
+            ];
+            assert!(
+                room.iter().all(|&room| room >= bvh.nodes.len() / 4),
+                "{k}: {room:?}"
+            );
+        }
+    }
 }

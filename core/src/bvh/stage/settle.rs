@@ -127,9 +127,14 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         for blas in self.staging.clone() {
             let own = &self.blases[blas as usize];
             let is_ready = own.staged.as_ref().is_some_and(|staged| staged.is_placed);
-            if is_ready && self.is_swept(blas) && self.fits_parts(blas) {
+            if !is_ready || !self.is_swept(blas) {
+                continue;
+            }
+            if self.fits_parts(blas) {
                 self.adopt_stage(blas);
                 self.changes.new.mark_blas(blas);
+            } else {
+                self.await_closing(blas);
             }
         }
     }

@@ -10,6 +10,8 @@ use crate::kit::Random;
 use crate::rebuilder::Rebuilder;
 use crate::{Edit, EmissiveTriangle, LightBvh, MeshId, MomentNode, Transform};
 
+mod given_up;
+
 const COUNT: u32 = 3000;
 /// The least that a frame copies: a mesh takes 21 frames to the builder and as many back.
 const BYTES: u32 = 1 << 14;
@@ -169,8 +171,10 @@ fn what_changed_as_a_whole_and_rests_is_swept_in_pieces() {
                 .expect("its own");
         }
     });
-    // Built for other triangles: right, not good.
+    // Built for other triangles: right, not good. So it is due at once, whoever asks.
     assert!(drift(&bvh, mesh) > 1.5);
+    let due = bvh.due(&RebuildParams::default());
+    assert_eq!(due.first().and_then(|due| due.mesh), Some(mesh));
     rebuilder.end_frame(&bvh);
     assert!(rebuilder.is_busy());
     until_adopted(&mut bvh, &mut rebuilder, |_, _| ());

@@ -247,3 +247,6 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

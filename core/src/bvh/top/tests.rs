@@ -15,8 +15,11 @@ mod adoption;
 mod beside;
 mod edits;
 mod limits;
+mod meanwhile;
 mod mended;
 mod moves;
+#[cfg(feature = "std")]
+mod turns;
 
 fn lamp<N: LightNode<W>, I, const W: usize>(scene: &mut Bvh<N, I, W>) -> MeshId {
     scene

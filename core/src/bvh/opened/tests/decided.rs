@@ -83,3 +83,29 @@ fn the_costliest_are_opened_first_and_64_at_most() {
     let closed = wanted::<MomentNode<8>, 8>(f64::INFINITY, &all);
     assert_eq!(closed, [Vec::new(), order]);
 }
+
+/// A tree was built for what was whole or open as it was copied: nodes above what is opened or closed as it comes in are to be tried, and once
+/// more when they rest.
+#[test]
+fn what_is_above_reopened_ones_is_to_be_tried() {
+    let (mut bvh, _, ids) = rides::<MomentNode<8>, Moments, 8>(&mut Random(5));
+    let is_open = |id: &&InstanceId| !bvh.placed[id.index() as usize].parts.is_empty();
+    let index = ids.iter().find(is_open).expect("one").index();
+    for opens in [false, true] {
+        for list in [&mut bvh.top.stirred, &mut bvh.top.changes] {
+            list.fill(0);
+        }
+        let (one, none) = (&[index][..], &[][..]);
+        let (open, close) = if opens { (one, none) } else { (none, one) };
+        bvh.reopen(open, close);
+        assert_eq!(!bvh.placed[index as usize].parts.is_empty(), opens);
+        for leaf in bvh.leaves_of(index) {
+            let mut node = bvh.placed[leaf as usize].node;
+            while node != INVALID {
+                let number = bvh.top.number(node) as usize;
+                assert!(bvh.top.stirred[number] > 0 && bvh.top.changes[number] > 0);
+                node = bvh.parents[node as usize];
+            }
+        }
+    }
+}

@@ -26,10 +26,10 @@ fn scene(count: u32) -> (LightBvh, MeshId, Vec<EmissiveTriangle>) {
     bvh.refit();
     assert_eq!(bvh.blases[0].opened, count, "all are opened");
     let mut others = lamps(2);
-    for (k, light) in (1..).zip(&mut others[..3]) {
-        let far = 300.0 * k as f32;
-        light.p = light.p.map(|[x, y, z]| [x + far, y + 50.0, z + 300.0]);
-        light.radiance = [200.0; 3];
+    for (k, light) in (0..).zip(&mut others[..3]) {
+        let (x, y, z) = (300.0 * k as f32, 50.0, 300.0);
+        light.p = [[x, y, z], [x + 1.0, y, z], [x, y, z + 1.0]];
+        light.radiance = [36.0; 3];
     }
     (bvh, mesh, others)
 }
@@ -63,7 +63,9 @@ fn instances_are_closed_a_few_in_each_frame() {
             own.end_frame(&bvh);
             let opened = bvh.blases[0].opened;
             let is_in = is_in || bvh.blases[0].created != created;
-            assert!(opened + AT_ONCE >= before, "{opened} of {before}");
+            // And those that are opened anew as the tree comes in.
+            let most = if is_in { 2 * AT_ONCE } else { AT_ONCE };
+            assert!(opened + most >= before, "{opened} of {before}");
             assert!(!is_in || before <= 2 * AT_ONCE, "{before} were open");
             (before, frames) = (opened, frames + 1);
             assert!(frames < 1000);

@@ -9,6 +9,8 @@ use crate::kit::Random;
 use crate::node::{Node, kind};
 use crate::{EmissiveTriangle, LightBvh, Rebuilder, RebuilderParams, ShadingPoint, Transform};
 
+mod motion;
+
 /// 2000 small lamps over 100 x 4 x 100 m, and where they are.
 pub(in crate::bvh::top) fn lamps(
     random: &mut Random,

@@ -4,7 +4,7 @@ use super::super::rebuild::PART;
 use super::*;
 
 /// The largest nodes that can be parts.
-fn parts(scene: &LightBvh) -> Vec<u32> {
+pub(super) fn parts(scene: &LightBvh) -> Vec<u32> {
     let count = |node: u32| scene.top.counts[scene.top.number(node) as usize];
     let all = scene.top.in_use().filter(|&node| node != scene.top.root);
     all.filter(|&node| count(node) <= PART && count(scene.parents[node as usize]) > PART)
@@ -111,4 +111,69 @@ fn the_largest_nodes_that_fit_are_parts() {
     assert!(expected.len() > 4);
     assert_eq!(found, expected);
     assert_eq!(PART, 1024);
+}
+
+/// What changed after a part was copied is still to be tried when it rests, though the tree came to nothing: that tree knew nothing of it.
+#[test]
+fn what_changed_after_the_copy_is_still_to_be_tried() {
+    for changes_after in [false, true] {
+        let (mut scene, _) = grid(18);
+        let part = parts(&scene)[0];
+        let sway = |scene: &mut LightBvh, by: f32| {
+            for (index, _) in scene.below(part).1 {
+                let id = scene.instance_id(index).expect("there");
+                let mut to = scene.placed[index as usize].transform;
+                to.translation[0] += by;
+                scene.set_transform(id, to).expect("there");
+            }
+            scene.refit();
+        };
+        sway(&mut scene, 0.01);
+        let tree = scene.copy_part(part, 0.0).build::<8>(&scene.params);
+        let since = scene.epoch;
+        if changes_after {
+            sway(&mut scene, -0.01);
+        }
+        scene.install_top(&tree, since, &mut Quota::default());
+        // Nothing but the part.
+        let number = scene.top.number(part) as usize;
+        let changes = scene.top.changes[number];
+        scene.top.changes.fill(0);
+        scene.top.changes[number] = changes;
+        let mut search = Search::default();
+        for _ in 0..20 {
+            search.note_frame(scene.now());
+        }
+        let mut is_tried = false;
+        while !search.is_done() && !is_tried {
+            let copies = scene.copy_worn_parts(1.1, 0, &mut search);
+            is_tried = copies.iter().any(|copy| copy.root == Some(scene.part(part)));
+        }
+        assert_eq!(is_tried, changes_after);
+    }
+}
+
+/// Over subtrees that are all mixed no order of nodes above them is better than another, while the parts below may gain all that they
+/// lost: what was tried above and gains nothing says nothing of these.
+#[test]
+fn what_is_tried_above_parts_says_nothing_of_parts() {
+    let (mut scene, _) = grid(18);
+    let root = scene.top.root;
+    let tree = scene.copy_part(root, 0.0).build::<8>(&scene.params);
+    assert!(!tree.kept.is_empty());
+    let inner = tree.inner.iter().filter_map(|&part| scene.node_of(part));
+    let part = inner
+        .filter(|node| parts(&scene).contains(node))
+        .max_by(|&a, &b| scene.quality(a).built.total_cmp(&scene.quality(b).built))
+        .expect("a part of which nodes are replaced");
+    scene.quality[part as usize].built = 0.0;
+    let mut node = part;
+    while node != INVALID {
+        scene.judge_list(&[node]);
+        node = scene.parents[node as usize];
+    }
+    let before = scene.quality(part).drift();
+    assert!(before > 1.0, "it is worn");
+    scene.install_top(&tree, scene.epoch, &mut Quota::default());
+    assert_eq!(scene.quality(part).drift(), before);
 }

@@ -175,3 +175,24 @@ fn an_edit_writes_what_is_on_its_path() {
         scene.validate().expect("valid");
     }
 }
+
+/// A subtree of *n* instances, 512 at most, is built anew after *n*/16 edits below it: insertion makes trees worse by and by.
+#[test]
+fn subtrees_are_built_anew_after_a_sixteenth_of_their_instances() {
+    let (mut scene, ids) = grid(10);
+    let random = &mut Random(6);
+    for _ in 0..300 {
+        let id = ids[(random.unit() * 999.0) as usize];
+        let to = Transform::at((random.vector() * 20.0).to_array().map(|x| x + 20.0));
+        scene.set_transform(id, to).expect("there");
+        for node in scene.top.in_use() {
+            let number = scene.top.number(node) as usize;
+            let (edits, count) = (scene.top.edits[number], scene.top.counts[number]);
+            let is_built = scene.top.heights[number] > 1 && count <= super::settle::MOST;
+            assert!(
+                !is_built || edits < count.div_ceil(16),
+                "{edits} edits of {count}"
+            );
+        }
+    }
+}

@@ -97,3 +97,94 @@ fn the_costliest_are_put_in_elsewhere_first() {
     // Of 40; one amid its neighbours costs nothing there. By index it would be 3.
     assert!(put >= 30, "{put}");
 }
+
+/// A tree that would reach below the last level by itself, or by a subtree that it keeps, does not come in: trails have no room for it.
+#[cfg(feature = "std")]
+#[test]
+fn a_tree_that_would_be_too_deep_is_given_up() {
+    let (scene, _) = grid(18);
+    let most = max_levels(8);
+    let comes_in = |mut scene: LightBvh, tree: &TopTree<crate::MomentNode<8>>| {
+        let births = scene.top.births;
+        scene.install_top(tree, scene.epoch, &mut Quota::default());
+        scene.top.births > births
+    };
+    let [root, part] = super::super::search::tests::above_and_part(&scene);
+    let mut tree = scene.copy_part(part, f64::INFINITY).build::<8>(&scene.params);
+    for (depth, expected) in [(most - scene.level(part), true), (most, false)] {
+        tree.depth = depth;
+        assert_eq!(comes_in(scene.clone(), &tree), expected, "{depth}");
+    }
+    assert!(scene.level(part) > 0);
+    let tree = scene.copy_part(root, f64::INFINITY).build::<8>(&scene.params);
+    let at = (0..tree.nodes.len())
+        .find(|&k| tree.keeps[k] != 0)
+        .expect("a subtree");
+    let slot = tree.keeps[at].trailing_zeros() as usize;
+    let kept = tree.kept[tree.nodes[at].link(slot) as usize].number as usize;
+    let above = tree.levels[at] + 1;
+    for (height, expected) in [(most - above, true), (most - above + 1, false)] {
+        let mut scene = scene.clone();
+        scene.top.heights[kept] = height;
+        assert_eq!(comes_in(scene, &tree), expected, "{height}");
+    }
+}
+
+/// What a frame builds anew beside what it adopts is bounded in all, however many subtrees are due: else it would take longer than it may.
+#[test]
+fn few_instances_are_built_anew_in_all() {
+    let (mut scene, _) = grid(10);
+    let nodes: Vec<u32> = scene.top.in_use().collect();
+    let number = |scene: &LightBvh, node: u32| scene.top.number(node) as usize;
+    let due: Vec<u32> = nodes
+        .into_iter()
+        .filter(|&node| scene.top.heights[number(&scene, node)] == 2)
+        .collect();
+    let (mut least, mut all) = (u32::MAX, 0);
+    for &node in &due {
+        let own = number(&scene, node);
+        scene.top.edits[own] = scene.top.counts[own];
+        least = least.min(scene.top.counts[own]);
+        all += scene.top.counts[own];
+    }
+    scene.top.touched.clone_from(&due);
+    scene.settle_some(64);
+    let built = due.iter().map(|&node| number(&scene, node));
+    let built = built.filter(|&own| scene.top.edits[own] == 0);
+    let built: u32 = built.map(|own| scene.top.counts[own]).sum();
+    assert!(least < 64 && all > 64, "{least} to {all}");
+    assert!(built > 0 && built <= 64, "{built} of {all}");
+    scene.refit();
+    scene.validate().expect("valid");
+}
+
+/// A tree comes in beside much that came meanwhile near one place: the subtree there is due, and the next edit below it builds it.
+#[cfg(feature = "std")]
+#[test]
+fn what_is_due_beyond_is_built_by_the_next_edit() {
+    let (mut scene, ids) = grid(10);
+    let mesh = scene.mesh_of(ids[0]).expect("there");
+    let copy = scene.copy_part(scene.top.root, f64::INFINITY);
+    let rebuild = scene.rebuild_of(vec![copy], &[]);
+    for k in 0..40_u8 {
+        let at = [1.0 + f32::from(k % 5) * 0.5, f32::from(k / 5) * 0.25, 1.0];
+        scene.add_instance(mesh, Transform::at(at)).expect("one more");
+    }
+    scene.install(rebuild.run()).expect("its own");
+    let is_due = |scene: &LightBvh, node: u32| {
+        let number = scene.top.number(node) as usize;
+        scene.top.edits[number] >= scene.top.counts[number].div_ceil(16)
+    };
+    let mut node = scene.placed[ids[0].index() as usize].node;
+    while scene.top.counts[scene.top.number(node) as usize] <= 64 {
+        node = scene.parents[node as usize];
+    }
+    assert!(scene.top.counts[scene.top.number(node) as usize] <= super::settle::MOST);
+    assert!(is_due(&scene, node));
+    scene
+        .add_instance(mesh, Transform::at([1.5, 1.5, 1.5]))
+        .expect("one more");
+    assert!(!is_due(&scene, node));
+    scene.refit();
+    scene.validate().expect("valid");
+}

@@ -183,9 +183,7 @@ fn meshes_whose_vertices_jump_are_put_in_elsewhere() {
     scene.refit();
     scene.validate().expect("valid");
     let mut above = scene.placed[ids[0].index() as usize].node;
-    for _ in 0..2 {
-        above = scene.parents[above as usize];
-    }
+    above = scene.parents[above as usize];
     let is_near = (0..1000).filter(|&k| {
         let mut node = scene.placed[ids[k].index() as usize].node;
         while node != INVALID && node != above {
@@ -208,4 +206,84 @@ fn lamps_that_come_on_are_bright_ones() {
     let (mut scene, ids) = grid(10);
     scene.set_radiance(ids[500], 10.0).expect("there");
     assert_eq!(scene.top.changes[root], 0, "the others outshine it");
+}
+
+/// Of lamps that come on in one call more than it puts in elsewhere the rest keeps its place, and no node has lost its order. The tree is tried
+/// for that at once, and not when all has come to rest.
+#[cfg(feature = "std")]
+#[test]
+fn what_stays_misplaced_is_tried_at_once() {
+    for (count, expected) in [(64 + 1728 / 64, false), (1728, true)] {
+        let (mut scene, ids) = grid(12);
+        let brighter = ids.iter().take(count).map(|&instance| Edit::SetRadiance {
+            instance,
+            radiance: 8.0,
+        });
+        scene.apply(brighter.collect()).expect("there");
+        scene.refit();
+        let mut search = Search::default();
+        scene.search_again(&mut search);
+        let mut is_tried = false;
+        while !search.is_done() && !is_tried {
+            is_tried = !scene.copy_worn_parts(1.5, 0, &mut search).is_empty();
+        }
+        assert_eq!(is_tried, expected, "{count}");
+    }
+}
+
+/// What lies far from those around it in a tree as it was built stays there when it moves a little: put in elsewhere, it would come to
+/// lie as far from others, frame after frame.
+#[test]
+fn what_was_built_far_off_stays() {
+    let mut scene = Bvh::<crate::FullNode<2>, crate::Eq4, 2>::default();
+    let mesh = lamp(&mut scene);
+    // Pairs of crowds, each with one bright lamp nearly as far off as the other crowd is.
+    let mut places = Vec::new();
+    for pair in 0..8_u8 {
+        for (crowd, alone) in [(0.0, -100.0), (150.0, 250.0)] {
+            let at = |x: f32, y: f32| [2000.0 * f32::from(pair) + x, y, 0.0];
+            places.extend((0..8_u8).map(|k| at(crowd, f32::from(k))));
+            places.push(at(alone, 0.0));
+        }
+    }
+    let add = places.iter().enumerate().map(|(k, &at)| Edit::AddInstance {
+        mesh,
+        transform: Transform::at(at),
+        radiance: if k % 9 == 8 { 16.0 } else { 1.0 },
+    });
+    let ids = scene.apply(add.collect()).expect("instances").instances;
+    scene.refit();
+    let stamp = scene.epoch;
+    let alone = ids.iter().zip(&places).skip(8).step_by(9);
+    let moves = alone.map(|(&instance, &[x, y, z])| Edit::SetTransform {
+        instance,
+        transform: Transform::at([x, y + 0.25, z]),
+    });
+    scene.apply(moves.collect()).expect("there");
+    assert!(scene.placed.iter().all(|placed| placed.hung <= stamp));
+}
+
+/// Lamps that are off cost nothing, wherever they hang. They hang among those around them nevertheless: for they may come on.
+#[test]
+fn lamps_that_are_off_hang_among_those_around_them() {
+    let (mut scene, ids) = grid(9);
+    let mesh = scene.mesh_of(ids[0]).expect("there");
+    let random = &mut Random(2);
+    for _ in 0..60 {
+        let at = (random.vector() * 16.0).to_array().map(|x| x + 16.0);
+        let add = Edit::AddInstance {
+            mesh,
+            transform: Transform::at(at),
+            radiance: 0.0,
+        };
+        let id = scene.apply(vec![add]).expect("one more").instances[0];
+        scene.refit();
+        let around = scene.below(scene.placed[id.index() as usize].node).1;
+        let squared = around.iter().map(|&(index, _)| {
+            let to = scene.placed[index as usize].transform.translation;
+            (0..3).map(|k| f64::from(at[k] - to[k]).powi(2)).sum::<f64>()
+        });
+        let farthest = squared.fold(0.0, f64::max).sqrt();
+        assert!(farthest < 20.0, "{farthest} m");
+    }
 }
