@@ -46,7 +46,8 @@ pub struct RebuilderParams {
     pub swap: Swap,
     /// What is built anew.
     pub rebuild: RebuildParams,
-    /// Bytes that the start of a frame copies of meshes that are built anew, at least 16 KiB; 256 KiB, the default, take 0.1 ms as a rule. A
+    /// Bytes that the start of a frame copies of meshes that are built anew, at least 16 KiB; 256 KiB, the default, take 0.1 ms as a rule. In
+    /// frames in which a part of the top level may come in, a quarter of them. A
     /// mesh of less than a 256th as many triangles is put in place at once, as is a single level, whose lights are its triangles; a
     /// larger one over the frames that it takes, 112 bytes for a triangle before it is built, and its nodes and trails after it; memory that
     /// is new counts three times. In the frame in which its tree takes its place, each instance of the mesh is told. A subtree that lost its
@@ -222,9 +223,10 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
         scene: &mut Bvh<N, I, W, T>,
     ) -> Result<FrameStart, RebuildError> {
         let mut start = FrameStart::default();
+        let is_due = self.flight.as_ref().is_some_and(|flight| flight.left <= 1);
         let meshes = self
             .meshes
-            .begin_frame(scene, &self.params, self.start, &mut start);
+            .begin_frame(scene, &self.params, is_due, self.start, &mut start);
         if meshes == Err(RebuildError::Foreign) {
             // What it would have built of the other is still to be built.
             self.taken = None;

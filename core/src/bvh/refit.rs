@@ -24,7 +24,7 @@ pub struct RefitPlan {
     pub written_nodes: Vec<Range<u32>>,
     /// Triangles that changed.
     pub written_triangles: Vec<Range<u32>>,
-    /// Triangles whose trails changed.
+    /// Triangles whose trails changed: `LightTree::trail_words` words each. Where a trail takes two words from now on, all of them.
     pub written_trails: Vec<Range<u32>>,
     /// Instances that changed.
     pub written_instances: Vec<Range<u32>>,
@@ -51,8 +51,9 @@ impl RefitPlan {
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Says what changed since the last call: the lists of [`work`](Self::work), for a mirror on a device that does them in its place,
-    /// call by call without gaps. Whether and when the BVH is refitted here does not matter. The first call says what changed since
-    /// the last [`refit`](Self::refit); a mirror takes over all arrays before it.
+    /// call by call without gaps. Whether and when the BVH is refitted here does not matter to what it says. The first call says what changed since
+    /// the last [`refit`](Self::refit); a mirror takes over all arrays before it. Arrays that are longer than before are longer in the mirror; they
+    /// never get shorter, and what is in use of them [`plan_of_everything`](Self::plan_of_everything) says.
     ///
     /// Where only a device refits, nodes here stay as they were: samples taken here are of that tree, and a
     /// [`rebuild`](Self::rebuild) sees no bottom level lose quality. A refit here, now and then, is enough for both.

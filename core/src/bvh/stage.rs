@@ -175,7 +175,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.epoch += 1;
         own.created = self.epoch;
         own.adopted = staged.number;
-        own.unsettled = own.unsettled.saturating_sub(staged.unsettled);
+        own.unsettled -= staged.unsettled.min(own.unsettled);
         own.depth = staged.depth;
         self.retired
             .push(core::mem::replace(&mut own.levels, staged.levels));

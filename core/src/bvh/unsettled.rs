@@ -24,7 +24,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         let own = &mut self.blases[blas as usize];
         let changed = changed.min(count as f64) as u32;
-        own.unsettled = own.unsettled.saturating_add(changed);
+        own.unsettled += changed.min(u32::MAX - own.unsettled);
     }
 
     /// Whether so much of a bottom level changed since its tree was made that another may be better, whatever it lost.

@@ -12,6 +12,8 @@ use crate::node::{Holds, Node};
 
 /// A mesh with at most one triangle for so many bytes is put in place at once: a sweep takes as long for a triangle as so many bytes.
 const SWEPT: u32 = 256;
+/// What a frame copies less where it puts a part of the top level in place, which takes as long as copying all of it does.
+const BESIDE: u32 = 4;
 /// Least bytes that a frame copies.
 const LEAST: u32 = 1 << 14;
 
@@ -223,11 +225,13 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
         (now, room < all / 2)
     }
 
-    /// Brings all of them on, by no more than the frame may take.
+    /// Brings all of them on, by no more than the frame may take, and a part [`BESIDE`] of it where it `shares` the frame with a part of the top level
+    /// that comes in.
     pub fn begin_frame<I, T: Trails>(
         &mut self,
         scene: &mut Bvh<N, I, W, T>,
         params: &RebuilderParams,
+        shares: bool,
         thread: fn() -> std::io::Result<Worker<N, W>>,
         start: &mut FrameStart,
     ) -> Result<(), RebuildError> {
@@ -271,7 +275,8 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
         if begun < free {
             self.begin_part(scene, params, thread);
         }
-        let all = params.bytes.max(LEAST) as usize;
+        let all = params.bytes / if shares { BESIDE } else { 1 };
+        let all = all.max(LEAST) as usize;
         let mut bytes = all;
         let mut result = Ok(());
         let mut flights = core::mem::take(&mut self.under_way);

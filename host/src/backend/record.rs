@@ -9,8 +9,13 @@ use crate::words::{Field, Record};
 /// Words of a node of layout `N`; by place alone where the names of the layout's words are not known here.
 pub fn node_record<N: Node<W>, const W: usize>() -> Record {
     let words = size_of::<N>() / size_of::<u32>();
-    let known = [Words::<W>::COMPACT, Words::<W>::MOMENTS, Words::<W>::BEAMS];
-    let names = ["compact", "moments", "moments with beams"];
+    let known = [
+        Words::<W>::COMPACT,
+        Words::<W>::MOMENTS,
+        Words::<W>::BEAMS,
+        Words::<W>::MASKS,
+    ];
+    let names = ["compact", "moments", "moments with beams", "linked moments"];
     let named = names.iter().zip(known).map(|(name, fields)| {
         let record = Record { name: "node", fields };
         (*name == N::NAME && record.words() == words).then_some(record)
@@ -61,6 +66,21 @@ impl<const W: usize> Words<W> {
     ];
 }
 
+impl<const W: usize> Words<W> {
+    /// [`lightbvh::node::LinkedMomentNode`]. A mask of ones is that of most lights.
+    const MASKS: &'static [Field] = &[
+        Field::new("origin", 3),
+        Field::new("exponents", 1),
+        Field::new("unused", Self::EACH.saturating_sub(4)),
+        Field::any("center_kind", Self::EACH),
+        Field::any("center_phi", Self::EACH),
+        Field::any("normal", Self::EACH),
+        Field::any("extent", Self::EACH),
+        Field::new("link", Self::EACH),
+        Field::any("mask", Self::EACH),
+    ];
+}
+
 /// The words of any layout.
 struct Layout<N>(PhantomData<N>);
 
@@ -95,6 +115,7 @@ mod tests {
     use super::*;
     use lightbvh::FullNode;
     use lightbvh_kernels::bvh::{Choice, Kinds, Paper, Standard};
+    use lightbvh_kernels::receivers::LinkedNode;
 
     fn covers<N: Node<W>, const W: usize>(first: &str) {
         let record = node_record::<N, W>();
@@ -108,6 +129,7 @@ mod tests {
         covers::<<Standard as Choice<8>>::Node, 8>("origin[0]");
         // Of lights of any kind too: without a name for it, a code of ones looks as if no kernel had written it.
         covers::<<Kinds as Choice<8>>::Node, 8>("origin[0]");
+        covers::<LinkedNode, 8>("origin[0]");
         covers::<FullNode<2>, 2>("word[0]");
     }
 }

@@ -1,6 +1,7 @@
 //! Pictures that glow: their means over triangles.
 
-use std::cell::OnceCell;
+use std::cell::{Cell, RefCell};
+use std::collections::HashMap;
 use std::rc::Rc;
 
 use image::RgbaImage;
@@ -10,31 +11,75 @@ use super::srgb::linear_from_srgb;
 
 /// Texels looked at for the triangles of one primitive, about: 2^24.
 const MAX_LOOKUPS: u32 = 1 << 24;
+/// For all of a scene: 2^26, some seconds. What comes after is cut least.
+const MAX_LOOKUPS_OF_ALL: u64 = 1 << 26;
 /// Finest subdivision of one triangle for the mean of a texture.
-const MAX_STEPS: f64 = 4096.0;
+const MAX_STEPS: f64 = 2048.0;
+/// Texels along an edge from which on places are as many as texels, and not four times as many.
+const LONG: f32 = 256.0;
+/// Means that are kept, for triangles that lie at the same place of a picture.
+const MAX_MEANS: usize = 1 << 16;
+
+/// What the glowing pictures of a scene share: how much may still be looked at, and what is known of each.
+#[derive(Clone, Debug)]
+pub(super) struct Glows(Rc<Shared>);
+
+#[derive(Debug)]
+struct Shared {
+    left: Cell<u64>,
+    /// Of each picture, by where it is kept: where it is not black.
+    sums: RefCell<HashMap<*const RgbaImage, Rc<Sums>>>,
+    means: RefCell<HashMap<Key, [f32; 3]>>,
+    /// The pictures, so that no other takes the place of one.
+    kept: RefCell<HashMap<*const RgbaImage, Rc<RgbaImage>>>,
+}
+
+/// A picture, how it goes on, whether the nearest texel shows, and three coordinates on it.
+type Key = (*const RgbaImage, [u8; 3], [u32; 6]);
+
+impl Default for Glows {
+    fn default() -> Self {
+        Self(Rc::new(Shared {
+            left: Cell::new(MAX_LOOKUPS_OF_ALL),
+            sums: RefCell::default(),
+            means: RefCell::default(),
+            kept: RefCell::default(),
+        }))
+    }
+}
 
 /// A picture of colours with its wrapping, in linear RGB, and where it lies on a surface.
 #[derive(Debug)]
 pub(super) struct Glow {
     pixels: Rc<RgbaImage>,
-    /// Where it is not black, once that is asked for.
-    glowing: OnceCell<Sums>,
     wrap: [Wrap; 2],
     is_nearest: bool,
     /// As [`Texture::transform`](super::paint::Texture::transform).
     transform: [[f32; 2]; 3],
     to_linear: [f32; 256],
+    shared: Rc<Shared>,
 }
 
 impl Glow {
-    pub fn new(pixels: Rc<RgbaImage>, wrap: [Wrap; 2], is_nearest: bool, transform: [[f32; 2]; 3]) -> Self {
+    /// One of the pictures of a scene, which are kept as long as `glows` and what is made with it.
+    pub fn new(
+        pixels: Rc<RgbaImage>,
+        wrap: [Wrap; 2],
+        is_nearest: bool,
+        transform: [[f32; 2]; 3],
+        glows: &Glows,
+    ) -> Self {
+        let mut kept = glows.0.kept.borrow_mut();
+        kept.entry(Rc::as_ptr(&pixels))
+            .or_insert_with(|| Rc::clone(&pixels));
+        drop(kept);
         Self {
             pixels,
-            glowing: OnceCell::new(),
             wrap,
             is_nearest,
             transform,
             to_linear: std::array::from_fn(|encoded| linear_from_srgb(encoded as u8)),
+            shared: Rc::clone(&glows.0),
         }
     }
 
@@ -47,16 +92,31 @@ impl Glow {
 
     /// Mean over the triangle with these texture coordinates.
     pub fn mean_over(&self, corners: [[f32; 2]; 3], max_steps: u32) -> [f32; 3] {
-        if self.transform == IN_PLACE {
-            return self.mean_over_placed(corners, max_steps);
-        }
         let [x, y, origin] = self.transform;
-        let moved = corners.map(|[u, v]| [0, 1].map(|k| x[k] * u + y[k] * v + origin[k]));
-        self.mean_over_placed(moved, max_steps)
+        let moved = match self.transform == IN_PLACE {
+            true => corners,
+            false => corners.map(|[u, v]| [0, 1].map(|k| x[k] * u + y[k] * v + origin[k])),
+        };
+        let [a, b, c] = moved.map(|corner| corner.map(f32::to_bits));
+        let how = [self.wrap[0] as u8, self.wrap[1] as u8, u8::from(self.is_nearest)];
+        let key = (
+            Rc::as_ptr(&self.pixels),
+            how,
+            [a[0], a[1], b[0], b[1], c[0], c[1]],
+        );
+        if let Some(&mean) = self.shared.means.borrow().get(&key) {
+            return mean;
+        }
+        let mean = self.mean_over_placed(moved, max_steps);
+        let mut means = self.shared.means.borrow_mut();
+        if means.len() < MAX_MEANS {
+            means.insert(key, mean);
+        }
+        mean
     }
 
-    /// The triangle is cut into n² equal ones and what shows at the centre of each is taken; n grows with the number
-    /// of texels along the longest edge, up to `max_steps`.
+    /// The triangle is cut into n² equal ones and what shows at the centre of each is taken; n is four times the number
+    /// of texels along the longest edge, from 256 texels on that number itself, up to `max_steps` and what the scene has left.
     fn mean_over_placed(&self, [a, b, c]: [[f32; 2]; 3], max_steps: u32) -> [f32; 3] {
         let size = [self.pixels.width() as f32, self.pixels.height() as f32];
         let edge = |from: [f32; 2], to: [f32; 2]| {
@@ -65,8 +125,14 @@ impl Glow {
                 .max(((to[1] - from[1]) * size[1]).abs())
         };
         // The cast saturates, and NaN becomes 0: any coordinates give a number of steps in range.
-        let steps = (4.0 * edge(a, b).max(edge(b, c)).max(edge(c, a))).ceil() as u32;
-        let steps = steps.max(MIN_STEPS).clamp(1, max_steps.max(1));
+        let longest = edge(a, b).max(edge(b, c)).max(edge(c, a));
+        let steps = (4.0 * longest).min(longest.max(LONG)).ceil() as u32;
+        let left = self.shared.left.get();
+        let steps = steps.min((left as f64).sqrt() as u32).max(MIN_STEPS);
+        let steps = steps.clamp(1, max_steps.max(1));
+        self.shared
+            .left
+            .set(left.saturating_sub(u64::from(steps) * u64::from(steps)));
         let mut sum = [0.0_f64; 3];
         let mut take = |i: u32, j: u32, third: f32| {
             let (v, w) = (
@@ -102,7 +168,11 @@ impl Glow {
 
     /// Whether any texel that shows on the triangle or beside it may be other than black.
     fn glows_within(&self, corners: [[f32; 2]; 3]) -> bool {
-        let sums = self.glowing.get_or_init(|| Sums::of(&self.pixels));
+        let sums = {
+            let mut known = self.shared.sums.borrow_mut();
+            let own = known.entry(Rc::as_ptr(&self.pixels));
+            Rc::clone(own.or_insert_with(|| Rc::new(Sums::of(&self.pixels))))
+        };
         let size = [self.pixels.width(), self.pixels.height()];
         // Half a texel more where means of four are shown; all of them where it goes beyond the picture.
         let beyond = if self.is_nearest { 0.0 } else { 0.5 };

@@ -82,15 +82,25 @@ impl Photometry {
             ));
         }
         let vertical = numbers.angles(vertical, "vertical")?;
-        let horizontal = numbers.angles(horizontal, "horizontal")?;
+        let mut horizontal = numbers.angles(horizontal, "horizontal")?;
         let factor = multiplier * ballast;
         if !(factor >= 0.0 && factor.is_finite()) {
             return Err(format!("the factors on its candela values make {factor}"));
         }
-        let mut candela = Vec::with_capacity(vertical.len() * horizontal.len());
+        // The first plane is the last one too, which some files leave out.
+        let is_open = kind == Kind::C && horizontal[0] == 0.0;
+        let is_open = is_open
+            && horizontal
+                .last()
+                .is_some_and(|&last| last > 180.0 && last < 360.0);
+        let mut candela = Vec::with_capacity(vertical.len() * (horizontal.len() + 1));
         for _ in 0..vertical.len() * horizontal.len() {
             // Some have small negative numbers, where stray light was subtracted.
             candela.push(numbers.next("candela value")?.max(0.0) * factor);
+        }
+        if is_open {
+            horizontal.push(360.0);
+            candela.extend_from_within(..vertical.len());
         }
         if candela.iter().any(|value| *value > 1.0e30) {
             return Err(String::from("a candela value is beyond 1e30"));

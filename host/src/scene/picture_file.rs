@@ -54,7 +54,10 @@ pub(super) struct Pictures {
     means: HashMap<(PathBuf, Encoding), Result<Mean, String>>,
     kept: Vec<Rc<RgbaImage>>,
     by_source: HashMap<Source, Option<Kept>>,
+    /// Why pictures are not shown that could be read, a sentence each.
+    unshown: Vec<String>,
     pixels: u64,
+    kept_pixels: u64,
 }
 
 impl Pictures {
@@ -88,13 +91,34 @@ impl Pictures {
         kept
     }
 
+    /// Why pictures are not shown, since this was asked last.
+    pub fn take_unshown(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.unshown)
+    }
+
     fn made(&mut self, path: &Path, opacity: Option<&Path>) -> Option<RgbaImage> {
-        let picture = self.decode(path).ok().filter(|picture| !is_linear(picture))?;
+        // Its pixels were counted for its mean.
+        let picture = self.decode_again(path)?;
+        if is_linear(&picture) {
+            self.unshown.push(format!(
+                "{} holds light that bytes cannot, and its mean colour is shown",
+                path.display()
+            ));
+            return None;
+        }
         let mut pixels = picture.to_rgba8();
+        self.kept_pixels += u64::from(pixels.width()) * u64::from(pixels.height());
+        if self.kept_pixels > MAX_PIXELS {
+            self.unshown.push(format!(
+                "{} and what follows are shown by their mean colours: pictures of a scene have {MAX_PIXELS} pixels at most",
+                path.display()
+            ));
+            return None;
+        }
         match opacity {
             None => pixels.pixels_mut().for_each(|pixel| pixel.0[3] = u8::MAX),
             Some(opacity) => {
-                let other = self.decode(opacity).ok()?;
+                let other = self.decode_again(opacity)?;
                 let other = other.to_rgba8();
                 let has_alpha = other.pixels().any(|pixel| pixel.0[3] < u8::MAX);
                 let (size, of) = (pixels.dimensions(), other.dimensions());
@@ -123,6 +147,14 @@ impl Pictures {
             }
         });
         pictures.collect()
+    }
+
+    /// The pixels of a file whose mean is known.
+    fn decode_again(&mut self, path: &Path) -> Option<DynamicImage> {
+        let before = std::mem::take(&mut self.pixels);
+        let picture = self.decode(path);
+        self.pixels = before;
+        picture.ok()
     }
 
     /// The pixels of a file.

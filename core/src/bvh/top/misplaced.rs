@@ -32,6 +32,8 @@ const NEARER: f64 = 4.0;
 
 /// Triangles of a mesh that is looked at where all of them are set.
 const JUMPS: usize = 1024;
+/// Part of a mesh's own variance by which its centre may move for it to stay: half of its deviation.
+const SWAYS: f64 = 4.0;
 
 /// Flux and centre of lights in the space of their mesh; `None` where none has flux.
 fn center_of<N>(lights: &[N::Light]) -> Option<(f64, [f32; 3])>
@@ -113,6 +115,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             let range = self.blases[blas as usize].triangles.clone();
             let mesh = center_of::<N>(&self.triangles[range.start as usize..range.end as usize]);
             let Some((phi, center)) = mesh else { continue };
+            // One that sways within its own extent is where it was, wherever its instances are.
+            let was = self.root_of(blas);
+            let squared = distance(center.map(f64::from), was.center().to_array().map(f64::from));
+            if squared * SWAYS <= f64::from(was.spread()) {
+                continue;
+            }
             let before = jumped.len();
             for &user in &self.meshes[self.blases[blas as usize].mesh as usize].users {
                 let instance = &self.instances[user as usize];

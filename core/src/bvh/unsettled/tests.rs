@@ -45,7 +45,6 @@ fn rebuilder() -> Own {
         rebuild: RebuildParams {
             top: f64::INFINITY,
             drift: 1e9,
-            ..RebuildParams::default()
         },
         ..RebuilderParams::default()
     })

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use gltf::json;
 use image::{ImageReader, Limits, RgbaImage};
 
+use super::super::glow::Glows;
 use super::super::paint::Picture;
 use super::{Document, container, ktx2};
 
@@ -31,6 +32,8 @@ pub(super) struct Pictures {
     pub means: HashMap<(usize, bool), [f32; 4]>,
     /// Those that the scene keeps, by number in the file: their numbers in the scene.
     kept: BTreeMap<usize, (u32, Rc<RgbaImage>)>,
+    /// What is known of those that glow.
+    pub glows: Glows,
     /// Pixels decoded so far.
     pixels: u64,
 }
@@ -44,7 +47,7 @@ impl Pictures {
 
     /// What is kept, by number in the scene.
     pub(super) fn into_kept(mut self) -> Vec<Picture> {
-        self.last = None;
+        (self.last, self.glows) = (None, Glows::default());
         let mut kept: Vec<_> = self.kept.into_values().collect();
         kept.sort_by_key(|&(number, _)| number);
         let pictures = kept.into_iter().map(|(_, pixels)| {

@@ -75,6 +75,9 @@ fn one<'a>(
         document.warn(format!("{element}: it has no positions, and is left out"));
         return Ok(None);
     }
+    if attributes.accessor(Semantic::Colors(0)).is_some() {
+        document.warn(format!("{element}: its vertex colours are left out"));
+    }
     let positions = positions(document, &attributes, shared)?;
     let triangles = triangles(document, &attributes, (primitive, mode), positions.len())?;
     shared.triangles += triangles.len() as u64;

@@ -76,7 +76,13 @@ impl Document<'_> {
         };
         let transform = transform.unwrap_or_default();
         Ok(Some(Placed {
-            glow: Glow::new(pixels, wrap, is_nearest, transform.columns()),
+            glow: Glow::new(
+                pixels,
+                wrap,
+                is_nearest,
+                transform.columns(),
+                &self.pictures.borrow().glows,
+            ),
             set: transform.tex_coord.unwrap_or(info.tex_coord),
         }))
     }

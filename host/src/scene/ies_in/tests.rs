@@ -231,3 +231,18 @@ fn pictures_show_their_tables() {
     println!("{worst} at {at:?}, side {}", profile.picture.width);
     assert!(worst < 0.03, "{worst} at {at:?}");
 }
+
+/// Files that leave the last plane out, which is the first: from 345 to 360 degrees there is light too.
+#[test]
+fn a_circle_that_is_not_closed_is_closed() {
+    for (last, count) in [(345.0, 24), (270.0, 4), (350.0, 36)] {
+        let file = file(1, &steps(0.0, 90.0, 10), &steps(0.0, last, count), |_, h| {
+            100.0 + h
+        });
+        let table = Photometry::read(&file).expect("a table");
+        near(table.candela(luminaire(30.0, last)), 100.0 + last);
+        let between = 0.5 * (last + 360.0);
+        near(table.candela(luminaire(30.0, between)), 100.0 + 0.5 * last);
+        near(table.candela(luminaire(30.0, 0.0)), 100.0);
+    }
+}

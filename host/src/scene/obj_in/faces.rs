@@ -406,7 +406,7 @@ impl Reading<'_> {
             }
             meshes[*group as usize].primitives.push(primitive);
         }
-        data.pictures = library.pictures.into_kept();
+        data.pictures = library.into_kept();
         for (index, mesh) in (0..).zip(meshes) {
             data.nodes.push(Node {
                 name: mesh.name.clone(),

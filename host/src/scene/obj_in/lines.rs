@@ -39,13 +39,21 @@ impl Iterator for Lines<'_> {
         let mut line = self.line()?;
         let number = self.number;
         let mut text = String::new();
+        // A comment ends with its line.
+        if line.starts_with(b"#") {
+            return Some((number, text));
+        }
         while let Some(part) = line.strip_suffix(b"\\") {
             text.push_str(&String::from_utf8_lossy(part));
             text.push(' ');
             line = self.line().unwrap_or_default();
         }
         text.push_str(&String::from_utf8_lossy(line));
-        if let Some(comment) = text.find('#') {
+        // Names have such signs too.
+        let comment = text
+            .char_indices()
+            .find(|&(at, c)| c == '#' && text[..at].ends_with(|before: char| before.is_ascii_whitespace()));
+        if let Some((comment, _)) = comment {
             text.truncate(comment);
         }
         Some((number, text))

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use super::super::error::SceneError;
-use super::super::glow::Glow;
+use super::super::glow::{Glow, Glows};
 use super::super::model::Material;
 use super::super::notes::{Notes, Place};
-use super::super::paint::{Opacity, Paint, Texture, Wrap};
+use super::super::paint::{Opacity, Paint, Picture, Texture, Wrap};
 use super::super::picture_file::{Encoding, Kept, Mean, Pictures};
 use super::beside;
 use super::lines::{Lines, numbers, split};
@@ -76,10 +76,17 @@ pub(super) struct Library {
     pub materials: HashMap<String, Material>,
     /// What those glow by that have a picture of it, by the same names.
     pub glows: HashMap<String, Glow>,
-    pub pictures: Pictures,
+    shared: Glows,
+    pictures: Pictures,
 }
 
 impl Library {
+    /// The pictures that materials show.
+    pub fn into_kept(self) -> Vec<Picture> {
+        drop((self.glows, self.shared));
+        self.pictures.into_kept()
+    }
+
     /// Adds the materials of a file; the first one of a name stays.
     pub fn read(
         &mut self,
@@ -92,15 +99,16 @@ impl Library {
         let mut open: Option<(String, Entry)> = None;
         for (line, text) in Lines::new(bytes) {
             let (word, rest) = split(&text);
-            if word == "newmtl" {
-                self.close(open.replace((rest.to_owned(), Entry::default())));
-                continue;
-            }
-            let Some((_, entry)) = &mut open else { continue };
             let place = Place {
                 file: Rc::clone(&place_file),
                 line,
             };
+            if word == "newmtl" {
+                self.close(open.replace((rest.to_owned(), Entry::default())));
+                self.note_unshown(&place, notes);
+                continue;
+            }
+            let Some((_, entry)) = &mut open else { continue };
             match word {
                 "Kd" => entry.diffuse = color(file, line, rest, &place, notes)?,
                 "Ks" => entry.specular = color(file, line, rest, &place, notes)?.unwrap_or_default(),
@@ -129,7 +137,18 @@ impl Library {
             }
         }
         self.close(open);
+        let place = Place {
+            file: place_file,
+            line: 0,
+        };
+        self.note_unshown(&place, notes);
         Ok(())
+    }
+
+    fn note_unshown(&mut self, place: &Place, notes: &mut Notes) {
+        for problem in self.pictures.take_unshown() {
+            notes.add(place, problem);
+        }
     }
 
     fn close(&mut self, entry: Option<(String, Entry)>) {
@@ -146,7 +165,7 @@ impl Library {
             let glow = glow.and_then(|map| {
                 let kept = self.pictures.keep(&map.path, None)?;
                 let (wrap, transform) = (map.placing.wrap(), map.placing.transform());
-                Some(Glow::new(kept.pixels, wrap, false, transform))
+                Some(Glow::new(kept.pixels, wrap, false, transform, &self.shared))
             });
             if let Some(glow) = glow {
                 self.glows.insert(name.clone(), glow);
@@ -255,37 +274,46 @@ fn color(
     Ok(Some(rgb))
 }
 
-/// The options of a map, as `-s 1 1 1` and `-clamp on`, and the file after them, whose name may have spaces. Of options that are not known values are passed.
+/// The options of a map, as `-s 1 1 1` and `-clamp on`, and the file after them, whose name may have spaces.
 fn map_options(rest: &str) -> (Placing, &str) {
     let mut placing = Placing::PLAIN;
     let mut rest = rest.trim();
     while rest.starts_with('-') {
-        let (option, after) = split(rest);
-        rest = after;
+        let (option, mut after) = split(rest);
+        // Numbers may be fewer than these; a word is one.
+        let most = match option {
+            "-s" | "-o" | "-t" => 3,
+            "-mm" => 2,
+            _ => 1,
+        };
+        let is_word = matches!(
+            option,
+            "-imfchan" | "-type" | "-colorspace" | "-blendu" | "-blendv" | "-cc" | "-clamp"
+        );
         let mut values = Vec::new();
-        loop {
-            let (word, after) = split(rest);
+        for _ in 0..most {
+            let (word, next) = split(after);
             let number = word.parse::<f32>().ok().filter(|x| x.is_finite());
-            let is_value = number.is_some() || matches!(word, "on" | "off");
-            if !is_value || after.is_empty() {
+            // The last word is the file.
+            if next.is_empty() || !(is_word || number.is_some()) {
                 break;
             }
-            placing.is_clamped = match option {
-                "-clamp" => word == "on",
-                _ => placing.is_clamped,
-            };
+            if option == "-clamp" {
+                placing.is_clamped = word == "on";
+            }
             values.extend(number);
-            rest = after;
+            after = next;
         }
         // What is not there is as it was.
-        let into = match option {
+        let into: &mut [f32] = match option {
             "-s" => &mut placing.scale,
             "-o" => &mut placing.offset,
-            _ => continue,
+            _ => &mut [],
         };
         for (into, value) in into.iter_mut().zip(values) {
             *into = value;
         }
+        rest = after;
     }
     (placing, rest)
 }

@@ -362,3 +362,74 @@ fn what_is_painted_and_is_not_there() {
         scene.warnings()
     );
 }
+
+/// Options as exporters write them, and names with signs that begin comments elsewhere.
+#[test]
+fn maps_and_names_as_exporters_write_them() {
+    let leaf = png(1, &[WHITE]);
+    for options in [
+        "-imfchan m",
+        "-type sphere",
+        "-colorspace sRGB",
+        "-blendu on -blendv off",
+        "-mm 0 1",
+        "-t 0.1",
+        "-bm 0.5 -boost 2 -texres 512",
+        "-s 1 1 1",
+    ] {
+        for file in ["leaf.png", "512 leaf.png", "leaf#1.png"] {
+            let scene = painted(
+                "options",
+                &format!("newmtl sign\nmap_Kd {options} {file} # a leaf\n"),
+                &[(file, &leaf)],
+            );
+            assert!(
+                scene.data().materials[0].paint.is_some(),
+                "{options} {file}: {:?}",
+                scene.warnings()
+            );
+        }
+    }
+    let text = PAINTED
+        .replace("usemtl sign", "usemtl Material#2")
+        .replace("mtllib", "# from C:\\models\\\nmtllib");
+    let library = b"newmtl Material#1\nKd 1 0 0\nnewmtl Material#2\nKd 0 1 0 # green\n";
+    let folder = folder("signs", &[("room.mtl", library)]);
+    let scene = Scene::read_obj_slice("room.obj", text.as_bytes(), Some(&folder)).expect("valid");
+    let _ = std::fs::remove_dir_all(folder);
+    assert_eq!(
+        scene.data().materials[0].base_color,
+        [0.0, 1.0, 0.0],
+        "{:?}",
+        scene.warnings()
+    );
+}
+
+/// Lamps that show one picture, each in a material of its own: it is looked at once.
+#[test]
+fn many_lamps_of_one_picture() {
+    let sign = png(512, &vec![[255, 0, 0, 255]; 512 * 512]);
+    let (mut obj, mut mtl) = (
+        String::from("mtllib room.mtl\nvt 0 0\nvt 1 0\nvt 1 1\n"),
+        String::new(),
+    );
+    for k in 0..2000 {
+        mtl += &format!("newmtl m{k}\nKe 1 1 1\nmap_Ke sign.png\n");
+        obj += &format!("v {k} 0 0\nv {k} 1 0\nv {k} 1 1\ng g{k}\nusemtl m{k}\nf -3/1 -2/2 -1/3\n");
+    }
+    let folder = folder("lamps", &[("room.mtl", mtl.as_bytes()), ("sign.png", &sign)]);
+    let scene = Scene::read_obj_slice("room.obj", obj.as_bytes(), Some(&folder)).expect("valid");
+    let _ = std::fs::remove_dir_all(folder);
+    assert_eq!(scene.data().pictures.len(), 1);
+    let radiance = scene
+        .data()
+        .meshes
+        .iter()
+        .map(|mesh| mesh.primitives[0].radiance.as_ref().expect("its own")[0]);
+    // What glows anywhere leaves a trace in the other channels.
+    assert!(
+        radiance
+            .clone()
+            .all(|[r, g, b]| (r - 1.0).abs() < 1e-6 && g < 1e-3 && b < 1e-3)
+    );
+}

@@ -228,6 +228,12 @@ impl Loader<'_> {
             surface.coordinates.clear();
         }
         let is_painted = self.data.materials[graphics.material as usize].paint.is_some();
+        if is_painted && (surface.coordinates.is_empty() || graphics.area.is_some()) {
+            self.note(
+                place,
+                "surfaces without texture coordinates, and those that shine, show the mean colours of their pictures",
+            );
+        }
         let mut primitive = Primitive {
             material: graphics.material,
             // What emits shows no pictures.

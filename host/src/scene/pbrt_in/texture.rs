@@ -42,6 +42,10 @@ impl Loader<'_> {
                 continue;
             };
             if named(params, &by).is_some() {
+                self.note(
+                    &params.place,
+                    "pictures that are multiplied by pictures are replaced by their mean colours",
+                );
                 return None;
             }
             let scale = by.iter().find_map(|name| self.unclamped(params, name));
@@ -62,7 +66,11 @@ impl Loader<'_> {
             return None;
         }
         let path = resolve(self.folder, params.string("filename").unwrap_or_default())?;
-        let kept = self.pictures.keep(&path, None)?;
+        let kept = self.pictures.keep(&path, None);
+        for problem in self.pictures.take_unshown() {
+            self.note(&params.place, problem);
+        }
+        let kept = kept?;
         let number = |name: &str, default: f64| params.number(name).unwrap_or(default);
         let [us, vs] = [number("uscale", 1.0), number("vscale", 1.0)];
         let [ud, vd] = [number("udelta", 0.0), number("vdelta", 0.0)];
