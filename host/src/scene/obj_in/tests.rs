@@ -373,7 +373,7 @@ fn maps_and_names_as_exporters_write_them() {
         "-colorspace sRGB",
         "-blendu on -blendv off",
         "-mm 0 1",
-        "-t 0.1",
+        "-t 0.1 0 0",
         "-bm 0.5 -boost 2 -texres 512",
         "-s 1 1 1",
     ] {
