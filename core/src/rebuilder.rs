@@ -284,9 +284,10 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
             if let Some(gain) = rebuilt.gain_above() {
                 self.search.note_gain(gain);
             }
-            let wanted = scene
+            let (wanted, unfit) = scene
                 .install_as(rebuilt, false)
                 .map_err(|_| RebuildError::Foreign)?;
+            self.meshes.note_lost(unfit);
             for (opens, those) in [true, false].into_iter().zip(wanted) {
                 self.reopening
                     .extend(those.into_iter().map(|index| (index, opens)));

@@ -52,6 +52,8 @@ pub(super) struct Blas {
     pub opened: u32,
     /// Triangles that changed since the tree was made, those that are brighter than the others counting as so many more.
     pub unsettled: u32,
+    /// Whether a tree came to nothing since instances are opened into another number of parts: the next one waits until they are closed.
+    pub is_staged_only: bool,
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
@@ -77,6 +79,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             parts: 0..0,
             opened: 0,
             unsettled: 0,
+            is_staged_only: false,
         };
         put(&mut self.blases, index, empty.clone(), &empty);
         put(

@@ -399,6 +399,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             parts: 0..0,
             opened: 0,
             unsettled: 0,
+            is_staged_only: false,
         };
         let nothing = BlasRoot::new(INVALID, &N::Summary::EMPTY);
         for (index, slot) in parts.zip(0..) {

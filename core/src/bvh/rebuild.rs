@@ -67,6 +67,10 @@ pub struct Due {
     pub limit: f64,
 }
 
+/// Below this threshold meshes are built for what they lost alone.
+#[cfg(feature = "std")]
+const EAGER: f64 = 1.01;
+
 /// Most instances of subtrees that are built anew for what came while a tree was built and was put into it.
 pub(super) const ADOPTED: u64 = 64;
 
@@ -204,6 +208,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// The bottom levels refitted since then of which much changed a little at a time.
     #[cfg(feature = "std")]
     pub(crate) fn unsettled_since(&self, params: &RebuildParams, since: Option<Taken>) -> Vec<u32> {
+        // What lost a hundredth is built by those who ask for it, at rest or not.
+        if params.drift < EAGER {
+            return Vec::new();
+        }
         let mut found = self.refitted_since_taken(params, since);
         found.retain(|&blas| self.is_unsettled(blas));
         found
@@ -217,9 +225,15 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// Whether more instances of a bottom level are opened than are opened anew in one frame.
-    #[cfg(feature = "std")]
-    pub(crate) fn is_much_opened(&self, blas: u32) -> bool {
+    fn is_much_opened(&self, blas: u32) -> bool {
         self.blases[blas as usize].opened > super::stage::AT_ONCE
+    }
+
+    /// Whether a bottom level gets a tree by a stage alone, whatever its size.
+    #[cfg(feature = "std")]
+    pub(crate) fn is_staged_only(&self, blas: u32) -> bool {
+        let own = &self.blases[blas as usize];
+        own.is_staged_only && own.opened > super::stage::AT_ONCE
     }
 
     /// The bottom levels refitted since then that are to be built anew.
@@ -301,23 +315,34 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.install_as(rebuilt, true).map(|_| ())
     }
 
-    /// The same, and unless it `opens` them, but for opening and closing instances: returns those that are still to be opened, and those to be
-    /// closed.
+    /// The same, and unless it `opens` them, but for opening and closing instances: returns those that are still to be opened, those to be
+    /// closed, and bottom levels whose trees have to wait for that.
     pub(crate) fn install_as(
         &mut self,
         rebuilt: Rebuilt<N, W>,
         opens: bool,
-    ) -> Result<[Vec<u32>; 2], Foreign> {
+    ) -> Result<([Vec<u32>; 2], Vec<u32>), Foreign> {
         let mut changes = [const { Vec::new() }; 2];
+        let mut unfit = Vec::new();
         if rebuilt.taken.tree != self.id.0 {
             return Err(Foreign);
         }
         for (bottom, topology) in &rebuilt.bottoms {
             let same = |own: &Blas| own.created == bottom.created && own.triangles == bottom.range;
-            if self.blases.get(bottom.blas as usize).is_some_and(same) {
-                self.place_blas(bottom.blas, topology);
-                self.update_root(bottom.blas);
+            if !self.blases.get(bottom.blas as usize).is_some_and(same) {
+                continue;
             }
+            // Many instances that would have to be opened anew are closed before, while a stage waits.
+            if !opens
+                && self.is_much_opened(bottom.blas)
+                && !self.has_as_many_parts(bottom.blas, &topology.nodes[0])
+            {
+                self.blases[bottom.blas as usize].is_staged_only = true;
+                unfit.push(bottom.blas);
+                continue;
+            }
+            self.place_blas(bottom.blas, topology);
+            self.update_root(bottom.blas);
         }
         let mut room = Quota::default();
         for top in &rebuilt.top {
@@ -334,7 +359,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if self.changes.new.len() > MANY {
             self.bound_changes();
         }
-        Ok(changes)
+        Ok((changes, unfit))
     }
 
     /// Opens or closes one instance beside the frames, unless it is so already; that is still to be [noted](Self::note_reopened).

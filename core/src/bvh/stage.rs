@@ -22,8 +22,7 @@ use self::dirty::Dirty;
 pub(crate) use self::job::{MeshJob, MeshTree};
 pub(super) use self::part::MISFITS;
 use self::part::Part;
-#[cfg(feature = "std")]
-pub(crate) use self::reopen::AT_ONCE;
+pub(super) use self::reopen::AT_ONCE;
 use super::{Bvh, Trails};
 use crate::levels::Levels;
 use crate::node::Node;
@@ -176,6 +175,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         own.created = self.epoch;
         own.adopted = staged.number;
         own.unsettled -= staged.unsettled.min(own.unsettled);
+        own.is_staged_only = false;
         own.depth = staged.depth;
         self.retired
             .push(core::mem::replace(&mut own.levels, staged.levels));

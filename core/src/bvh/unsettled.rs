@@ -7,6 +7,8 @@ use super::{Bvh, Trails};
 use crate::node::Node;
 use crate::summary::Summary;
 
+/// Most that is counted, so that a word of the format has a bit more.
+pub(super) const MOST: u32 = u32::MAX >> 2;
 /// One in so many triangles must have changed. A tree is made once for that, and only when nothing moves.
 const SHARE: u64 = 32;
 
@@ -24,7 +26,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         let own = &mut self.blases[blas as usize];
         let changed = changed.min(count as f64) as u32;
-        own.unsettled += changed.min(u32::MAX - own.unsettled);
+        own.unsettled = (own.unsettled + changed.min(MOST)).min(MOST);
     }
 
     /// Whether so much of a bottom level changed since its tree was made that another may be better, whatever it lost.

@@ -139,6 +139,11 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
             || !self.small.is_empty()
     }
 
+    /// Notes small ones whose trees came to nothing.
+    pub fn note_lost(&mut self, lost: Vec<u32>) {
+        self.lost.extend(lost);
+    }
+
     /// Whether any came to nothing that may still be wanted.
     pub fn has_lost(&self) -> bool {
         !self.lost.is_empty()
@@ -181,7 +186,7 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
             }
         }
         for blas in worn {
-            let is_small = scene.blas_len(blas) <= most_at_once(params) && !scene.is_much_opened(blas);
+            let is_small = scene.blas_len(blas) <= most_at_once(params) && !scene.is_staged_only(blas);
             if is_small || scene.is_single_level() {
                 self.small.push(blas);
             } else if !self.is_under_way(blas, false) {

@@ -14,6 +14,9 @@ pub const FORMAT: u32 = 6;
 /// "LBVH" as bytes in little-endian order.
 const MAGIC: u32 = u32::from_le_bytes(*b"LBVH");
 
+/// Bit of a mesh's changes: its next tree waits until instances are closed.
+pub(super) const STAGED_ONLY: u32 = 1 << 31;
+
 /// Words of a header.
 pub(super) const HEADER_WORDS: usize = 19;
 

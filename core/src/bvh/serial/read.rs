@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::error::ReadError;
-use super::header::Header;
+use super::header::{Header, STAGED_ONLY};
 use super::places::{read_indices, read_range, read_ranges, taken};
 use super::words::Words;
 use crate::bvh::blas::Blas;
@@ -13,6 +13,7 @@ use crate::bvh::known_flux::KnownFlux;
 use crate::bvh::powers::Powers;
 use crate::bvh::stage::MISFITS;
 use crate::bvh::top::{MOST_EDITS, Top};
+use crate::bvh::unsettled::MOST;
 use crate::bvh::{Bvh, EditReason, InstanceState, Mesh};
 use crate::levels::Levels;
 use crate::light::Light;
@@ -92,6 +93,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 parts: 0..0,
                 opened: 0,
                 unsettled: 0,
+                is_staged_only: false,
             };
             if mesh != INVALID {
                 words.expect(mesh < header.meshes, "mesh of a bottom level")?;
@@ -101,7 +103,10 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 blas.parts = read_parts(words, header.blases)?;
                 let known = KnownFlux::from_word(words.one()?);
                 blas.known_flux = known.ok_or_else(|| words.wrong("flux of a mesh"))?;
-                blas.unsettled = words.one()?;
+                let unsettled = words.one()?;
+                words.expect(unsettled & !STAGED_ONLY <= MOST, "changes of a mesh")?;
+                blas.unsettled = unsettled & !STAGED_ONLY;
+                blas.is_staged_only = unsettled & STAGED_ONLY != 0;
                 let misfits = words.one()?;
                 words.expect(misfits as usize <= MISFITS, "number of subtrees without another")?;
                 for _ in 0..misfits {

@@ -4,7 +4,7 @@ use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::header::{Header, LENGTH};
+use super::header::{Header, LENGTH, STAGED_ONLY};
 use crate::bvh::{Bvh, InstanceState};
 use crate::light::Light;
 use crate::node::{Node, kind};
@@ -74,7 +74,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 blas.triangles.end,
             ]);
             write_parts(words, &blas.parts);
-            words.extend([blas.known_flux.word(), blas.unsettled, blas.misfits.len() as u32]);
+            let unsettled = blas.unsettled | if blas.is_staged_only { STAGED_ONLY } else { 0 };
+            words.extend([blas.known_flux.word(), unsettled, blas.misfits.len() as u32]);
             words.extend(&blas.misfits);
         }
         words.extend(

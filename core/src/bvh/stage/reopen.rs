@@ -7,7 +7,7 @@ use crate::bvh::{Bvh, Trails};
 use crate::node::Node;
 
 /// Instances that are opened anew as a tree is put in place.
-pub(crate) const AT_ONCE: u32 = 2;
+pub(in crate::bvh) const AT_ONCE: u32 = 2;
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Whether the tree of a stage may take the place of the bottom level's: few of its instances are opened, or into as many parts.
@@ -16,8 +16,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let Some(staged) = own.staged.as_ref().filter(|_| own.opened > AT_ONCE) else {
             return true;
         };
-        let count = parts_below::<N, W>(&self.nodes[staged.nodes.start as usize]);
-        count == own.parts.len() as u32
+        self.has_as_many_parts(blas, &self.nodes[staged.nodes.start as usize])
+    }
+
+    /// Whether a tree with this root is opened into as many parts as the bottom level is.
+    pub(in crate::bvh) fn has_as_many_parts(&self, blas: u32, root: &N) -> bool {
+        parts_below::<N, W>(root) as usize == self.blases[blas as usize].parts.len()
     }
 
     /// The tree of a stage waits until instances are closed.

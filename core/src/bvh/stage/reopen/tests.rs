@@ -83,3 +83,55 @@ fn instances_are_closed_a_few_in_each_frame() {
         assert!((sum - 1.0).abs() < 1e-5, "{sum}");
     }
 }
+
+/// A small mesh, which is put in place at once, waits for its instances too where its new tree has another number of parts; where it has as many
+/// it does not.
+#[test]
+fn small_meshes_wait_for_their_instances() {
+    for (far, expected) in [(0, true), (3, false)] {
+        let mut bvh = LightBvh::default();
+        let mesh = bvh.add_mesh(lamps(1)[..900].to_vec()).expect("a mesh");
+        let random = &mut Random(4);
+        let add = (0..40).map(|_| Edit::AddInstance {
+            mesh,
+            transform: Transform::at((random.vector() * 10.0).to_array()),
+            radiance: 1.0,
+        });
+        let add = add.collect();
+        bvh.apply(add).expect("instances");
+        bvh.refit();
+        assert_eq!(bvh.blases[0].opened, 40);
+        let mut others = lamps(2)[..900].to_vec();
+        for (k, light) in (0..).zip(&mut others[..far]) {
+            let (x, y, z) = (300.0 * k as f32, 50.0, 300.0);
+            light.p = [[x, y, z], [x + 1.0, y, z], [x, y, z + 1.0]];
+            light.radiance = [36.0; 3];
+        }
+        bvh.set_triangles(mesh, others).expect("as many");
+        bvh.refit();
+        let mut own: Rebuilder<MomentNode<8>, 8> = Rebuilder::new(RebuilderParams {
+            swap: Swap::Deterministic,
+            rebuild: RebuildParams {
+                top: f64::INFINITY,
+                ..RebuildParams::default()
+            },
+            ..RebuilderParams::default()
+        });
+        own.end_frame(&bvh);
+        let created = bvh.blases[0].created;
+        let (mut before, mut at_once) = (40, None);
+        for frame in 0..200 {
+            own.begin_frame(&mut bvh).expect("no panic");
+            bvh.refit();
+            own.end_frame(&bvh);
+            let opened = bvh.blases[0].opened;
+            assert!(opened + 2 * AT_ONCE >= before, "{opened} of {before}");
+            before = opened;
+            if bvh.blases[0].created != created {
+                at_once.get_or_insert(frame < 10);
+            }
+        }
+        assert_eq!(at_once, Some(expected), "{far} far off");
+        bvh.validate().expect("valid");
+    }
+}
