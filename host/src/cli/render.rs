@@ -58,6 +58,15 @@ pub(super) struct Args {
     /// Which of the scene's cameras looks, counted from 0.
     #[arg(long, default_value_t = 0)]
     camera: usize,
+    /// Look from this place, metres, in place of any camera of the scene.
+    #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true, requires = "look_at", conflicts_with = "camera")]
+    look_from: Option<[f32; 3]>,
+    /// Look at this place, which is in the middle of the image then; +Y is up.
+    #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true, requires = "look_from")]
+    look_at: Option<[f32; 3]>,
+    /// Vertical field of view with --look-from, degrees, 1 to 170.
+    #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=170), requires = "look_from")]
+    fov: u32,
     /// An environment map that lights the scene: a .hdr or .exr picture by longitude and latitude.
     #[arg(long, value_name = "FILE.hdr|FILE.exr")]
     environment: Option<PathBuf>,
@@ -109,6 +118,19 @@ pub(super) struct Args {
 }
 
 /// A factor above zero.
+/// Three coordinates.
+fn place(text: &str) -> Result<[f32; 3], String> {
+    let numbers: Vec<f32> = text
+        .split(',')
+        .filter_map(|part| part.trim().parse().ok())
+        .collect();
+    let count = text.split(',').count();
+    match numbers[..] {
+        [x, y, z] if count == 3 && [x, y, z].iter().all(|x| x.is_finite()) => Ok([x, y, z]),
+        _ => Err(format!("{text} is no place; write three numbers, as 1,2.5,-3")),
+    }
+}
+
 fn exposure(text: &str) -> Result<f32, String> {
     let number = text.parse().ok();
     number
@@ -226,6 +248,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         let mut data = scene.into_data();
         data.cameras.swap(0, args.camera);
         scene = Scene::new(data)?;
+    }
+    if let (Some(from), Some(at)) = (args.look_from, args.look_at) {
+        scene = scene.seen_from(from, at, (args.fov as f32).to_radians())?;
     }
     if let Some(path) = &args.environment {
         let mut data = scene.into_data();

@@ -2,11 +2,38 @@
 
 use crate::render::View;
 
-use super::transform::{Affine, unit_or};
-use crate::vector::cross;
+use super::error::SceneError;
+use super::model::{Camera, Node, Scene};
+use super::transform::{Affine, Transform, unit_or};
+use crate::vector::{cross, sub};
 
 /// Vertical field of view of the default camera: 50 degrees, a natural view on a screen.
 pub(super) const DEFAULT_YFOV: f32 = 0.872_664_6;
+
+impl Scene {
+    /// The scene as a camera at `eye` sees it that looks at `target`, both metres, with a vertical field of view of `yfov` radians; +Y is up. Its own
+    /// cameras are gone. Where both are one place it looks along −Z.
+    ///
+    /// # Errors
+    /// As [`Scene::new`]: places beyond 2^40 m, fields of view that are none.
+    pub fn seen_from(self, eye: [f32; 3], target: [f32; 3], yfov: f32) -> Result<Self, SceneError> {
+        let mut data = self.into_data();
+        let [from, to] = [eye, target].map(|p| p.map(f64::from));
+        let forward = unit_or(sub(to, from), [0.0, 0.0, -1.0]);
+        let view = looking(from, forward, [0.0, 1.0, 0.0], yfov);
+        let columns = [view.right, view.up, view.forward.map(|x| -x), eye];
+        data.cameras = vec![Camera {
+            node: data.nodes.len() as u32,
+            yfov,
+        }];
+        data.nodes.push(Node {
+            name: String::from("camera"),
+            transform: Transform::Matrix(columns),
+            ..Node::default()
+        });
+        Self::new(data)
+    }
+}
 
 /// The camera of a node: looks along -Z, +Y up; the node's scale does not matter.
 pub(super) fn view_of_node(world: &Affine, yfov: f32) -> View {

@@ -142,3 +142,42 @@ fn a_full_standard_output_is_an_error() {
     );
     assert!(std::path::Path::new(&image).exists());
 }
+
+/// A camera of one's own: another picture, mirrored names refused, and half of one refused too.
+#[test]
+fn a_camera_of_ones_own() {
+    let folder = Folder::new("look");
+    let small = "--width 48 --height 27 --spp 2 --backend cpu";
+    let mut images = Vec::new();
+    for look in [
+        "",
+        "--look-from 0,3,12 --look-at 0,1,0",
+        "--look-from -6,3,12 --look-at 0,1,-2.5 --fov 30",
+    ] {
+        let file = folder.file(&format!("{}.exr", images.len()));
+        let output = run(&format!("render street {look} -o {file} {small}"));
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        images.push(std::fs::read(&file).expect("an image"));
+    }
+    assert!(images[0] != images[1] && images[1] != images[2]);
+    for wrong in [
+        "--look-from 1,2,3",
+        "--look-at 1,2,3",
+        "--look-from 1,2 --look-at 1,2,3",
+        "--look-from 1,2,x --look-at 1,2,3",
+        "--look-from 1,2,3 --look-at 1,2,3,4",
+        "--look-from 1,2,3 --look-at 0,0,0 --camera 0",
+        "--fov 40",
+        "--look-from nan,2,3 --look-at 0,0,0",
+    ] {
+        let output = run(&format!(
+            "render street {wrong} -o {} {small}",
+            folder.file("no.png")
+        ));
+        assert_eq!(output.status.code(), Some(2), "{wrong}");
+    }
+}

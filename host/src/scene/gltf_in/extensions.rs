@@ -8,8 +8,9 @@ use super::super::error::SceneError;
 use super::Document;
 
 /// Extensions that are read.
-const READ: [&str; 13] = [
+const READ: [&str; 14] = [
     "EXT_lights_ies",
+    "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",
     "KHR_draco_mesh_compression",

@@ -33,6 +33,7 @@ mod emission;
 mod extensions;
 mod ies;
 mod image;
+mod instancing;
 mod ktx2;
 mod material;
 mod mesh;

@@ -8,7 +8,7 @@ use gltf::json;
 use super::super::error::SceneError;
 use super::super::model::{Camera, Node, SceneData};
 use super::super::transform::Transform;
-use super::{BACKGROUND_EXTRA, Document};
+use super::{BACKGROUND_EXTRA, Document, instancing};
 
 /// Fills nodes, cameras and background; gives the place of each of the file's nodes, `None` where the scene does not
 /// use it.
@@ -191,14 +191,29 @@ fn add(
         }
     }
     let name = node.name.clone().unwrap_or_else(|| format!("node {index}"));
+    let own = data.nodes.len() as u32;
+    let instances = match mesh {
+        Some(_) => instancing::places(document, node, &element)?,
+        None => None,
+    };
     data.nodes.push(Node {
-        name,
+        name: name.clone(),
         parent,
         transform: transform(node),
-        mesh,
+        mesh: mesh.filter(|_| instances.is_none()),
         skin,
-        weights,
+        weights: weights.clone(),
     });
+    for (i, transform) in instances.into_iter().flatten().enumerate() {
+        data.nodes.push(Node {
+            name: format!("{name} {i}"),
+            parent: Some(own),
+            transform,
+            mesh,
+            skin: None,
+            weights: weights.clone(),
+        });
+    }
     Ok(())
 }
 
