@@ -120,9 +120,8 @@ mod tests {
         // The second vertex: one to the right, one up, one to the left of where the instance stands.
         let expected = [[2.0, 5.0, 0.0], [2.0, 6.0, 0.0], [2.0, 5.0, 0.0]];
         for (light, expected) in frame.emissive.iter().zip(expected) {
-            for k in 0..3 {
-                assert!((light.p[1][k] - expected[k]).abs() < 1e-6, "{:?}", light.p);
-            }
+            let is_there = light.p[1].iter().zip(expected).all(|(x, y)| (x - y).abs() < 1e-6);
+            assert!(is_there, "{:?}", light.p);
         }
         let error = read([3, 2]).expect_err("two rotations").to_string();
         assert!(error.contains("different numbers"), "{error}");
