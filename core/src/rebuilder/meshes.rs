@@ -55,6 +55,8 @@ struct Flight<N: Holds, const W: usize> {
 enum At<N: Holds, const W: usize> {
     /// Room is made for its triangles, here and, after so many frames, by a thread.
     Room(u32, Worker<N, W>),
+    /// The same where no thread could be started: as many frames pass, so that trees do not depend on that.
+    RoomHere(u32, MeshJob<N>),
     /// Its triangles are copied, for a thread if any could be started.
     Copied(MeshJob<N>, Option<Worker<N, W>>),
     /// It is built by a thread, and due after so many frames.
@@ -324,6 +326,15 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
                     }
                 }
             },
+            At::RoomHere(left, job) => match scene.find_room(id, bytes) {
+                None => {
+                    self.waste.push(Waste::Job(job));
+                    At::Over
+                }
+                Some(_) if left > 1 => At::RoomHere(left - 1, job),
+                Some(false) => At::RoomHere(0, job),
+                Some(true) => At::Copied(job, None),
+            },
             At::Copied(mut job, worker) => match scene.copy_stage(id, &mut job, bytes) {
                 Some(true) => submit(job, params.after, worker),
                 Some(false) => At::Copied(job, worker),
@@ -337,7 +348,10 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
                 scene.expect_nodes(id, bytes);
                 At::Built(left - 1, worker)
             }
-            At::Inline(left, built) if left > 1 => At::Inline(left - 1, built),
+            At::Inline(left, built) if left > 1 => {
+                scene.expect_nodes(id, bytes);
+                At::Inline(left - 1, built)
+            }
             At::Built(_, worker) => {
                 let built = outcome(&worker, params, start);
                 match built {
@@ -463,12 +477,12 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
         thread: fn() -> std::io::Result<Worker<N, W>>,
     ) -> At<N, W> {
         let Some(worker) = self.idle.pop().or_else(|| thread().ok()) else {
-            return At::Copied(job, None);
+            return At::RoomHere(after, job);
         };
         match worker.handover().submit(Job::Room(job)) {
             Ok(()) => At::Room(after, worker),
             Err(job) => match build(job) {
-                Ok((Product::Room(job), _)) => At::Copied(job, None),
+                Ok((Product::Room(job), _)) => At::RoomHere(after, job),
                 _ => At::Over,
             },
         }

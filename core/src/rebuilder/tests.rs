@@ -348,3 +348,53 @@ fn a_frame_opens_few_instances() {
     assert!(all > 20, "{all}: nothing is tested");
     assert!(most <= REOPENED, "{most} in one frame");
 }
+
+/// Large meshes too, which come in piece by piece: as many frames pass for room and for the builder, whoever they wait for.
+#[test]
+fn without_threads_large_meshes_come_at_the_same_frames() {
+    let lamp = |k: u32| {
+        let [x, y, z] = [1, 2, 3].map(|axis| 10.0 * crate::exact::unit_f32(crate::exact::hash(7 * k + axis)));
+        triangle([[x, y, z], [x + 0.02, y, z], [x, y + 0.02, z]])
+    };
+    let run = |threads: bool| {
+        let mut bvh = LightBvh::default();
+        let mesh = bvh.add_mesh((0..3000).map(lamp).collect()).expect("a mesh");
+        let small = bvh.add_mesh(vec![lamp(1)]).expect("a mesh");
+        let add = [mesh, small, mesh].into_iter().zip([0.0, 20.0, 40.0]);
+        let add = add.map(|(mesh, x)| Edit::AddInstance {
+            mesh,
+            transform: Transform::at([x, 0.0, 0.0]),
+            radiance: 1.0,
+        });
+        bvh.apply(add.collect()).expect("instances");
+        bvh.set_triangles(mesh, (5000..8000).map(lamp).collect())
+            .expect("as many");
+        bvh.refit();
+        let mut rebuilder = Own::new(RebuilderParams {
+            after: 3,
+            swap: Swap::Deterministic,
+            bytes: 1 << 14,
+            ..RebuilderParams::default()
+        });
+        if !threads {
+            rebuilder.start = || Err(std::io::Error::other("no more threads"));
+        }
+        rebuilder.end_frame(&bvh);
+        let mut adopted = None;
+        let mut words = alloc::vec::Vec::new();
+        for frame in 0..150_u32 {
+            let start = rebuilder.begin_frame(&mut bvh).expect("no panic");
+            if start.adopted > 0 {
+                adopted.get_or_insert(frame);
+            }
+            bvh.refit();
+            rebuilder.end_frame(&bvh);
+            words.push(bvh.to_words());
+        }
+        (adopted.expect("a new tree"), words)
+    };
+    let (with, without) = (run(true), run(false));
+    assert_eq!(with.0, without.0);
+    let first = with.1.iter().zip(&without.1).position(|(a, b)| a != b);
+    assert_eq!(first, None, "the first frame that differs");
+}
