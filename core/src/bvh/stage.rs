@@ -176,6 +176,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         own.adopted = staged.number;
         own.unsettled -= staged.unsettled.min(own.unsettled);
         own.is_staged_only = false;
+        // They were nodes of the old tree.
+        own.misfits.clear();
         own.depth = staged.depth;
         self.retired
             .push(core::mem::replace(&mut own.levels, staged.levels));

@@ -151,6 +151,13 @@ fn files_tell_what_is_still_to_be_tried() {
     }
     assert_eq!(read.to_words(), bvh.to_words());
 
+    // A new tree has other nodes, and nothing is known of their parts.
+    assert!(bvh.blases[0].misfits.is_empty() && bvh.blases[0].created > 1);
+    assert!(
+        !bvh.blases[0].nodes.contains(&(nodes.start + 9)),
+        "it stands elsewhere"
+    );
+
     // Too many of them, and one that is no node of the mesh.
     let at = words
         .windows(4)
