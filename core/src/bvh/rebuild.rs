@@ -28,7 +28,8 @@ pub struct RebuildParams {
     /// A bottom level is once it is worse than when it was built by more than this factor; infinite for never. The factor is
     /// 1 / (1 - l), where l is the mean by flux, over the nodes, of how much more of their lights' variance of position lies between the
     /// lights of each of their children: 0 as built, wherever the mesh goes, however it is scaled, and whatever happens elsewhere; 0.65 to 0.85, a factor of 3
-    /// to 7, where all triangles changed places. What only a device has refitted is not seen to lose quality.
+    /// to 7, where all triangles changed places. What only a device has refitted is not seen to lose quality. From 1.01 on a
+    /// [`Rebuilder`](crate::Rebuilder) also builds a mesh anew once at rest, of which one triangle in 32 changed a few at a time.
     pub drift: f64,
 }
 
@@ -208,13 +209,15 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// The bottom levels refitted since then of which much changed a little at a time.
     #[cfg(feature = "std")]
     pub(crate) fn unsettled_since(&self, params: &RebuildParams, since: Option<Taken>) -> Vec<u32> {
-        // What lost a hundredth is built by those who ask for it, at rest or not.
-        if params.drift < EAGER {
-            return Vec::new();
-        }
         let mut found = self.refitted_since_taken(params, since);
-        found.retain(|&blas| self.is_unsettled(blas));
+        found.retain(|&blas| self.is_to_rest(blas, params));
         found
+    }
+
+    /// Whether a bottom level is to be built anew once it is at rest. What lost a hundredth is built by those who ask for it, at rest or not.
+    #[cfg(feature = "std")]
+    pub(crate) fn is_to_rest(&self, blas: u32, params: &RebuildParams) -> bool {
+        params.drift >= EAGER && self.is_unsettled(blas)
     }
 
     /// Records of the top level that follow a bottom level's root.
@@ -233,7 +236,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     #[cfg(feature = "std")]
     pub(crate) fn is_staged_only(&self, blas: u32) -> bool {
         let own = &self.blases[blas as usize];
-        own.is_staged_only && own.opened > super::stage::AT_ONCE
+        own.is_staged_only && self.is_much_opened(blas)
     }
 
     /// The bottom levels refitted since then that are to be built anew.

@@ -92,13 +92,13 @@ fn is_wanted<N: Node<W>, I, const W: usize, T: Trails>(
     blas: u32,
     params: &RebuilderParams,
 ) -> bool {
-    scene.is_worn(blas, &params.rebuild) || scene.is_unsettled(blas)
+    scene.is_worn(blas, &params.rebuild) || scene.is_to_rest(blas, &params.rebuild)
 }
 
 /// Most meshes that a frame searches for a part to be built anew.
 const SEARCHED: usize = 2;
 
-/// Of a mesh that more records of the top level follow no parts are built: each would have all of them refitted.
+/// Most records of the top level that follow a mesh of which parts are built: each part has all of them refitted.
 const MANY: usize = 256;
 
 /// Most waiting meshes that a frame looks at.
@@ -181,7 +181,7 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
         unsettled.into_iter().for_each(|blas| self.resting.push(blas));
         for _ in 0..LOOKED_AT.min(self.resting.len()) {
             let Some(blas) = self.resting.pop() else { break };
-            match scene.is_unsettled(blas) {
+            match scene.is_to_rest(blas, &params.rebuild) {
                 true if scene.is_at_rest(blas, rests_since) => worn.push(blas),
                 true => self.resting.push(blas),
                 false => {}

@@ -349,7 +349,7 @@ fn a_frame_opens_few_instances() {
     assert!(most <= REOPENED, "{most} in one frame");
 }
 
-/// Large meshes too, which come in piece by piece: as many frames pass for room and for the builder, whoever they wait for.
+/// Large meshes come in piece by piece: without threads as many frames pass for room and for the builder as with them.
 #[test]
 fn without_threads_large_meshes_come_at_the_same_frames() {
     let lamp = |k: u32| {
@@ -397,4 +397,44 @@ fn without_threads_large_meshes_come_at_the_same_frames() {
     assert_eq!(with.0, without.0);
     let first = with.1.iter().zip(&without.1).position(|(a, b)| a != b);
     assert_eq!(first, None, "the first frame that differs");
+}
+
+/// Parts are built of a mesh with few instances. Of one with many each part would have all of them refitted, so none is.
+#[test]
+fn meshes_of_many_instances_are_built_as_a_whole_alone() {
+    for (count, has_parts) in [(2, true), (300, false)] {
+        let lamp = |k: u32| {
+            let [x, y, z] =
+                [1, 2, 3].map(|axis| 10.0 * crate::exact::unit_f32(crate::exact::hash(7 * k + axis)));
+            triangle([[x, y, z], [x + 0.02, y, z], [x, y + 0.02, z]])
+        };
+        let mut bvh = LightBvh::default();
+        let mesh = bvh.add_mesh((0..6000).map(lamp).collect()).expect("a mesh");
+        let add = (0..count as u16).map(|k| Edit::AddInstance {
+            mesh,
+            transform: Transform::at([f32::from(k), 0.0, 0.0]),
+            radiance: 1.0,
+        });
+        let add = add.collect();
+        bvh.apply(add).expect("instances");
+        bvh.set_triangle_range(mesh, 0, (9000..9300).map(lamp).collect())
+            .expect("in the mesh");
+        bvh.refit();
+        let mut rebuilder = Own::new(RebuilderParams {
+            swap: Swap::WhenReady,
+            rebuild: RebuildParams {
+                top: f64::INFINITY,
+                drift: 1.009,
+            },
+            ..RebuilderParams::default()
+        });
+        // As though only a part were worn.
+        let strained = vec![0];
+        rebuilder
+            .meshes
+            .await_turn([vec![], strained, vec![]], 0, &bvh, &rebuilder.params);
+        assert_eq!(rebuilder.meshes.is_busy(), has_parts, "{count}");
+        let start = rebuilder.begin_frame(&mut bvh).expect("no panic");
+        assert_eq!(start.waited, core::time::Duration::ZERO, "it never waits");
+    }
 }

@@ -42,43 +42,25 @@ impl<const W: usize> Words<W> {
         Field::new("link", Self::EACH),
     ];
     /// [`lightbvh::MomentNode`]. Codes may be all ones.
-    const MOMENTS: &'static [Field] = &[
-        Field::new("origin", 3),
-        Field::new("exponents", 1),
-        Field::new("unused", Self::EACH.saturating_sub(4)),
-        Field::any("center_kind", Self::EACH),
-        Field::any("center_phi", Self::EACH),
-        Field::any("normal", Self::EACH),
-        Field::any("extent", Self::EACH),
-        Field::new("link", Self::EACH),
-    ];
+    const MOMENTS: &'static [Field] = Self::BEAMS.split_at(8).0;
     /// [`lightbvh::node::SpotMomentNode`].
-    const BEAMS: &'static [Field] = &[
-        Field::new("origin", 3),
-        Field::new("exponents", 1),
-        Field::new("unused", Self::EACH.saturating_sub(4)),
-        Field::any("center_kind", Self::EACH),
-        Field::any("center_phi", Self::EACH),
-        Field::any("normal", Self::EACH),
-        Field::any("extent", Self::EACH),
-        Field::new("link", Self::EACH),
-        Field::any("beam", Self::EACH),
-    ];
-}
-
-impl<const W: usize> Words<W> {
+    const BEAMS: &'static [Field] = &Self::moments_and("beam");
     /// [`lightbvh::node::LinkedMomentNode`]. A mask of ones is that of most lights.
-    const MASKS: &'static [Field] = &[
-        Field::new("origin", 3),
-        Field::new("exponents", 1),
-        Field::new("unused", Self::EACH.saturating_sub(4)),
-        Field::any("center_kind", Self::EACH),
-        Field::any("center_phi", Self::EACH),
-        Field::any("normal", Self::EACH),
-        Field::any("extent", Self::EACH),
-        Field::new("link", Self::EACH),
-        Field::any("mask", Self::EACH),
-    ];
+    const MASKS: &'static [Field] = &Self::moments_and("mask");
+
+    const fn moments_and(row: &'static str) -> [Field; 9] {
+        [
+            Field::new("origin", 3),
+            Field::new("exponents", 1),
+            Field::new("unused", Self::EACH.saturating_sub(4)),
+            Field::any("center_kind", Self::EACH),
+            Field::any("center_phi", Self::EACH),
+            Field::any("normal", Self::EACH),
+            Field::any("extent", Self::EACH),
+            Field::new("link", Self::EACH),
+            Field::any(row, Self::EACH),
+        ]
+    }
 }
 
 /// The words of any layout.

@@ -171,7 +171,7 @@ fn what_changed_as_a_whole_and_rests_is_swept_in_pieces() {
                 .expect("its own");
         }
     });
-    // Built for other triangles: right, not good. So it is due at once, whoever asks.
+    // It was built for other triangles, so it is exact and not good: it is due at once.
     assert!(drift(&bvh, mesh) > 1.5);
     let due = bvh.due(&RebuildParams::default());
     assert_eq!(due.first().and_then(|due| due.mesh), Some(mesh));

@@ -35,8 +35,8 @@ const JUMPS: usize = 1024;
 /// Part of a mesh's own variance by which its centre may move for it to stay: half of its deviation.
 const SWAYS: f64 = 4.0;
 
-/// Flux and centre of lights in the space of their mesh; `None` where none has flux.
-fn center_of<N>(lights: &[N::Light]) -> Option<(f64, [f32; 3])>
+/// The centre of lights by flux, in the space of their mesh; `None` where none has flux.
+fn center_of<N>(lights: &[N::Light]) -> Option<[f32; 3]>
 where
     N: Holds,
 {
@@ -50,7 +50,7 @@ where
             sum[k] += flux * f64::from(c[k]);
         }
     }
-    (phi > 0.0).then(|| (phi, sum.map(|x| (x / phi) as f32)))
+    (phi > 0.0).then(|| sum.map(|x| (x / phi) as f32))
 }
 
 /// Squared distance, m².
@@ -114,7 +114,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         for blas in reshaped {
             let range = self.blases[blas as usize].triangles.clone();
             let mesh = center_of::<N>(&self.triangles[range.start as usize..range.end as usize]);
-            let Some((phi, center)) = mesh else { continue };
+            let Some(center) = mesh else { continue };
             // One that sways within its own extent is where it was, wherever its instances are.
             let was = self.root_of(blas);
             let squared = distance(center.map(f64::from), was.center().to_array().map(f64::from));
@@ -123,15 +123,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             }
             let before = jumped.len();
             for &user in &self.meshes[self.blases[blas as usize].mesh as usize].users {
-                let instance = &self.instances[user as usize];
-                let own = Cluster {
-                    phi: phi * f64::from(instance.flux),
-                    center: instance.vertex(center).map(f64::from),
-                    spread: 0.0,
-                    count: 1,
-                };
+                let center = self.instances[user as usize].vertex(center);
                 // Parts of an opened one stay, for a rebuild.
-                if self.placed[user as usize].parts.is_empty() && self.has_jumped(user, &own) {
+                if self.placed[user as usize].parts.is_empty() && self.has_jumped(user, center) {
                     jumped.push(user);
                 }
             }
@@ -146,9 +140,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         jumped
     }
 
-    /// Whether an instance that would be `own` now lies farther from where the last refit saw it than what its node holds is wide, and not so near to
-    /// that as lights around are.
-    fn has_jumped(&self, index: u32, own: &Cluster) -> bool {
+    /// Whether an instance whose centre is `center` now, metres, lies farther from where the last refit saw it than the deviation of what its
+    /// node holds.
+    fn has_jumped(&self, index: u32, center: [f32; 3]) -> bool {
         let placed = &self.placed[index as usize];
         if placed.node == INVALID || self.parents[placed.node as usize] == INVALID {
             return false;
@@ -156,8 +150,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let words = &self.nodes[placed.node as usize];
         let was = words.summary(placed.slot as usize).center().to_array();
         let whole = words.merged();
-        let squared = distance(own.center, was.map(f64::from));
-        squared > f64::from(whole.spread()) && squared > 0.0
+        distance(center.map(f64::from), was.map(f64::from)) > f64::from(whole.spread())
     }
 
     /// What an instance that is misplaced costs more where it is; 0 of one that is not. Looks at a slot of each of the two nodes above,

@@ -5,7 +5,7 @@ use alloc::vec;
 use crate::kit::triangle;
 use crate::{LightBvh, Transform};
 
-/// Whoever goes on moving is soon compared with what lies beside at all levels, though few are in one frame: those that are not stay with the ones
+/// An instance that goes on moving is soon compared with what lies beside at all levels, though few are in one frame: those that are not stay with the ones
 /// that they once were among, wherever they go.
 #[test]
 fn each_that_goes_on_moving_has_its_turn() {

@@ -39,7 +39,7 @@ fn colours_of_surfaces_are_shown() {
     );
     let data = scene.data();
     assert_eq!(scene.warnings(), &[] as &[String]);
-    // One picture, whoever shows it.
+    // Three materials show one picture.
     assert_eq!(data.pictures.len(), 1);
     let paints: Vec<_> = (0..3)
         .map(|mesh| {
