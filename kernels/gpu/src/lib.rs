@@ -14,7 +14,7 @@ mod frame;
 pub mod kernel;
 mod memory_model;
 mod native;
-mod query;
+pub mod query;
 mod refit;
 #[cfg(feature = "kernels")]
 pub mod self_test;
@@ -30,7 +30,6 @@ pub mod table;
 
 pub use buffer::Buffer;
 pub use frame::{Copy, Frame, Mirror};
-pub use query::{LinkedQuery, Query, SegmentQuery, TransmissiveQuery, query_push};
 pub use refit::{Dispatch, Pass, Refit};
 #[cfg(feature = "kernels")]
 pub use set::{EQ4, KernelSet, MOMENTS, NotCompiled};
@@ -50,3 +49,5 @@ pub use frame::Region;
 pub use kernel::{Access, Binding, Kernel, ROW_GROUPS, groups};
 #[doc(hidden)]
 pub use native::{contractible, with_shader_fma};
+#[doc(hidden)]
+pub use query::{LinkedQuery, Query, SegmentQuery, TransmissiveQuery, query_push};

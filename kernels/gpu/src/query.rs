@@ -1,4 +1,4 @@
-//! What the kernels `sample` and `pmf` are asked.
+//! What the kernels `sample` and `pmf` are asked, for each kind of receiver.
 
 use bytemuck::{Pod, Zeroable};
 use lightbvh::importance::{LinkedPoint, RaySegment, TransmissivePoint};
