@@ -50,7 +50,8 @@ pub struct RebuilderParams {
     /// frames in which a part of the top level may come in, a quarter of them. A
     /// mesh of less than a 256th as many triangles is put in place at once, as is a single level, whose lights are its triangles; a
     /// larger one over the frames that it takes, 112 bytes for a triangle before it is built, and its nodes and trails after it; memory that
-    /// is new counts three times. In the frame in which its tree takes its place, each instance of the mesh is told. A subtree that lost its
+    /// is new counts three times. Then instances follow the new tree, 256 in a frame, all at once where the mesh itself
+    /// changes. A subtree that lost its
     /// shape while the mesh as a whole has not, of a node for each 128 bytes at most, is built anew alone.
     pub bytes: u32,
     /// Large meshes that are under way at a time, each with a thread of its own; at least 1.

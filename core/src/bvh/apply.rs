@@ -209,6 +209,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     fn take_instance(&mut self, index: u32) {
+        self.hand_over(index);
         self.epoch += 1;
         for leaf in self.leaves_of(index) {
             self.remove_leaf(leaf);
@@ -254,6 +255,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Brings the words of an instance in line with its transform and radiance.
     pub(super) fn place(&mut self, index: u32) {
+        self.hand_over(index);
+        self.put_words(index);
+    }
+
+    /// The same, whichever tree it followed.
+    pub(super) fn put_words(&mut self, index: u32) {
         self.epoch += 1;
         self.placed[index as usize].changed = self.epoch;
         let placed = &self.placed[index as usize];

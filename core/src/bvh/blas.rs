@@ -6,7 +6,7 @@ use core::ops::Range;
 
 use super::known_flux::KnownFlux;
 use super::powers::Powers;
-use super::stage::Staged;
+use super::stage::{Outgoing, Staged};
 use super::{Bvh, Trails};
 use crate::build::Topology;
 use crate::levels::Levels;
@@ -54,23 +54,25 @@ pub(super) struct Blas {
     pub unsettled: u32,
     /// Whether a tree came to nothing since instances are opened into another number of parts: the next one waits until they are closed.
     pub is_staged_only: bool,
+    /// The tree that was the mesh's before this one, while instances still follow it.
+    pub outgoing: Option<Outgoing>,
+    /// Whether this is such a tree.
+    pub is_outgoing: bool,
 }
 
-impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// A bottom level over `triangles`, as `topology` has it, whose primitives are numbered from 0; returns its index.
-    pub(super) fn add_blas(&mut self, mesh: u32, triangles: &[N::Light], mut topology: Topology<N>) -> u32 {
-        let index = self.blas_ranges.take(1).start;
-        let range = self.triangle_ranges.take(triangles.len() as u32);
-        let empty = Blas {
+impl Blas {
+    /// One of nothing yet, of that mesh.
+    pub fn none<L: Light>(mesh: u32) -> Self {
+        Self {
             nodes: 0..0,
-            triangles: range.clone(),
+            triangles: 0..0,
             mesh,
             levels: Levels::default(),
             is_unlisted: false,
             misfits: Vec::new(),
             depth: 0,
-            extent: Extent::of(triangles),
-            powers: Powers::of(triangles),
+            extent: Extent::of::<L>(&[]),
+            powers: Powers::default(),
             known_flux: KnownFlux::default(),
             created: 0,
             changed: 0,
@@ -80,6 +82,22 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             opened: 0,
             unsettled: 0,
             is_staged_only: false,
+            outgoing: None,
+            is_outgoing: false,
+        }
+    }
+}
+
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+    /// A bottom level over `triangles`, as `topology` has it, whose primitives are numbered from 0; returns its index.
+    pub(super) fn add_blas(&mut self, mesh: u32, triangles: &[N::Light], mut topology: Topology<N>) -> u32 {
+        let index = self.blas_ranges.take(1).start;
+        let range = self.triangle_ranges.take(triangles.len() as u32);
+        let empty = Blas {
+            triangles: range.clone(),
+            extent: Extent::of(triangles),
+            powers: Powers::of(triangles),
+            ..Blas::none::<N::Light>(mesh)
         };
         put(&mut self.blases, index, empty.clone(), &empty);
         put(
@@ -98,6 +116,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// What is known of a bottom level as a whole.
     pub(super) fn root_of(&self, blas: u32) -> N::Summary {
         self.roots[blas as usize].summary()
+    }
+
+    /// The bottom level of a mesh, whose number changes with its tree.
+    #[cfg(test)]
+    pub(super) fn of_mesh(&self, mesh: u32) -> &Blas {
+        &self.blases[self.meshes[mesh as usize].blas as usize]
     }
 
     /// Takes a bottom level out.
@@ -137,6 +161,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     fn put_triangles(&mut self, index: u32, first: u32, triangles: &[N::Light]) -> Range<u32> {
+        self.hand_over_all(index);
         let start = self.blases[index as usize].triangles.start + first;
         let range = start..start + triangles.len() as u32;
         self.cover_triangles(range.end);
@@ -171,6 +196,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Puts the nodes of `topology` in place of those that bottom level `index` had.
     pub(super) fn place_blas(&mut self, index: u32, topology: &Topology<N>) {
         self.drop_stage(index);
+        self.hand_over_all(index);
         let old = self.blases[index as usize].nodes.clone();
         self.node_ranges.give(old);
         let nodes = self.place_nodes(&topology.nodes);

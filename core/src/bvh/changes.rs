@@ -42,6 +42,19 @@ impl Changes {
         for pending in self.all() {
             pending.blases.remove(&index);
             pending.built.remove(&index);
+            pending.roots.remove(&index);
+        }
+    }
+
+    /// A bottom level is in the place of another, with what is still to be refitted of it.
+    pub fn replace_blas(&mut self, old: u32, new: u32) {
+        for pending in self.all() {
+            if pending.blases.remove(&old) {
+                pending.blases.insert(new);
+            }
+            if pending.built.remove(&old) {
+                pending.built.insert(new);
+            }
         }
     }
 
@@ -85,6 +98,8 @@ pub(super) struct Pending {
     pub parts: Vec<Range<u32>>,
     /// Bottom levels that are new, their bounds known.
     pub built: BTreeSet<u32>,
+    /// Bottom levels whose bounds, or those of their parts, a mirror has not yet, without their instances.
+    pub roots: BTreeSet<u32>,
     /// Indices of instances; may repeat.
     pub instances: Vec<u32>,
     /// Nodes of the top level that lost a child or were made anew; may repeat.
@@ -120,6 +135,7 @@ impl Pending {
         self.blases.is_empty()
             && self.parts.is_empty()
             && self.built.is_empty()
+            && self.roots.is_empty()
             && self.instances.is_empty()
             && self.top_nodes.is_empty()
             && !self.whole_top
@@ -140,6 +156,7 @@ impl Pending {
         self.blases.extend(other.blases);
         self.parts.extend(other.parts);
         self.built.extend(other.built);
+        self.roots.extend(other.roots);
         self.instances.extend(other.instances);
         self.top_nodes.extend(other.top_nodes);
         self.whole_top |= other.whole_top;

@@ -68,7 +68,7 @@ pub use rebuild::{Due, Foreign, Rebuild, RebuildParams, Rebuilt};
 pub use refit::RefitPlan;
 pub use serial::{FORMAT, ReadError};
 #[cfg(feature = "std")]
-pub(crate) use stage::{Builder, MeshJob, MeshTree, StageId};
+pub(crate) use stage::{Builder, HANDED, MeshJob, MeshTree, StageId};
 pub use static_bvh::StaticBvh;
 pub use static_mesh::StaticMeshBvh;
 #[cfg(feature = "std")]
@@ -150,6 +150,8 @@ pub struct Bvh<N: Holds, I, const W: usize, T = WithTrails> {
     quality: Vec<quality::Quality>,
     /// Bottom levels whose trees are being put in place piece by piece.
     staging: Vec<u32>,
+    /// Bottom levels that instances of their meshes are still to follow.
+    handing: Vec<u32>,
     /// Lists that adopted trees replaced: giving their memory back takes longer than a frame may.
     retired: Vec<Levels>,
     /// Triangles and nodes of the largest bottom levels so far.
@@ -220,6 +222,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             quality: Vec::new(),
             refitted: quality::Refitted::default(),
             staging: Vec::new(),
+            handing: Vec::new(),
             retired: Vec::new(),
             largest: [0; 2],
             marks: touched::Marks::default(),

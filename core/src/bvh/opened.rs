@@ -13,16 +13,12 @@ use core::ops::Range;
 
 use super::apply::NO_INSTANCE;
 use super::blas::{Blas, put};
-use super::known_flux::KnownFlux;
-use super::powers::Powers;
 use super::records::InstanceState;
 use super::{Bvh, Trails};
 use crate::instance::Instance;
-use crate::levels::Levels;
 use crate::node::{Node, kind};
 use crate::refit::{self, BlasRoot};
 use crate::summary::Summary;
-use crate::transform::Extent;
 use crate::tree::INVALID;
 
 /// An instance that costs more than this part of the whole is opened. There are at most as many as its inverse.
@@ -255,19 +251,15 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// Gives an instance that hangs nowhere parts; false where its mesh has none.
-    fn open(&mut self, index: u32) -> bool {
-        let mesh = self.placed[index as usize].mesh;
-        let blas = self.meshes[mesh as usize].blas;
+    pub(super) fn open(&mut self, index: u32) -> bool {
+        self.hand_over(index);
+        let blas = self.blas_index(&self.placed[index as usize]);
         let root = self.roots[blas as usize].node;
         let count = parts_below::<N, W>(&self.nodes[root as usize]);
         if count == 0 || self.stays_closed(blas) {
             return false;
         }
-        if self.blases[blas as usize].opened == 0 {
-            self.blases[blas as usize].parts = self.blas_ranges.take(count);
-            self.place_parts(blas);
-        }
-        self.blases[blas as usize].opened += 1;
+        self.take_parts(blas, count);
         let parts = self.placed_ranges.take(count);
         for part in parts.clone() {
             self.put_part(part, index);
@@ -316,8 +308,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Takes the parts of an instance away, which hang nowhere.
     pub(super) fn close(&mut self, index: u32) {
         let parts = core::mem::take(&mut self.placed[index as usize].parts);
-        let mesh = self.placed[index as usize].mesh;
-        let blas = self.meshes[mesh as usize].blas;
+        let blas = self.instances[index as usize].blas;
         for part in parts.clone() {
             let old = self.instances[part as usize];
             self.instances[part as usize] = Instance {
@@ -332,6 +323,22 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         self.placed_ranges.give(parts);
         self.instances[index as usize].part = INVALID;
+        self.give_parts(blas);
+        self.place(index);
+    }
+
+    /// One more instance is opened into the parts of a bottom level, `count` of them.
+    pub(super) fn take_parts(&mut self, blas: u32, count: u32) {
+        if self.blases[blas as usize].opened == 0 {
+            self.blases[blas as usize].parts = self.blas_ranges.take(count);
+            self.place_parts(blas);
+            self.changes.new.roots.insert(blas);
+        }
+        self.blases[blas as usize].opened += 1;
+    }
+
+    /// One less is.
+    pub(super) fn give_parts(&mut self, blas: u32) {
         let own = &mut self.blases[blas as usize];
         own.opened -= 1;
         if own.opened == 0 {
@@ -341,7 +348,6 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             }
             self.blas_ranges.give(roots);
         }
-        self.place(index);
     }
 
     /// After a bottom level got other nodes: its instances' parts follow, in the same places where there are as many.
@@ -357,6 +363,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let opened: Vec<u32> = opened.collect();
         if as_many {
             self.place_parts(blas);
+            self.changes.new.roots.insert(blas);
             opened.into_iter().for_each(|index| self.write_parts(index));
             return;
         }
@@ -381,33 +388,13 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             return;
         }
         let root = self.nodes[self.roots[blas as usize].node as usize];
-        let part = Blas {
-            nodes: 0..0,
-            triangles: 0..0,
-            mesh,
-            levels: Levels::default(),
-            is_unlisted: false,
-            misfits: Vec::new(),
-            depth: 0,
-            extent: Extent::of::<N::Light>(&[]),
-            powers: Powers::default(),
-            known_flux: KnownFlux::default(),
-            created: 0,
-            changed: 0,
-            staged: None,
-            adopted: 0,
-            parts: 0..0,
-            opened: 0,
-            unsettled: 0,
-            is_staged_only: false,
-        };
+        let part = Blas::none::<N::Light>(mesh);
         let nothing = BlasRoot::new(INVALID, &N::Summary::EMPTY);
         for (index, slot) in parts.zip(0..) {
             put(&mut self.blases, index, part.clone(), &part);
             put(&mut self.roots, index, nothing, &nothing);
             self.roots[index as usize] = refit::root(&self.nodes, root.link(slot));
         }
-        self.changes.new.built.insert(blas);
     }
 
     /// Brings the words of an instance's parts in line with its own.

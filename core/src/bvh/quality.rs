@@ -273,7 +273,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Whether an entry of the list is the last of a bottom level that was refitted since it was built.
     fn is_last(&self, (epoch, blas): (u64, u32)) -> bool {
         let own = &self.blases[blas as usize];
-        !own.nodes.is_empty() && own.changed == epoch && own.changed > own.created
+        !own.nodes.is_empty() && !own.is_outgoing && own.changed == epoch && own.changed > own.created
     }
 
     /// The bottom levels refitted after `since`, and since they were built, by index.

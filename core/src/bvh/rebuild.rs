@@ -220,18 +220,6 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         params.drift >= EAGER && self.is_unsettled(blas)
     }
 
-    /// Records of the top level that follow a bottom level's root.
-    #[cfg(feature = "std")]
-    pub(crate) fn leaves_of_mesh(&self, blas: u32) -> usize {
-        let own = &self.blases[blas as usize];
-        self.meshes[own.mesh as usize].users.len() + (own.opened as usize) * own.parts.len()
-    }
-
-    /// Whether more instances of a bottom level are opened than are opened anew in one frame.
-    fn is_much_opened(&self, blas: u32) -> bool {
-        self.blases[blas as usize].opened > super::stage::AT_ONCE
-    }
-
     /// Whether a bottom level gets a tree by a stage alone, whatever its size.
     #[cfg(feature = "std")]
     pub(crate) fn is_staged_only(&self, blas: u32) -> bool {
@@ -263,7 +251,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Whether a bottom level is to be built anew.
     pub(crate) fn is_worn(&self, blas: u32, params: &RebuildParams) -> bool {
         let own = self.blases.get(blas as usize);
-        own.is_some_and(|own| !own.nodes.is_empty()) && self.drift(blas) > params.drift
+        own.is_some_and(|own| !own.nodes.is_empty() && !own.is_outgoing) && self.drift(blas) > params.drift
     }
 
     /// What `params` wants built anew, and why, the top level first: it as a whole, in the mean over its lights, while a rebuilder asks
@@ -331,7 +319,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             return Err(Foreign);
         }
         for (bottom, topology) in &rebuilt.bottoms {
-            let same = |own: &Blas| own.created == bottom.created && own.triangles == bottom.range;
+            let same = |own: &Blas| {
+                own.created == bottom.created && own.triangles == bottom.range && !own.is_outgoing
+            };
             if !self.blases.get(bottom.blas as usize).is_some_and(same) {
                 continue;
             }

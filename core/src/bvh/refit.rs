@@ -203,6 +203,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         instances.extend(users);
 
         let (mut computed, mut roots) = (pending.blases, pending.built);
+        roots.extend(pending.roots);
         let mut lists: Vec<&Levels> = parts.iter().collect();
         roots.extend(touched);
         if pending.all_nodes {

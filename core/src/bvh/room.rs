@@ -18,6 +18,8 @@ const FRESH: usize = 3;
 const MESHES: usize = 2;
 /// And a part of all nodes, for what is built in the place of small trees and of parts of the top level and fits into no hole.
 const PART: usize = 4;
+/// Bottom levels that find room: new trees of meshes, and parts of opened ones.
+const LEAST: usize = 256;
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// A bottom level of so many triangles and nodes is there.
@@ -48,7 +50,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         reserve(&mut self.parents, nodes);
         reserve(&mut self.quality, nodes);
         self.marks.reserve(nodes);
-        self.refitted.reserve(self.blases.len());
+        let bottoms = self.blases.len() + self.blases.len() / PART + LEAST;
+        reserve(&mut self.blases, bottoms);
+        reserve(&mut self.roots, bottoms);
+        self.refitted.reserve(bottoms);
     }
 
     /// Places for `count` triangles and their trails, once as many are there; makes more of them by at most `bytes`.

@@ -7,6 +7,7 @@
 
 mod dirty;
 mod fit;
+mod hand_over;
 mod job;
 mod part;
 mod place;
@@ -19,14 +20,17 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use self::dirty::Dirty;
+#[cfg(feature = "std")]
+pub(crate) use self::hand_over::HANDED;
+pub(super) use self::hand_over::Outgoing;
 pub(crate) use self::job::{MeshJob, MeshTree};
 pub(super) use self::part::MISFITS;
 use self::part::Part;
-pub(super) use self::reopen::AT_ONCE;
 use super::{Bvh, Trails};
 use crate::levels::Levels;
+use crate::light::Light;
 use crate::node::Node;
-use crate::refit;
+use crate::tree::INVALID;
 
 /// Which stage, of which light BVH.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,6 +48,8 @@ pub(super) struct Staged {
     tree: u32,
     /// Who builds it.
     builder: Weak<()>,
+    /// The bottom level that it will be; none of a part.
+    index: u32,
     /// Where the triangles will stand, empty until there is room; the first `copied` of them do.
     triangles: Range<u32>,
     copied: u32,
@@ -78,6 +84,7 @@ impl Staged {
             number,
             tree,
             builder: Arc::downgrade(&builder.0),
+            index: INVALID,
             triangles: 0..0,
             copied: 0,
             nodes: 0..0,
@@ -117,13 +124,15 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Begins a stage for bottom level `blas`; `None` where there is no such, and in a single level, whose lights are its triangles.
     pub(crate) fn begin_stage(&mut self, blas: u32, builder: &Builder) -> Option<(StageId, MeshJob<N>)> {
-        if self.single || self.blases.get(blas as usize)?.nodes.is_empty() {
+        let own = self.blases.get(blas as usize)?;
+        if self.single || own.nodes.is_empty() || own.is_outgoing || own.outgoing.is_some() {
             return None;
         }
         self.drop_stage(blas);
         self.epoch += 1;
         let count = self.blas_len(blas);
         let staged = Staged {
+            index: self.blas_ranges.take(1).start,
             unsettled: self.blases[blas as usize].unsettled,
             ..Staged::new(self.id.0, self.epoch, builder, count)
         };
@@ -164,46 +173,22 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         id.tree == self.id.0 && own.is_some_and(|own| own.adopted == id.number)
     }
 
-    /// The tree of a stage takes the place of the bottom level's.
-    fn adopt_stage(&mut self, blas: u32) {
-        let own = &mut self.blases[blas as usize];
-        let Some(staged) = own.staged.take() else {
-            return;
+    /// The tree of a stage takes the place of the bottom level's; which one it is then.
+    fn adopt_stage(&mut self, blas: u32) -> u32 {
+        let Some(staged) = self.blases[blas as usize].staged.take() else {
+            return blas;
         };
         self.staging.retain(|&other| other != blas);
         self.epoch += 1;
-        own.created = self.epoch;
-        own.adopted = staged.number;
-        own.unsettled -= staged.unsettled.min(own.unsettled);
-        own.is_staged_only = false;
-        // They were nodes of the old tree.
-        own.misfits.clear();
-        own.depth = staged.depth;
-        self.retired
-            .push(core::mem::replace(&mut own.levels, staged.levels));
-        let nodes = core::mem::replace(&mut own.nodes, staged.nodes);
-        let triangles = core::mem::replace(&mut own.triangles, staged.triangles);
-        let (root, first) = (own.nodes.start, own.triangles.start);
-        self.node_ranges.give(nodes);
-        self.triangle_ranges.give(triangles);
-        self.note_size(0, self.blases[blas as usize].nodes.len());
-        self.roots[blas as usize] = refit::root(&self.nodes, root);
-        let mesh = self.blases[blas as usize].mesh;
-        for k in 0..self.meshes[mesh as usize].users.len() {
-            let user = self.meshes[mesh as usize].users[k];
-            let instance = &mut self.instances[user as usize];
-            instance.root = root;
-            instance.first_triangle = first;
-            self.changes.new.mark_instance(user);
-        }
-        self.changes.forget_lists();
-        self.changes.new.built.insert(blas);
-        self.update_parts(blas);
+        let new = staged.index;
+        self.put_in_place(blas, *staged);
+        self.note_size(0, self.blases[new as usize].nodes.len());
         self.settle_some(super::rebuild::ADOPTED);
         // Built for triangles that have changed since, it may be due again, and files tell how it was built.
         self.epoch += 1;
-        self.blases[blas as usize].changed = self.epoch;
-        self.note_refitted(blas, self.epoch);
+        self.blases[new as usize].changed = self.epoch;
+        self.note_refitted(new, self.epoch);
+        new
     }
 
     /// Gives up what was under way for a bottom level.
@@ -211,6 +196,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if let Some(staged) = self.blases[blas as usize].staged.take() {
             self.node_ranges.give(staged.nodes);
             self.triangle_ranges.give(staged.triangles);
+            if staged.index != INVALID {
+                self.blas_ranges.give(staged.index..staged.index + 1);
+            }
             self.staging.retain(|&other| other != blas);
         }
     }
@@ -271,9 +259,15 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             (first..end).for_each(|triangle| staged.changed.mark(triangle));
             staged.fresh += (end - first) as usize;
         }
-        let start = own.triangles.start;
-        let from = (start + first) as usize..(start + end) as usize;
-        self.triangles.copy_within(from, to.start as usize);
+        let (start, index) = (own.triangles.start, staged.index);
+        self.copy_triangles(start + first, to, index);
+    }
+
+    /// Copies triangles that begin at `from` to where those of bottom level `index` will stand.
+    fn copy_triangles(&mut self, from: u32, to: Range<u32>, index: u32) {
+        for (from, to) in (from..).zip(to.clone()) {
+            self.triangles[to as usize] = self.triangles[from as usize].of_mesh(index);
+        }
         self.changes.new.written_triangles.push(to);
     }
 }

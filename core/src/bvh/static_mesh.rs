@@ -49,6 +49,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// nothing.
     #[must_use]
     pub fn into_static_meshes(mut self) -> StaticMeshBvh<N, I, W, T> {
+        for blas in self.handing.clone() {
+            self.hand_over_all(blas);
+        }
         self.refit();
         // Later than any rebuild that was taken, so that none of a bottom level is installed or asked for.
         self.epoch += 1;

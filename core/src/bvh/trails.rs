@@ -120,6 +120,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             quality: self.quality,
             refitted: self.refitted,
             staging: self.staging,
+            handing: self.handing,
             retired: self.retired,
             largest: self.largest,
             marks: self.marks,

@@ -34,7 +34,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let own = self.blases.get(blas as usize);
         own.is_some_and(|own| {
             let has_inner = own.nodes.len() > 1;
-            has_inner && u64::from(own.unsettled) * SHARE >= own.triangles.len() as u64
+            has_inner && !own.is_outgoing && u64::from(own.unsettled) * SHARE >= own.triangles.len() as u64
         })
     }
 

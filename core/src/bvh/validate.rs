@@ -60,7 +60,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             .enumerate()
             .filter(|(_, b)| !b.nodes.is_empty())
         {
-            blases += 1;
+            blases += u32::from(!blas.is_outgoing);
             let root = self.roots[index].node;
             equal(root, INVALID, What::Root, blas.nodes.start, root)?;
             let found = self.walk(root, kind::LIGHT, &mut seen)?;
@@ -90,7 +90,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 &refit::root(&again, root),
                 &self.roots[index],
             )?;
-            self.check_parts(blas, &again)?;
+            self.check_parts(index as u32, &again)?;
             listed(&self.levels_of(index as u32), &found)?;
             used_triangles.push(blas.triangles.clone());
         }
@@ -200,8 +200,15 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// What is known of the parts of a bottom level, and how many of its instances have them.
-    fn check_parts(&self, blas: &super::Blas, again: &[N]) -> Result<(), Violation> {
+    fn check_parts(&self, index: u32, again: &[N]) -> Result<(), Violation> {
+        let blas = &self.blases[index as usize];
         let users = self.meshes[blas.mesh as usize].users.iter();
+        let users = users.filter(|&&user| self.instances[user as usize].blas == index);
+        if let Some(outgoing) = blas.outgoing {
+            let followers = self.meshes[blas.mesh as usize].users.len() - users.clone().count();
+            equal(INVALID, index, What::Blas, followers as u32, outgoing.left)?;
+            equal(INVALID, index, What::Blas, 1, outgoing.left.min(1))?;
+        }
         let opened = users
             .filter(|&&user| !self.placed[user as usize].parts.is_empty())
             .count();
@@ -225,7 +232,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     fn check_instance(&self, index: u32) -> Result<(), Violation> {
         let placed = &self.placed[index as usize];
         let found = &self.instances[index as usize];
-        let blas = self.blas_index(placed);
+        let blas = match self.blas_of(placed).outgoing {
+            Some(outgoing) if outgoing.blas == found.blas => outgoing.blas,
+            _ => self.blas_index(placed),
+        };
         let own = &self.blases[blas as usize];
         equal(INVALID, index, What::Blas, blas, found.blas)?;
         equal(

@@ -6,7 +6,7 @@ use super::clock::Clock;
 use super::queue::Queue;
 use super::worker::{Built, Job, Product, Waste, Worker, build};
 use super::{FrameStart, RebuildError, RebuilderParams, Swap};
-use crate::bvh::{Builder, Bvh, MeshJob, MeshTree, StageId, Trails};
+use crate::bvh::{Builder, Bvh, HANDED, MeshJob, MeshTree, StageId, Trails};
 use crate::levels::Levels;
 use crate::node::{Holds, Node};
 
@@ -95,11 +95,18 @@ fn is_wanted<N: Node<W>, I, const W: usize, T: Trails>(
     scene.is_worn(blas, &params.rebuild) || scene.is_to_rest(blas, &params.rebuild)
 }
 
+/// Whether a bottom level gets its tree in one frame, built beside the others of the frame: a small one of few instances, and a single level.
+fn is_at_once<N: Node<W>, I, const W: usize, T: Trails>(
+    scene: &Bvh<N, I, W, T>,
+    blas: u32,
+    params: &RebuilderParams,
+) -> bool {
+    let is_small = scene.blas_len(blas) <= most_at_once(params) && !scene.is_staged_only(blas);
+    (is_small && scene.leaves_of_mesh(blas) <= HANDED) || scene.is_single_level()
+}
+
 /// Most meshes that a frame searches for a part to be built anew.
 const SEARCHED: usize = 2;
-
-/// Most records of the top level that follow a mesh of which parts are built: each part has all of them refitted.
-const MANY: usize = 256;
 
 /// Most waiting meshes that a frame looks at.
 const LOOKED_AT: usize = 256;
@@ -174,7 +181,7 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
         let lost = lost.filter(|&blas| is_wanted(scene, blas, params));
         let mut worn: Vec<u32> = lost.chain(worn).collect();
         for blas in strained {
-            if scene.blas_len(blas) > most_at_once(params) && scene.leaves_of_mesh(blas) <= MANY {
+            if scene.blas_len(blas) > most_at_once(params) && scene.leaves_of_mesh(blas) <= HANDED {
                 self.strained.push(blas);
             }
         }
@@ -188,8 +195,7 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
             }
         }
         for blas in worn {
-            let is_small = scene.blas_len(blas) <= most_at_once(params) && !scene.is_staged_only(blas);
-            if is_small || scene.is_single_level() {
+            if is_at_once(scene, blas, params) {
                 self.small.push(blas);
             } else if !self.is_under_way(blas, false) {
                 self.waiting.push(blas);
@@ -262,6 +268,11 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
                 self.waiting.push(blas);
                 break;
             }
+            if scene.is_handed_over(blas) {
+                // Its instances follow the last one first.
+                self.waiting.push(blas);
+                continue;
+            }
             // It may have gone, or been built by another.
             let is_wanted = is_wanted(scene, blas, params);
             // What is not worn is asked for again where it gets worse.
@@ -294,8 +305,10 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
         }
         flights.retain(|flight| !matches!(flight.at, At::Over));
         self.under_way = flights;
+        scene.hand_over_some(HANDED);
         start.copied = (all - bytes) as u32;
-        start.under_way = (self.under_way.len() + self.waiting.len() + self.small.len()) as u32;
+        let waiting = self.waiting.len() + self.small.len();
+        start.under_way = (self.under_way.len() + waiting + scene.handing_over()) as u32;
         result
     }
 
@@ -408,10 +421,12 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
             match (flight.is_part, is_adopted) {
                 (true, true) => {}
                 (true, false) => self.strained.push(flight.blas),
-                (false, true) if scene.is_worn(flight.blas, &params.rebuild) => {
-                    self.waiting.push(flight.blas)
+                (false, true) => {
+                    let new = scene.follower_of(flight.blas);
+                    if let Some(blas) = new.filter(|&blas| scene.is_worn(blas, &params.rebuild)) {
+                        self.waiting.push(blas);
+                    }
                 }
-                (false, true) => {}
                 (false, false) => self.lost.push(flight.blas),
             }
         }

@@ -217,8 +217,8 @@ fn brought_on<N: LightNode<W>, I, const W: usize>(
     })
 }
 
-/// Returns how many trees came in piece by piece, and how many parts of trees.
-fn random_frames<N: LightNode<W>, I: Clone, const W: usize>(seed: u32, refits: u32) -> [usize; 2] {
+/// Returns how many trees came in piece by piece, how many parts of trees, and how many meshes were handed over at a time.
+fn random_frames<N: LightNode<W>, I: Clone, const W: usize>(seed: u32, refits: u32) -> [usize; 3] {
     let random = &mut Random(seed << 16);
     let mut bvh = Bvh::<N, I, W>::default();
     let mut mirror = Mirror::<N, W>::empty();
@@ -228,7 +228,19 @@ fn random_frames<N: LightNode<W>, I: Clone, const W: usize>(seed: u32, refits: u
     let mut parts = 0;
     bvh.plan();
     mirror.follow(&bvh, &plan_of_all(&bvh));
+    if seed % 4 == 0 {
+        // Too many instances for a new tree to be handed over at once.
+        let mesh = bvh.add_mesh(triangles(random, 30, false)).expect("a mesh");
+        let add = |k: u32| Edit::AddInstance {
+            mesh,
+            transform: Transform::at([k as f32, (k % 17) as f32, (k % 5) as f32]),
+            radiance: 1.0,
+        };
+        bvh.apply((0..700).map(add).collect()).expect("instances");
+    }
+    let mut handed = 0;
     for _ in 0..400 {
+        handed = handed.max(bvh.handing_over());
         for stage in core::mem::take(&mut stages) {
             stages.extend(brought_on(&mut bvh, stage, random, &mut parts));
         }
@@ -244,6 +256,7 @@ fn random_frames<N: LightNode<W>, I: Clone, const W: usize>(seed: u32, refits: u
             let begun = bvh.begin_part(random.below(12), &builder, &worn, 1 << 20);
             stages.extend(begun.map(|(id, job)| Stage::CopiedPart(id, job)));
         }
+        bvh.hand_over_some(random.below(40) as usize);
         match random.below(10) {
             0 => built.push(bvh.rebuild(&RebuildParams {
                 top: if random.below(3) > 0 { 1.0 } else { f64::INFINITY },
@@ -265,7 +278,7 @@ fn random_frames<N: LightNode<W>, I: Clone, const W: usize>(seed: u32, refits: u
     bvh.refit();
     bvh.validate().expect("valid");
     let adopted = bvh.blases.iter().filter(|blas| blas.adopted > 0).count();
-    [adopted, parts]
+    [adopted, parts, handed]
 }
 
 /// As a mirror begins: by all that there is.
@@ -282,13 +295,16 @@ fn plan_of_all<N: LightNode<W>, I, const W: usize>(bvh: &Bvh<N, I, W>) -> RefitP
 /// A device that alone refits, one beside the CPU, and one that is asked now and then.
 #[test]
 fn a_mirror_follows_whatever_comes_between_plans() {
-    let mut adopted = [0; 2];
-    let mut count = |more: [usize; 2]| (0..2).for_each(|k| adopted[k] += more[k]);
+    let mut adopted = [0; 3];
+    let mut count = |more: [usize; 3]| (0..3).for_each(|k| adopted[k] += more[k]);
     for seed in 0..12 {
         for refits in [0, 1, 4] {
             count(random_frames::<MomentNode<8>, Moments, 8>(3 * seed, refits));
             count(random_frames::<CompactNode<4>, Eq4, 4>(3 * seed + 1, refits));
         }
     }
-    assert!(adopted[0] > 100 && adopted[1] > 40, "{adopted:?}");
+    assert!(
+        adopted[0] > 100 && adopted[1] > 40 && adopted[2] > 6,
+        "{adopted:?}"
+    );
 }

@@ -9,13 +9,18 @@ use crate::node::Node;
 use crate::trail::max_levels;
 
 /// Version of the words of [`Bvh::to_words`](crate::Bvh::to_words).
-pub const FORMAT: u32 = 6;
+pub const FORMAT: u32 = 7;
 
 /// "LBVH" as bytes in little-endian order.
 const MAGIC: u32 = u32::from_le_bytes(*b"LBVH");
 
 /// Bit of a mesh's changes: its next tree waits until instances are closed.
 pub(super) const STAGED_ONLY: u32 = 1 << 31;
+
+/// Bit of a bottom level's changes: it was its mesh's before the one that is, and instances still follow it. Their places among the mesh's have
+/// the bit [`FOLLOWS`].
+pub(super) const OUTGOING: u32 = 1 << 30;
+pub(super) const FOLLOWS: u32 = 1 << 31;
 
 /// Words of a header.
 pub(super) const HEADER_WORDS: usize = 19;

@@ -4,22 +4,25 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::error::ReadError;
-use super::header::{Header, STAGED_ONLY};
+use super::header::{FOLLOWS, Header, OUTGOING, STAGED_ONLY};
 use super::places::{read_indices, read_range, read_ranges, taken};
 use super::words::Words;
 use crate::bvh::blas::Blas;
 use crate::bvh::check::factor;
 use crate::bvh::known_flux::KnownFlux;
 use crate::bvh::powers::Powers;
-use crate::bvh::stage::MISFITS;
+use crate::bvh::stage::{MISFITS, Outgoing};
 use crate::bvh::top::{MOST_EDITS, Top};
 use crate::bvh::unsettled::MOST;
 use crate::bvh::{Bvh, EditReason, InstanceState, Mesh};
-use crate::levels::Levels;
 use crate::light::Light;
 use crate::node::{Node, kind};
 use crate::transform::{Extent, Transform};
 use crate::tree::INVALID;
+
+const BOTTOMS: ReadError = ReadError::Places {
+    what: "bottom levels",
+};
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     pub(super) fn read(words: &mut Words<'_>) -> Result<Self, ReadError> {
@@ -29,7 +32,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         bvh.forgotten = header.forgotten;
         bvh.bottom_depth = header.bottom_depth;
         bvh.read_bottoms(words, &header)?;
-        bvh.read_instances(words, &header)?;
+        let behind = bvh.read_instances(words, &header)?;
         bvh.removed_lights = read_ranges(words, header.removed, header.lights, "removed lights")?;
         words.expect(!header.forgotten || header.removed > 0, "removed lights")?;
         bvh.top = Top {
@@ -60,7 +63,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let built = bvh.read_quality(words, &refitted)?;
         bvh.read_nodes(words, &header)?;
         bvh.read_triangles(words, &header)?;
-        bvh.restore(&header)?;
+        bvh.restore(&header, &behind)?;
         bvh.restore_changes(refitted, built)?;
         bvh.note_sizes();
         bvh.reserve_room();
@@ -71,48 +74,32 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     fn read_bottoms(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
-        let mut nodes: Vec<Range<u32>> = Vec::new();
+        let mut outgoing = Vec::new();
         self.blases = Vec::with_capacity(words.need(header.blases)?);
         for _ in 0..header.blases {
             let mesh = words.one()?;
-            let mut blas = Blas {
-                nodes: 0..0,
-                triangles: 0..0,
-                mesh,
-                levels: Levels::default(),
-                is_unlisted: false,
-                misfits: Vec::new(),
-                depth: 0,
-                extent: Extent::of::<N::Light>(&[]),
-                powers: Powers::default(),
-                known_flux: KnownFlux::default(),
-                created: 0,
-                changed: 0,
-                staged: None,
-                adopted: 0,
-                parts: 0..0,
-                opened: 0,
-                unsettled: 0,
-                is_staged_only: false,
-            };
+            let mut blas = Blas::none::<N::Light>(mesh);
             if mesh != INVALID {
                 words.expect(mesh < header.meshes, "mesh of a bottom level")?;
                 blas.nodes = read_range(words, header.nodes, "nodes of a bottom level")?;
                 blas.triangles = read_range(words, header.triangles, "triangles of a bottom level")?;
-                nodes.push(blas.nodes.clone());
                 blas.parts = read_parts(words, header.blases)?;
                 let known = KnownFlux::from_word(words.one()?);
                 blas.known_flux = known.ok_or_else(|| words.wrong("flux of a mesh"))?;
                 let unsettled = words.one()?;
-                words.expect(unsettled & !STAGED_ONLY <= MOST, "changes of a mesh")?;
-                blas.unsettled = unsettled & !STAGED_ONLY;
                 blas.is_staged_only = unsettled & STAGED_ONLY != 0;
+                blas.is_outgoing = unsettled & OUTGOING != 0;
+                blas.unsettled = unsettled & !(STAGED_ONLY | OUTGOING);
+                words.expect(blas.unsettled <= MOST, "changes of a mesh")?;
                 let misfits = words.one()?;
                 words.expect(misfits as usize <= MISFITS, "number of subtrees without another")?;
                 for _ in 0..misfits {
                     let node = words.one()?;
                     words.expect(blas.nodes.contains(&node), "subtree without another")?;
                     blas.misfits.push(node);
+                }
+                if blas.is_outgoing {
+                    outgoing.push((self.blases.len() as u32, words.one()?));
                 }
             }
             self.blases.push(blas);
@@ -141,20 +128,35 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
         for (index, blas) in (0..).zip(&self.blases).filter(live) {
             let mesh = &self.meshes[blas.mesh as usize];
-            if !mesh.live || mesh.blas != index {
-                return Err(ReadError::Places {
-                    what: "bottom levels",
-                });
+            if !mesh.live || (mesh.blas == index) == blas.is_outgoing {
+                return Err(BOTTOMS);
             }
         }
+        for (index, next) in outgoing {
+            let old = &self.blases[index as usize];
+            let (mesh, count) = (old.mesh, old.triangles.len());
+            let blas = self.meshes[mesh as usize].blas;
+            let own = &mut self.blases[blas as usize];
+            if own.outgoing.is_some() || own.triangles.len() != count {
+                return Err(BOTTOMS);
+            }
+            own.outgoing = Some(Outgoing {
+                blas: index,
+                left: 0,
+                next,
+            });
+            self.handing.push(blas);
+        }
+        self.handing.sort_unstable();
         let used = (0..).zip(&self.meshes).filter(|(_, mesh)| mesh.live);
         self.mesh_ranges = taken(header.meshes, used.map(|(i, _)| i..i + 1).collect(), "meshes")?;
         Ok(())
     }
 
-    fn read_instances(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
+    /// Returns those that follow trees that go.
+    fn read_instances(&mut self, words: &mut Words<'_>, header: &Header) -> Result<Vec<u32>, ReadError> {
         self.placed = Vec::with_capacity(words.need(header.instances)?);
-        let mut hung = Vec::new();
+        let (mut hung, mut behind) = (Vec::new(), Vec::new());
         for _ in 0..header.instances {
             let mesh = words.one()?;
             let mut placed = InstanceState {
@@ -183,7 +185,16 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                     return Err(words.wrong("mesh of an instance"));
                 };
                 placed.mesh = mesh;
-                placed.user = words.one()?;
+                let user = words.one()?;
+                placed.user = user & !FOLLOWS;
+                if user & FOLLOWS != 0 {
+                    let outgoing = &mut self.blases[own.blas as usize].outgoing;
+                    let Some(outgoing) = outgoing else {
+                        return Err(words.wrong("tree that an instance follows"));
+                    };
+                    outgoing.left += 1;
+                    behind.push(self.placed.len() as u32);
+                }
                 placed.listed = words.one()?;
                 let first = words.one()?;
                 let triangles = self.blases[own.blas as usize].triangles.len() as u32;
@@ -214,7 +225,12 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let used = (0..).zip(&self.placed).filter(|(_, placed)| placed.live);
         let used = used.flat_map(|(i, placed)| [i..i + 1, placed.parts.clone()]);
         self.placed_ranges = taken(header.instances, used.collect(), "instances")?;
-        Ok(())
+        let mut handing = self.handing.iter();
+        let left = |blas: &u32| self.blases[*blas as usize].outgoing.map_or(0, |own| own.left);
+        if handing.any(|blas| left(blas) == 0) {
+            return Err(BOTTOMS);
+        }
+        Ok(behind)
     }
 
     /// What was noted of the nodes of bottom levels that were refitted since they were built.
@@ -260,7 +276,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 
     fn read_triangles(&mut self, words: &mut Words<'_>, header: &Header) -> Result<(), ReadError> {
         self.triangles = alloc::vec![N::Light::DARK; words.need(header.triangles)?];
-        for (blas, own) in (0..).zip(&self.blases) {
+        for (blas, own) in (0..).zip(&self.blases).filter(|(_, own)| !own.is_outgoing) {
             for light in &mut self.triangles[own.triangles.start as usize..own.triangles.end as usize] {
                 *light = light.of_mesh(blas);
             }
@@ -284,6 +300,16 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 triangle: index,
                 error,
             })?;
+        }
+        for &blas in &self.handing {
+            let own = &self.blases[blas as usize];
+            let Some(Outgoing { blas: old, .. }) = own.outgoing else {
+                continue;
+            };
+            let to = self.blases[old as usize].triangles.clone();
+            for (from, to) in own.triangles.clone().zip(to) {
+                self.triangles[to as usize] = self.triangles[from as usize].of_mesh(old);
+            }
         }
         for blas in &mut self.blases {
             let range = blas.triangles.start as usize..blas.triangles.end as usize;

@@ -30,15 +30,16 @@ const LISTS: ReadError = ReadError::Places {
 };
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
-    pub(super) fn restore(&mut self, header: &Header) -> Result<(), ReadError> {
+    /// The instances `behind` follow trees that go.
+    pub(super) fn restore(&mut self, header: &Header, behind: &[u32]) -> Result<(), ReadError> {
         let bottoms = self.blases.iter().map(|blas| blas.nodes.clone());
         let tops = self.top.in_use().map(|node| node..node + 1);
         let used = bottoms.chain(tops).collect();
         self.node_ranges = taken(header.nodes, used, "nodes")?;
         self.restore_lists()?;
         self.restore_lights(header)?;
-        self.restore_bottoms()?;
-        self.restore_top()?;
+        self.restore_bottoms(behind)?;
+        self.restore_top(behind)?;
         if self.single {
             self.check_single()?;
         }
@@ -123,7 +124,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         Ok(())
     }
 
-    fn restore_bottoms(&mut self) -> Result<(), ReadError> {
+    fn restore_bottoms(&mut self, behind: &[u32]) -> Result<(), ReadError> {
         self.trail_words = trail_words(W, self.bottom_depth);
         self.trails = alloc::vec![0; self.triangles.len() * self.trail_words as usize];
         self.roots = alloc::vec![BlasRoot::new(INVALID, &N::Summary::EMPTY); self.blases.len()];
@@ -167,17 +168,19 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             self.roots[index] = refit::root(&self.nodes, range.start);
             self.judge_range(range, true);
         }
-        self.restore_parts()
+        self.restore_parts(behind)
     }
 
     /// What is known of opened meshes' parts, whose places hold nothing else.
-    fn restore_parts(&mut self) -> Result<(), ReadError> {
-        for placed in self
-            .placed
-            .iter()
-            .filter(|placed| placed.live && !placed.parts.is_empty())
-        {
-            let blas = self.meshes[placed.mesh as usize].blas as usize;
+    fn restore_parts(&mut self, behind: &[u32]) -> Result<(), ReadError> {
+        let opened = (0u32..).zip(&self.placed);
+        for (index, placed) in opened.filter(|(_, placed)| placed.live && !placed.parts.is_empty()) {
+            let blas = self.blas_index(placed);
+            // They are in order.
+            let blas = match self.blases[blas as usize].outgoing {
+                Some(outgoing) if behind.binary_search(&index).is_ok() => outgoing.blas,
+                _ => blas,
+            } as usize;
             self.blases[blas].opened += 1;
             if placed.parts.len() != self.blases[blas].parts.len() {
                 return Err(PARTS);
@@ -224,7 +227,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         Ok(())
     }
 
-    fn restore_top(&mut self) -> Result<(), ReadError> {
+    fn restore_top(&mut self, behind: &[u32]) -> Result<(), ReadError> {
         self.instances = alloc::vec![NO_INSTANCE; self.placed.len()];
         for (instance, &listed) in self.instances.iter_mut().zip(&self.live) {
             instance.listed = listed;
@@ -237,7 +240,10 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             if !parts.is_empty() {
                 self.instances[index as usize].part = parts.start;
             }
-            self.place(index);
+            self.put_words(index);
+        }
+        for &index in behind {
+            self.put_behind(index);
         }
         let mut seen = alloc::vec![false; self.nodes.len()];
         let found = self

@@ -4,7 +4,7 @@ use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::header::{Header, LENGTH, STAGED_ONLY};
+use super::header::{FOLLOWS, Header, LENGTH, OUTGOING, STAGED_ONLY};
 use crate::bvh::{Bvh, InstanceState};
 use crate::light::Light;
 use crate::node::{Node, kind};
@@ -19,6 +19,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             refitted.extend(self.parts(pending).into_keys());
         }
         refitted.extend(self.refitted_since(0));
+        refitted.retain(|&blas| !self.blases[blas as usize].is_outgoing);
         let header = Header {
             params: self.params,
             single: self.single,
@@ -74,9 +75,15 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 blas.triangles.end,
             ]);
             write_parts(words, &blas.parts);
-            let unsettled = blas.unsettled | if blas.is_staged_only { STAGED_ONLY } else { 0 };
+            let staged_only = if blas.is_staged_only { STAGED_ONLY } else { 0 };
+            let outgoing = if blas.is_outgoing { OUTGOING } else { 0 };
+            let unsettled = blas.unsettled | staged_only | outgoing;
             words.extend([blas.known_flux.word(), unsettled, blas.misfits.len() as u32]);
             words.extend(&blas.misfits);
+            if blas.is_outgoing {
+                let own = &self.blases[self.meshes[blas.mesh as usize].blas as usize];
+                words.push(own.outgoing.map_or(0, |outgoing| outgoing.next));
+            }
         }
         words.extend(
             self.meshes
@@ -86,7 +93,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     }
 
     fn write_instances(&self, words: &mut Vec<u32>) {
-        for placed in &self.placed {
+        for (placed, instance) in self.placed.iter().zip(&self.instances) {
             if !placed.live {
                 words.push(INVALID);
                 continue;
@@ -94,6 +101,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             let InstanceState {
                 mesh, user, listed, ..
             } = *placed;
+            let is_behind = instance.blas != self.meshes[mesh as usize].blas;
+            let user = user | if is_behind { FOLLOWS } else { 0 };
             words.extend([mesh, user, listed, placed.lights.start, placed.radiance.to_bits()]);
             words.extend(placed.hung_words());
             let transform = &placed.transform;
@@ -120,10 +129,10 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
     }
 
-    /// The triangles in use, and a word for each place that is not.
+    /// The triangles in use, and a word for each place that is not, or that has those of a tree that goes: they are the mesh's.
     fn write_triangles_to(&self, words: &mut Vec<u32>) {
         let mut used = alloc::vec![false; self.triangles.len()];
-        for blas in &self.blases {
+        for blas in self.blases.iter().filter(|blas| !blas.is_outgoing) {
             used[blas.triangles.start as usize..blas.triangles.end as usize].fill(true);
         }
         for (triangle, &used) in self.triangles.iter().zip(&used) {

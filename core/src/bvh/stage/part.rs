@@ -84,7 +84,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     ) -> Option<(StageId, MeshJob<N>)> {
         let own = self.blases.get(blas as usize)?;
         let is_hopeless = own.misfits.len() >= MISFITS;
-        if own.nodes.is_empty() || own.staged.is_some() || !T::KEPT || is_hopeless {
+        let is_busy = own.staged.is_some() || own.is_outgoing || own.outgoing.is_some();
+        if own.nodes.is_empty() || is_busy || !T::KEPT || is_hopeless {
             return None;
         }
         let step = self.worn_part(blas, params.drift, (bytes / PLACED) as u32)?;

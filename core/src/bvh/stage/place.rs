@@ -47,9 +47,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             *bytes -= count as usize * size;
             let start = (self.blases[id.blas as usize].triangles.start + from) as usize;
             let own = start..start + count as usize;
-            job.copy(&self.triangles[own.clone()]);
-            self.triangles.copy_within(own, to as usize);
-            self.changes.new.written_triangles.push(to..to + count);
+            job.copy(&self.triangles[own]);
+            let index = self.staged(id)?.index;
+            self.copy_triangles(start as u32, to..to + count, index);
         }
         Some(is_done)
     }

@@ -2,21 +2,32 @@
 //!
 //! They are closed before it takes the old one's place, a few in each frame: all at once took 35 us each.
 
+use super::hand_over::HANDED;
 use crate::bvh::opened::parts_below;
 use crate::bvh::{Bvh, Trails};
 use crate::node::Node;
 
-/// Instances that are opened anew as a tree is put in place.
-pub(in crate::bvh) const AT_ONCE: u32 = 2;
+/// Instances that are opened anew as a tree is put in place that is handed over at once.
+const AT_ONCE: u32 = 2;
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Whether the tree of a stage may take the place of the bottom level's: few of its instances are opened, or into as many parts.
     pub(super) fn fits_parts(&self, blas: u32) -> bool {
         let own = &self.blases[blas as usize];
-        let Some(staged) = own.staged.as_ref().filter(|_| own.opened > AT_ONCE) else {
+        let Some(staged) = own.staged.as_ref().filter(|_| self.is_much_opened(blas)) else {
             return true;
         };
         self.has_as_many_parts(blas, &self.nodes[staged.nodes.start as usize])
+    }
+
+    /// Whether more instances of a bottom level are opened than are opened anew in one frame.
+    pub(in crate::bvh) fn is_much_opened(&self, blas: u32) -> bool {
+        let most = if self.leaves_of_mesh(blas) > HANDED {
+            0
+        } else {
+            AT_ONCE
+        };
+        self.blases[blas as usize].opened > most
     }
 
     /// Whether a tree with this root is opened into as many parts as the bottom level is.
@@ -53,11 +64,11 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     #[cfg(feature = "std")]
     fn close_one_for(&mut self, blas: u32) -> bool {
         let own = &self.blases[blas as usize];
-        let (mesh, opened) = (own.mesh as usize, own.opened);
+        let mesh = own.mesh as usize;
         let Some(at) = own.staged.as_ref().and_then(|staged| staged.closes) else {
             return false;
         };
-        if opened <= AT_ONCE {
+        if !self.is_much_opened(blas) {
             return false;
         }
         let users = &self.meshes[mesh].users;

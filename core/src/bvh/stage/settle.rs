@@ -131,8 +131,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 continue;
             }
             if self.fits_parts(blas) {
-                self.adopt_stage(blas);
-                self.changes.new.mark_blas(blas);
+                let new = self.adopt_stage(blas);
+                self.changes.new.mark_blas(new);
             } else {
                 self.await_closing(blas);
             }

@@ -59,9 +59,9 @@ fn trees(
 ) -> u32 {
     let mut trees = 0;
     for frame in 0..frames {
-        let before = bvh.blases[0].created;
+        let before = bvh.of_mesh(0).created;
         rebuilder.begin_frame(bvh).expect("no panic");
-        trees += u32::from(bvh.blases[0].created != before);
+        trees += u32::from(bvh.of_mesh(0).created != before);
         edit(bvh, frame);
         bvh.refit();
         rebuilder.end_frame(bvh);
@@ -117,7 +117,7 @@ fn what_changes_meanwhile_counts_for_the_next_tree() {
     bvh.refit();
     // Under way from the 17th frame on.
     assert_eq!(trees(&mut bvh, own, 19, |_, _| {}), 0);
-    assert!(bvh.blases[0].staged.is_some());
+    assert!(bvh.of_mesh(0).staged.is_some());
     let some: Vec<_> = (0..1000).map(|_| lamp(random, 1.0)).collect();
     bvh.set_triangle_range(mesh, 2000, some).expect("in the mesh");
     bvh.refit();
@@ -125,7 +125,7 @@ fn what_changes_meanwhile_counts_for_the_next_tree() {
     while first == 0 {
         first = trees(&mut bvh, own, 1, |_, _| {});
     }
-    assert_eq!(bvh.blases[0].unsettled, 1000);
+    assert_eq!(bvh.of_mesh(0).unsettled, 1000);
     assert_eq!(trees(&mut bvh, own, 400, |_, _| {}), 1);
 }
 
@@ -136,12 +136,12 @@ fn files_tell_what_is_still_to_be_tried() {
     let some: Vec<_> = (0..500).map(|_| lamp(random, 1.0)).collect();
     bvh.set_triangle_range(mesh, 7, some).expect("in the mesh");
     bvh.refit();
-    let nodes = bvh.blases[0].nodes.clone();
+    let nodes = bvh.of_mesh(0).nodes.clone();
     bvh.blases[0].misfits = [nodes.start + 9, nodes.end - 1].to_vec();
     let words = bvh.to_words();
     let mut read = LightBvh::from_words(&words).expect("sound words");
-    assert_eq!(read.blases[0].misfits, bvh.blases[0].misfits);
-    assert_eq!(read.blases[0].unsettled, 500);
+    assert_eq!(read.of_mesh(0).misfits, bvh.of_mesh(0).misfits);
+    assert_eq!(read.of_mesh(0).unsettled, 500);
     assert_eq!(read.to_words(), words);
     let (own, other) = (&mut rebuilder(), &mut rebuilder());
     for frame in 0..120 {
@@ -152,9 +152,9 @@ fn files_tell_what_is_still_to_be_tried() {
     assert_eq!(read.to_words(), bvh.to_words());
 
     // A new tree has other nodes, and nothing is known of their parts.
-    assert!(bvh.blases[0].misfits.is_empty() && bvh.blases[0].created > 1);
+    assert!(bvh.of_mesh(0).misfits.is_empty() && bvh.of_mesh(0).created > 1);
     assert!(
-        !bvh.blases[0].nodes.contains(&(nodes.start + 9)),
+        !bvh.of_mesh(0).nodes.contains(&(nodes.start + 9)),
         "it stands elsewhere"
     );
 

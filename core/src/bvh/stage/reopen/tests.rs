@@ -24,7 +24,7 @@ fn scene(count: u32) -> (LightBvh, MeshId, Vec<EmissiveTriangle>) {
     let add = add.collect();
     bvh.apply(add).expect("instances");
     bvh.refit();
-    assert_eq!(bvh.blases[0].opened, count, "all are opened");
+    assert_eq!(bvh.of_mesh(0).opened, count, "all are opened");
     let mut others = lamps(2);
     for (k, light) in (0..).zip(&mut others[..3]) {
         let (x, y, z) = (300.0 * k as f32, 50.0, 300.0);
@@ -51,18 +51,18 @@ fn instances_are_closed_a_few_in_each_frame() {
         bvh.set_triangles(mesh, others.clone()).expect("as many");
         bvh.refit();
         own.end_frame(&bvh);
-        let created = bvh.blases[0].created;
+        let created = bvh.of_mesh(0).created;
         let (mut before, mut frames) = (40, 0);
-        while bvh.blases[0].created == created {
+        while bvh.of_mesh(0).created == created {
             own.begin_frame(&mut bvh).expect("no panic");
             if sways {
                 bvh.set_triangles(mesh, others.clone()).expect("as many");
             }
-            let is_in = bvh.blases[0].created != created;
+            let is_in = bvh.of_mesh(0).created != created;
             bvh.refit();
             own.end_frame(&bvh);
-            let opened = bvh.blases[0].opened;
-            let is_in = is_in || bvh.blases[0].created != created;
+            let opened = bvh.of_mesh(0).opened;
+            let is_in = is_in || bvh.of_mesh(0).created != created;
             // And those that are opened anew as the tree comes in.
             let most = if is_in { 2 * AT_ONCE } else { AT_ONCE };
             assert!(opened + most >= before, "{opened} of {before}");
@@ -92,7 +92,7 @@ fn small_meshes_wait_for_their_instances() {
         let mut bvh = LightBvh::default();
         let mesh = bvh.add_mesh(lamps(1)[..900].to_vec()).expect("a mesh");
         let random = &mut Random(4);
-        let add = (0..40).map(|_| Edit::AddInstance {
+        let add = (0..24).map(|_| Edit::AddInstance {
             mesh,
             transform: Transform::at((random.vector() * 10.0).to_array()),
             radiance: 1.0,
@@ -100,7 +100,7 @@ fn small_meshes_wait_for_their_instances() {
         let add = add.collect();
         bvh.apply(add).expect("instances");
         bvh.refit();
-        assert_eq!(bvh.blases[0].opened, 40);
+        assert_eq!(bvh.of_mesh(0).opened, 24);
         let mut others = lamps(2)[..900].to_vec();
         for (k, light) in (0..).zip(&mut others[..far]) {
             let (x, y, z) = (300.0 * k as f32, 50.0, 300.0);
@@ -118,16 +118,16 @@ fn small_meshes_wait_for_their_instances() {
             ..RebuilderParams::default()
         });
         own.end_frame(&bvh);
-        let created = bvh.blases[0].created;
-        let (mut before, mut at_once) = (40, None);
+        let created = bvh.of_mesh(0).created;
+        let (mut before, mut at_once) = (24, None);
         for frame in 0..200 {
             own.begin_frame(&mut bvh).expect("no panic");
             bvh.refit();
             own.end_frame(&bvh);
-            let opened = bvh.blases[0].opened;
+            let opened = bvh.of_mesh(0).opened;
             assert!(opened + 2 * AT_ONCE >= before, "{opened} of {before}");
             before = opened;
-            if bvh.blases[0].created != created {
+            if bvh.of_mesh(0).created != created {
                 at_once.get_or_insert(frame < 10);
             }
         }

@@ -5,6 +5,7 @@
 
 mod edits;
 mod frames;
+mod handed;
 mod meshes;
 mod quality;
 mod rows;
@@ -95,6 +96,10 @@ pub(in crate::cli::bench) fn report(largest: u32, is_quick: bool) -> Report {
         let mut scene = Scene::of_instances(size);
         rows.extend(edits::rows(&mut scene, patience));
         rows.extend(frames::rows(&mut scene, patience));
+        drop(scene);
+        news!("a mesh of {size} instances");
+        let mut scene = Scene::of_users(size);
+        rows.extend(handed::rows(&mut scene, patience));
         drop(scene);
         news!("a mesh of {size} triangles");
         let mut scene = Scene::of_mesh(size);

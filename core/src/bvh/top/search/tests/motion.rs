@@ -58,6 +58,6 @@ fn another_tree_of_a_mesh_is_no_change() {
     let epoch = scene.epoch;
     scene.install(built).expect("its own");
     scene.refit();
-    assert!(scene.blases[0].created > epoch, "it came in");
+    assert!(scene.of_mesh(0).created > epoch, "it came in");
     assert_eq!(scene.top.changes[root], 0);
 }

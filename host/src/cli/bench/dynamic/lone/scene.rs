@@ -63,6 +63,24 @@ impl Scene {
         Self::new(BESIDE, side, triangles, side)
     }
 
+    /// So many instances of one mesh among some lamps.
+    pub fn of_users(count: u32) -> Self {
+        let side = (count as f32 * ROOM).cbrt();
+        let mut scene = Self::new(BESIDE, side, LONE, 1.0);
+        let add = (1..count).map(|_| Edit::AddInstance {
+            mesh: scene.lone,
+            transform: scene.anywhere(),
+            radiance: 1.0,
+        });
+        let add: Vec<Edit> = add.collect();
+        scene
+            .instances
+            .extend(scene.bvh.apply(add).expect(WITHIN).instances);
+        scene.bvh.refit();
+        scene.mirror.frame(&mut scene.bvh);
+        scene
+    }
+
     fn new(count: u32, side: f32, triangles: u32, size: f32) -> Self {
         let mut bvh: Bvh = lightbvh::Bvh::default();
         let lone: Vec<_> = (0..triangles).map(|k| triangle(k ^ 0x5eed, size)).collect();
