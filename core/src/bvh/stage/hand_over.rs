@@ -17,8 +17,15 @@ use crate::tree::INVALID;
 
 /// Leaves of the top level to which a tree is handed over in one frame: 0.1 ms with the refit.
 pub(crate) const HANDED: usize = 256;
-/// Instances of a mesh that one frame looks at for that.
+/// Instances that one frame looks at for that.
+#[cfg(feature = "std")]
 const LOOKED_AT: usize = 1024;
+/// Parts of an opened instance hang apart from each other, and each takes as long as so many leaves that hang together.
+#[cfg(feature = "std")]
+const APART: usize = 4;
+/// Leaves of a subtree that follow together.
+#[cfg(feature = "std")]
+const TOGETHER: u32 = 64;
 
 /// The tree that was a mesh's before, while instances follow it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -113,33 +120,52 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         lists.any(|pending| !pending.parts.is_empty() && self.parts(pending).contains_key(&blas))
     }
 
-    /// Has instances follow the new trees of their meshes, those of about `most` leaves.
+    /// Has instances follow the new trees of their meshes, those of about `most` leaves. What lies together in the top level follows together: nodes
+    /// above then are computed once for all of them.
     #[cfg(feature = "std")]
     pub(crate) fn hand_over_some(&mut self, mut most: usize) {
         let mut looked_at = 0;
         for blas in self.handing.clone() {
-            while let Some(outgoing) = &mut self.blases[blas as usize].outgoing {
-                if most == 0 || looked_at == LOOKED_AT {
+            while let Some(outgoing) = self.blases[blas as usize].outgoing {
+                if most == 0 || looked_at >= LOOKED_AT {
                     return;
                 }
                 looked_at += 1;
-                let at = outgoing.next as usize;
+                let (old, at) = (outgoing.blas, outgoing.next as usize);
                 let users = &self.meshes[self.blases[blas as usize].mesh as usize].users;
                 // The list begins anew at its end: others may have taken places before.
-                let (index, next) = match users.get(at) {
-                    Some(&index) => (Some(index), at as u32 + 1),
-                    None => (None, 0),
+                let found = users.get(at).copied();
+                let next = if found.is_some() { at as u32 + 1 } else { 0 };
+                self.blases[blas as usize].outgoing = Some(Outgoing { next, ..outgoing });
+                let Some(index) = found.filter(|&index| self.instances[index as usize].blas == old) else {
+                    continue;
                 };
-                if let Some(outgoing) = &mut self.blases[blas as usize].outgoing {
-                    outgoing.next = next;
-                }
-                let Some(index) = index else { continue };
-                let leaves = self.leaves_of(index).len();
-                if self.hand_over(index) {
-                    most -= leaves.min(most);
+                for other in self.around(index) {
+                    looked_at += 1;
+                    if self.instances[other as usize].blas == old && self.placed[other as usize].live {
+                        let leaves = self.leaves_of(other).len();
+                        let work = if leaves > 1 { APART * leaves } else { 1 };
+                        self.hand_over(other);
+                        most -= work.min(most);
+                    }
                 }
             }
         }
+    }
+
+    /// The leaves that hang together with an instance, some [`TOGETHER`] at most; itself where it is opened.
+    #[cfg(feature = "std")]
+    fn around(&self, index: u32) -> Vec<u32> {
+        let mut node = self.placed[index as usize].node;
+        if node == INVALID {
+            return alloc::vec![index];
+        }
+        let count = |node: u32| self.top.counts[self.top.number(node) as usize];
+        let above = |node: u32| self.parents[node as usize];
+        while above(node) != INVALID && count(above(node)) <= TOGETHER {
+            node = above(node);
+        }
+        self.below(node).1.into_iter().map(|(leaf, _)| leaf).collect()
     }
 
     /// Has all instances follow a bottom level that is their mesh's.

@@ -89,7 +89,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// The nodes from `node` down, itself first, and the instances below it with what the nodes know of them.
-    pub(super) fn below(&self, node: u32) -> (Vec<u32>, Vec<(u32, N::Summary)>) {
+    pub(in crate::bvh) fn below(&self, node: u32) -> (Vec<u32>, Vec<(u32, N::Summary)>) {
         let (mut nodes, mut leaves) = (alloc::vec![node], Vec::new());
         let mut next = 0;
         while let Some(&node) = nodes.get(next) {
