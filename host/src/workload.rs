@@ -1,8 +1,9 @@
 //! From a scene to what the backends run: arrays of a frame, light BVHs, queries.
 
 use lightbvh::exact::{hash, unit_f32};
+use lightbvh::light::Light;
 use lightbvh::node::{Holds, Node};
-use lightbvh::{BuildParams, Bvh, INVALID, LightNode, Lights, Random64, ShadingPoint};
+use lightbvh::{BuildParams, Bvh, INVALID, Lights, Random64, ShadingPoint};
 use lightbvh_kernels::query::Query;
 use lightbvh_kernels::render::RenderParams;
 
@@ -63,8 +64,9 @@ pub fn lights_of<L: SceneLight>(scene: &Scene, frame: u32) -> Result<Lights<L>, 
 }
 
 fn listed<L: SceneLight>(scene: &Scene, frame: u32, lights: Vec<L>) -> Result<Lights<L>, HostError> {
-    if lights.is_empty() && !(L::IS_ANY && scene.has_other_lights()) {
-        scene.require_lights()?;
+    match L::IS_ANY {
+        true => scene.require_any_light()?,
+        false => scene.require_lights()?,
     }
     Lights::new(lights).map_err(|error| HostError::in_frame(scene.name(), frame, error))
 }
@@ -118,13 +120,13 @@ pub fn build<N: Node<W>, I, const W: usize>(
 }
 
 /// The instance of light `light` in a BVH that was built over `lights`: what a pmf is asked for beside the light.
-pub fn instance_of<N: LightNode<W>, I, const W: usize>(
+pub fn instance_of<N: Node<W>, I, const W: usize>(
     bvh: &Bvh<N, I, W>,
-    lights: &Lights,
+    lights: &Lights<<N as Holds>::Light>,
     light: u32,
 ) -> u32 {
     match lights.triangles().get(light as usize) {
-        Some(triangle) if !bvh.is_single_level() => triangle.mesh,
+        Some(light) if !bvh.is_single_level() => light.mesh(),
         _ => INVALID,
     }
 }
