@@ -99,10 +99,8 @@ pub enum SceneError {
         /// How many there may be.
         limit: u64,
     },
-    /// The scene has no triangle at all, or only those of clear glass.
-    #[error(
-        "scene `{scene}` has no triangles; it needs at least one node with a triangle mesh that is not all clear glass"
-    )]
+    /// The scene has no triangle at all.
+    #[error("scene `{scene}` has no triangles; it needs at least one node with a triangle mesh")]
     Empty {
         /// The scene.
         scene: String,
@@ -114,6 +112,8 @@ pub enum SceneError {
     )]
     NoEmissive {
         /// The scene.
+        scene: String,
+    },
     /// What lights the scene is nothing that the command knows.
     #[error(
         "scene `{scene}` has no emissive triangle, and this command does not know what lights it ({lights}); {of_every_kind} take such scenes, or \
@@ -126,9 +126,7 @@ pub enum SceneError {
         /// What there is, in words.
         lights: String,
     },
-        scene: String,
+}
 
 /// The commands that take lights of every kind.
 const OF_EVERY_KIND: &str = "`lightbvh render`, `gallery`, `verify`, `inspect`, `validate` and `variance`";
-    },
-}

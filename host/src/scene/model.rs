@@ -235,6 +235,8 @@ pub struct Camera {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Counts {
     pub triangles: usize,
+    /// Of clear glass that does not emit.
+    pub clear: usize,
     pub emissive: usize,
     pub mesh_lights: usize,
     pub analytic: usize,
@@ -299,6 +301,32 @@ impl Scene {
     /// The words of [`SkinArrays`](super::SkinArrays).
     pub(super) fn paint_words(&self) -> Arc<Vec<u32>> {
         Arc::clone(self.paint.get_or_init(|| Arc::new(skin_words::words(&self.data))))
+    }
+
+    /// Says how many triangles are of glass that leaves light as it is: nobody would see them. Of clear glass that tints, what is behind it says
+    /// that it is there.
+    pub fn unseen_glass(&self) -> Option<String> {
+        let unseen = |mesh: &Mesh| -> usize {
+            let primitives = mesh.primitives.iter().map(|primitive| {
+                let material = &self.data.materials[primitive.material as usize];
+                let is_unseen = material.paint.as_ref().is_some_and(Paint::is_unseen);
+                let triangles = (0..primitive.triangles.len()).filter(|_| is_unseen);
+                triangles.filter(|&t| !primitive.is_shown(t, material)).count()
+            });
+            primitives.sum()
+        };
+        let of_meshes: Vec<usize> = self.data.meshes.iter().map(unseen).collect();
+        let placed = self.data.nodes.iter().filter_map(|node| node.mesh);
+        let count: usize = placed.map(|mesh| of_meshes[mesh as usize]).sum();
+        let there_are = match count {
+            0 => return None,
+            1 => String::from("1 triangle is"),
+            _ => format!("{count} triangles are"),
+        };
+        Some(format!(
+            "note: {there_are} clear glass, which shows nothing by itself: it neither reflects nor bends light here; give it a base colour, which \
+             tints what is behind it"
+        ))
     }
 
     /// Triangles of every frame.

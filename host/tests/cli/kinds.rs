@@ -140,3 +140,38 @@ fn commands_for_triangles_say_which_commands_take_other_lights() {
     let said = refused(&format!("inspect {path} --layout full"));
     assert!(said.contains("--layout"), "{said}");
 }
+
+/// What is there is shown, though it is glass: a tint before the sky, or nothing but a note.
+#[test]
+fn glass_alone_is_rendered() {
+    let folder = Folder::new("glass");
+    let glass = |color: Value| {
+        json!({
+            "pbrMetallicRoughness": { "baseColorFactor": color },
+            "extensions": { "KHR_materials_transmission": { "transmissionFactor": 1 } }
+        })
+    };
+    let veil =
+        json!({ "alphaMode": "BLEND", "pbrMetallicRoughness": { "baseColorFactor": [1, 0.2, 0.2, 0.12] } });
+    for (name, material, is_noted) in [
+        ("clear", glass(json!([1, 1, 1, 1])), true),
+        ("tinted", glass(json!([1, 0.2, 0.2, 1])), false),
+        ("veil", veil, false),
+    ] {
+        let stage = Stage {
+            material,
+            ..Stage::default()
+        };
+        let path = stage.write(&folder, name);
+        let image = folder.file(&format!("{name}.png"));
+        let output = run(&format!("render {path} --width 16 --height 9 --spp 1 -o {image}"));
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{name}: {said}");
+        assert!(std::path::Path::new(&image).exists(), "{name}");
+        assert_eq!(
+            said.contains("note: 1 triangle is clear glass, which shows nothing by itself"),
+            is_noted,
+            "{name}: {said}"
+        );
+    }
+}
