@@ -41,6 +41,8 @@ mod meshopt;
 mod node;
 mod paint;
 mod punctual;
+#[cfg(test)]
+mod tests;
 mod texture;
 
 pub use asset::Asset;

@@ -285,9 +285,20 @@ fn colours_opacities_and_options_of_maps() {
     let shape = png(1, &[WHITE, BLACK]);
     let mtl =
         "newmtl sign\nKd 0.5 1 1\nmap_Kd -clamp on -s 2 3 1 -o 0.25 0.5 -bm 1 leaf.png\nmap_d shape.png\n";
-    let scene = painted("leaf", mtl, &[("leaf.png", &leaf), ("shape.png", &shape)]);
+    let files: [(&str, &[u8]); 2] = [("leaf.png", &leaf), ("shape.png", &shape)];
+    let scene = painted("leaf", mtl, &files);
     let data = scene.data();
-    assert_eq!(scene.warnings(), &[] as &[String]);
+    // The shape lies as the colours do, though it has not their options, or others.
+    let others = mtl.replace("map_d shape", "map_d -s 4 4 shape");
+    for scene in [&scene, &painted("leaf-others", &others, &files)] {
+        let warnings = scene.warnings();
+        assert!(
+            warnings.len() == 1 && warnings[0].contains("`map_d`") && warnings[0].contains("`-s`"),
+            "{warnings:?}"
+        );
+    }
+    let same = mtl.replace("map_d shape", "map_d -clamp on -s 2 3 1 -o 0.25 0.5 shape");
+    assert_eq!(painted("leaf-same", &same, &files).warnings(), &[] as &[String]);
     let paint = data.materials[0].paint.expect("a picture");
     assert_eq!(paint.base, [0.5, 1.0, 1.0, 1.0]);
     assert_eq!(paint.opacity, Opacity::Cut(0.5));
