@@ -65,3 +65,38 @@ fn texture_coordinates_that_are_none_are_named() {
     let scene = read(&short);
     assert!(scene.warnings()[0].contains("TEXCOORD_0 has fewer entries than POSITION"));
 }
+
+/// Once for a file, whatever the number of lights.
+#[test]
+fn ranges_of_lights_are_said_not_to_be_applied() {
+    let mut root = painted([[0.0; 2]; 3]);
+    let lamp = json!({ "type": "point", "range": 3 });
+    root["extensions"] = json!({ "KHR_lights_punctual": { "lights": [lamp, lamp] } });
+    for light in 0..2 {
+        let nodes = root["nodes"].as_array_mut().expect("nodes");
+        nodes.push(json!({ "extensions": { "KHR_lights_punctual": { "light": light } } }));
+        let number = nodes.len() - 1;
+        root["scenes"][0]["nodes"]
+            .as_array_mut()
+            .expect("nodes")
+            .push(json!(number));
+    }
+    let scene = read(&root);
+    assert_eq!(scene.analytic_count(), 2);
+    let warnings = scene.warnings();
+    assert!(
+        warnings.len() == 1
+            && warnings[0].starts_with("2 lights (KHR_lights_punctual) have a range, which is not applied"),
+        "{warnings:?}"
+    );
+}
+
+/// Every extension that is read stands in the documentation.
+#[test]
+fn the_documentation_names_every_extension_that_is_read() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/scenes.md");
+    let text = std::fs::read_to_string(path).expect("docs/scenes.md");
+    for name in extensions::READ.iter().chain(&extensions::HARMLESS) {
+        assert!(text.contains(&format!("`{name}`")), "{name}");
+    }
+}
