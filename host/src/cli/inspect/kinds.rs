@@ -156,19 +156,18 @@ impl About<'_> {
                 format!("{violation}{refitted}: this is a fault of lightbvh; please report it\n")
             }
         };
-        text += &format!(
-            "{} probabilities from {} points on surfaces: {} lights that send light there are never chosen; variance of one sample {:.4}\n\
-             {} nodes, {} deep; {:.1} bytes per light that sampling reads, {:.1} in all arrays, {:.0} ns per sample\n",
-            checked.probabilities,
-            checked.points,
-            checked.unreached,
-            checked.variance,
-            checked.nodes,
-            checked.depth,
-            checked.bytes_per_light,
-            checked.memory_per_light,
-            checked.ns_per_sample.median
+        let memory = format!(
+            "{} nodes, {} deep; {:.1} bytes per light that sampling reads, {:.1} in all arrays",
+            checked.nodes, checked.depth, checked.bytes_per_light, checked.memory_per_light
         );
+        text += &match checked.points {
+            0 => format!("there is no surface that is shown, so nothing was asked\n{memory}\n"),
+            points => format!(
+                "{} probabilities from {points} points on surfaces: {} lights that send light there are never chosen; variance of one sample {:.4}\n\
+                 {memory}, {:.0} ns per sample\n",
+                checked.probabilities, checked.unreached, checked.variance, checked.ns_per_sample.median
+            ),
+        };
         text
     }
 }
