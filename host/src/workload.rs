@@ -1,8 +1,9 @@
 //! From a scene to what the backends run: arrays of a frame, light BVHs, queries.
 
 use lightbvh::exact::{hash, unit_f32};
+use lightbvh::light::Light;
 use lightbvh::node::{Holds, Node};
-use lightbvh::{BuildParams, Bvh, INVALID, LightNode, Lights, Random64, ShadingPoint};
+use lightbvh::{BuildParams, Bvh, INVALID, Lights, Random64, ShadingPoint};
 use lightbvh_kernels::query::Query;
 use lightbvh_kernels::render::RenderParams;
 
@@ -63,8 +64,9 @@ pub fn lights_of<L: SceneLight>(scene: &Scene, frame: u32) -> Result<Lights<L>, 
 }
 
 fn listed<L: SceneLight>(scene: &Scene, frame: u32, lights: Vec<L>) -> Result<Lights<L>, HostError> {
-    if lights.is_empty() && !(L::IS_ANY && scene.has_other_lights()) {
-        scene.require_lights()?;
+    match L::IS_ANY {
+        true => scene.require_any_light()?,
+        false => scene.require_lights()?,
     }
     Lights::new(lights).map_err(|error| HostError::in_frame(scene.name(), frame, error))
 }
@@ -118,13 +120,13 @@ pub fn build<N: Node<W>, I, const W: usize>(
 }
 
 /// The instance of light `light` in a BVH that was built over `lights`: what a pmf is asked for beside the light.
-pub fn instance_of<N: LightNode<W>, I, const W: usize>(
+pub fn instance_of<N: Node<W>, I, const W: usize>(
     bvh: &Bvh<N, I, W>,
-    lights: &Lights,
+    lights: &Lights<<N as Holds>::Light>,
     light: u32,
 ) -> u32 {
     match lights.triangles().get(light as usize) {
-        Some(triangle) if !bvh.is_single_level() => triangle.mesh,
+        Some(light) if !bvh.is_single_level() => light.mesh(),
         _ => INVALID,
     }
 }
@@ -151,13 +153,14 @@ fn query<L: SceneLight>(
     let draw = |k: u32| unit_f32(hash(random.wrapping_add(k)));
     let pick = |k: u32, n: usize| ((draw(k) * n as f32) as usize).min(n - 1);
     let kind = draw(0);
-    let (mut p, mut n) = if !(0.75..0.98).contains(&kind) {
-        let lights = scene.lights.triangles();
-        // A scene may be lit by its sky alone.
-        let corners = if kind < 0.75 || lights.is_empty() {
-            surfaces[pick(1, surfaces.len())]
-        } else {
-            lights[pick(1, lights.len())].corners()
+    let lights = scene.lights.triangles();
+    // A scene may be lit by its sky alone, and may have no surface but glass that is not shown.
+    let is_empty = lights.is_empty() && surfaces.is_empty();
+    let (mut p, mut n) = if !(0.75..0.98).contains(&kind) && !is_empty {
+        let on_surface = (kind < 0.75 && !surfaces.is_empty()) || lights.is_empty();
+        let corners = match on_surface {
+            true => surfaces[pick(1, surfaces.len())],
+            false => lights[pick(1, lights.len())].corners(),
         };
         on_triangle(&corners, draw(2), draw(3), draw(4) < 0.5)
     } else {
@@ -213,7 +216,11 @@ fn direction(u: f32, v: f32, w: f32) -> [f32; 3] {
     }
 }
 
+/// Of surfaces; a metre around the origin where there is none.
 fn bounding_box(surfaces: &[Corners]) -> ([f32; 3], [f32; 3]) {
+    if surfaces.is_empty() {
+        return ([-1.0; 3], [1.0; 3]);
+    }
     let (mut low, mut high) = ([f32::MAX; 3], [f32::MIN; 3]);
     for p in surfaces.iter().flatten() {
         for k in 0..3 {

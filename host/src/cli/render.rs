@@ -271,6 +271,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     if is_painted && (args.no_textures || !is_known) {
         scene = scene.unpainted();
     }
+    if let Some(note) = scene.unseen_glass() {
+        news!("{}: {note}", scene.name());
+    }
     let sequence = Sequence {
         args,
         recipe,

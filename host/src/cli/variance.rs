@@ -1,38 +1,44 @@
 //! `lightbvh variance`: the exact relative variance of one light sample, scene by scene.
 //!
-//! At each point the unshadowed diffuse light of every triangle is computed in closed form, and its probability is asked of the
+//! At each point the unshadowed diffuse light of every light is computed, of triangles in closed form, and its probability is asked of the
 //! tree: no sampling is involved, so the figure has no noise but that of the choice of points. Of several candidates by numbers at
 //! equal distances the mean squared error is measured, by as many trials at each point.
 
 mod gloss;
 pub(super) mod irradiance;
+pub(super) mod kinds;
 pub(super) mod points;
 
 use std::time::Instant;
 
 use lightbvh::exact::hash;
+use lightbvh::light::AnyLight;
+use lightbvh::node::{Holds, Lit, Node};
 use lightbvh::{
-    BuildParams, Bvh, CompactNode, Cycles, Defensive, Eq4, Falcor, Flux, FluxOverDistance, FullMomentNode,
-    Heuristic, ImportanceModel, LeanMomentNode, LightNode, Lights, MomentNode, Moments, Pbrt, SampledLight,
-    ShadingPoint, SphericalGaussian,
+    BuildParams, Bvh, CompactNode, Cycles, Defensive, EmissiveTriangle, Eq4, Falcor, Flux, FluxOverDistance,
+    FullMomentNode, Heuristic, ImportanceModel, LeanMomentNode, Lights, MomentNode, Moments, Pbrt,
+    SampledLight, ShadingPoint, SphericalGaussian,
 };
+use lightbvh_kernels::bvh::AnyNode;
 use serde::Serialize;
 use serde_json::json;
 
 use self::irradiance::irradiance;
+use self::kinds::irradiance_of;
 use super::{Context, Outcome, table};
 use crate::backend::Sampler;
 use crate::cli::table::news;
 use crate::error::HostError;
 use crate::metrics::mean;
-use crate::workload::{build, instance_of};
+use crate::scene::{Scene, SceneLight};
+use crate::workload::{build, instance_of, lights_of};
 
 /// Trials of several candidates at each point.
 const TRIALS: u32 = 64;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// Scenes: random, street, square, carousel, or .gltf, .glb, .pbrt, .obj and .ply files; the first four if none is named.
+    /// Scenes: random, street, square, carousel, stage, or .gltf, .glb, .pbrt, .obj and .ply files; the first four if none is named.
     #[arg(long)]
     scene: Vec<String>,
     /// Points on the surfaces of each scene.
@@ -81,18 +87,37 @@ struct Row {
     nothing: f64,
 }
 
-/// A scene's lights and what every triangle sends to each point.
-struct Subject {
+/// A scene's lights, and the points that they are chosen for.
+struct Subject<L = EmissiveTriangle> {
     name: String,
-    lights: Lights,
+    lights: Lights<L>,
     points: Vec<ShadingPoint>,
 }
 
+impl Subject {
+    fn random(args: &Args) -> Self {
+        let (lights, points) = points::random(args.lights, args.points);
+        let name = RANDOM.to_owned();
+        Self { name, lights, points }
+    }
+}
+
+impl<L: SceneLight> Subject<L> {
+    fn of(scene: &Scene, args: &Args) -> Result<Self, HostError> {
+        Ok(Self {
+            name: scene.name().to_owned(),
+            lights: lights_of(scene, args.frame)?,
+            points: points::on_surfaces(scene, args.frame, args.points),
+        })
+    }
+}
+
+/// The scene that is no scene: lights anywhere.
+const RANDOM: &str = "random";
+
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     let named: Vec<String> = if args.scene.is_empty() {
-        ["random", "street", "square", "carousel"]
-            .map(String::from)
-            .into()
+        [RANDOM, "street", "square", "carousel"].map(String::from).into()
     } else {
         args.scene.clone()
     };
@@ -102,10 +127,12 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let mut rows = Vec::new();
     for name in named {
         let start = Instant::now();
-        let (lights, points) = points::of(&name, args.lights, args.frame, args.points)?;
-        let subject = Subject { name, lights, points };
-        rows.extend(measure(&subject, args.all));
-        news!("{}: {:.1} s", subject.name, start.elapsed().as_secs_f64());
+        rows.extend(match opened(&name)? {
+            None => measure(&Subject::random(args), args.all),
+            Some(scene) if scene.needs_any_light() => measure_kinds(&Subject::of(&scene, args)?, args.all),
+            Some(scene) => measure(&Subject::of(&scene, args)?, args.all),
+        });
+        news!("{name}: {:.1} s", start.elapsed().as_secs_f64());
     }
     if context.json {
         table::print_json(&json!({ "points": args.points, "frame": args.frame, "rows": rows }))?;
@@ -115,14 +142,34 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     Ok(Outcome::Good)
 }
 
+/// A scene, but for the one that is none.
+fn opened(name: &str) -> Result<Option<Scene>, HostError> {
+    if name == RANDOM {
+        return Ok(None);
+    }
+    let scene = Scene::open(name)?;
+    for warning in scene.warnings() {
+        news!("{name}: {warning}");
+    }
+    Ok(Some(scene))
+}
+
 fn glossy(context: &Context, args: &Args, named: &[String]) -> Result<Outcome, HostError> {
     let mut rows = Vec::new();
     for name in named {
         let start = Instant::now();
-        let (lights, points) = points::of(name, args.lights, args.frame, args.points)?;
-        let eye = points::eye(name, args.frame)?;
-        let name = name.clone();
-        rows.extend(gloss::measure(&Subject { name, lights, points }, eye));
+        let (subject, eye) = match opened(name)? {
+            None => (Subject::random(args), None),
+            Some(scene) => {
+                scene.require_lights()?;
+                if let Some(left_out) = scene.unknown_lights() {
+                    news!("{name}: {left_out}");
+                }
+                let eye = points::eye(&scene, args.frame);
+                (Subject::of(&scene, args)?, Some(eye))
+            }
+        };
+        rows.extend(gloss::measure(&subject, eye));
         news!(
             "{}: {:.1} s",
             rows.last().map_or("", gloss::Row::scene),
@@ -146,11 +193,7 @@ fn measure(subject: &Subject, all: bool) -> Vec<Row> {
         heuristic: Heuristic::Saoh,
         ..balanced
     };
-    let lights = subject.lights.triangles();
-    let points = subject.points.iter();
-    let light: Vec<Vec<f64>> = points
-        .map(|point| lights.iter().map(|t| irradiance(t, point)).collect())
-        .collect();
+    let light = sent(subject, irradiance);
     let of = Measured {
         subject,
         light: &light,
@@ -181,15 +224,43 @@ fn measure(subject: &Subject, all: bool) -> Vec<Row> {
     rows
 }
 
+/// Of a scene with lights of any kind, which those layouts hold that trees without such lights are compared by.
+fn measure_kinds(subject: &Subject<AnyLight>, all: bool) -> Vec<Row> {
+    type Plain = Lit<MomentNode<8>, AnyLight>;
+    let light = sent(subject, irradiance_of);
+    let of = Measured {
+        subject,
+        light: &light,
+    };
+    let balanced = BuildParams::default();
+    let mut rows = Vec::new();
+    rows.extend(of.both::<Plain, DefaultImportance, 8>("moments+1/64", &balanced));
+    rows.extend(of.both::<AnyNode, DefaultImportance, 8>("moments+1/64", &balanced));
+    if all {
+        rows.extend(of.both::<Plain, Moments, 8>("moments", &balanced));
+        rows.extend(of.both::<AnyNode, Moments, 8>("moments", &balanced));
+    }
+    rows
+}
+
+/// By point, what each light sends there.
+fn sent<L: SceneLight>(subject: &Subject<L>, of: impl Fn(&L, &ShadingPoint) -> f64) -> Vec<Vec<f64>> {
+    let lights = subject.lights.triangles();
+    let points = subject.points.iter();
+    points
+        .map(|point| lights.iter().map(|light| of(light, point)).collect())
+        .collect()
+}
+
 /// A scene, and by point what each light sends there.
-struct Measured<'a> {
-    subject: &'a Subject,
+struct Measured<'a, L> {
+    subject: &'a Subject<L>,
     light: &'a [Vec<f64>],
 }
 
-impl Measured<'_> {
+impl<L: SceneLight> Measured<'_, L> {
     /// One level and two.
-    fn both<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    fn both<N: Node<W> + Holds<Light = L>, I: ImportanceModel<N, W>, const W: usize>(
         &self,
         importance: &'static str,
         params: &BuildParams,
@@ -241,9 +312,9 @@ impl Measured<'_> {
 }
 
 /// The relative variance at each point that any light reaches, sorted, and the mean share of samples that contribute nothing.
-fn variances<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+fn variances<N: Node<W> + Holds<Light: SceneLight>, I: ImportanceModel<N, W>, const W: usize>(
     bvh: &Bvh<N, I, W>,
-    subject: &Subject,
+    subject: &Subject<<N as Holds>::Light>,
     light: &[Vec<f64>],
 ) -> (Vec<f64>, f64) {
     let mut variances = Vec::new();
@@ -273,7 +344,7 @@ fn variances<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
 type Weighted = Vec<(u32, f64)>;
 
 /// `COUNT` candidates by numbers at equal distances: their mean is the estimate.
-fn spaced<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, const COUNT: usize>(
+fn spaced<N: Node<W>, I: ImportanceModel<N, W>, const W: usize, const COUNT: usize>(
     bvh: &Bvh<N, I, W>,
     point: &ShadingPoint,
     number: u32,
@@ -282,7 +353,7 @@ fn spaced<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, const COUNT
 }
 
 /// Up to `MOST` lights, one out of each subtree: their sum is the estimate.
-fn split<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, const MOST: usize>(
+fn split<N: Node<W>, I: ImportanceModel<N, W>, const W: usize, const MOST: usize>(
     bvh: &Bvh<N, I, W>,
     point: &ShadingPoint,
     number: u32,

@@ -375,7 +375,9 @@ impl Check<'_> {
                         .clone()
                         .filter(|&t| emits(primitive.triangle_radiance(t, material.radiance)))
                         .count();
-                    counts.triangles += all.filter(|&t| primitive.is_shown(t, material)).count();
+                    let shown = all.filter(|&t| primitive.is_shown(t, material)).count();
+                    counts.triangles += shown;
+                    counts.clear += primitive.triangles.len() - shown;
                     counts.emissive += lit;
                     counts.mesh_lights += usize::from(lit > 0);
                 }
@@ -386,6 +388,7 @@ impl Check<'_> {
         for mesh in data.nodes.iter().filter_map(|node| node.mesh) {
             let counts = per_mesh[mesh as usize];
             total.triangles = total.triangles.saturating_add(counts.triangles);
+            total.clear = total.clear.saturating_add(counts.clear);
             total.emissive = total.emissive.saturating_add(counts.emissive);
             total.mesh_lights = total.mesh_lights.saturating_add(counts.mesh_lights);
         }
@@ -397,8 +400,9 @@ impl Check<'_> {
             total.suns += usize::from(is_sun);
         }
         self.limit("suns", total.suns, MAX_SUNS as u64)?;
-        self.limit("triangles over all instances", total.triangles, MAX_TRIANGLES)?;
-        if total.triangles == 0 {
+        let all = total.triangles.saturating_add(total.clear);
+        self.limit("triangles over all instances", all, MAX_TRIANGLES)?;
+        if all == 0 {
             return Err(SceneError::Empty { scene: self.scene() });
         }
         Ok(total)

@@ -99,22 +99,34 @@ pub enum SceneError {
         /// How many there may be.
         limit: u64,
     },
-    /// The scene has no triangle at all, or only those of clear glass.
-    #[error(
-        "scene `{scene}` has no triangles; it needs at least one node with a triangle mesh that is not all clear glass"
-    )]
+    /// The scene has no triangle at all.
+    #[error("scene `{scene}` has no triangles; it needs at least one node with a triangle mesh")]
     Empty {
         /// The scene.
         scene: String,
     },
     /// The scene has nothing that emits light.
     #[error(
-        "scene `{scene}` has no emissive triangle, and no light of another kind that this command knows (`lightbvh render` \
-         and `verify` know point, spot and directional lights); give a material an emissiveFactor above zero (glTF), a Ke (OBJ) \
-         or an AreaLightSource (pbrt), give `lightbvh render` an --environment, or use one of the built-in scenes"
+        "scene `{scene}` has no emissive triangle, and no light of another kind; give a material an emissiveFactor above zero (glTF), a Ke \
+         (OBJ) or an AreaLightSource (pbrt), give `lightbvh render` an --environment, or use one of the built-in scenes"
     )]
     NoEmissive {
         /// The scene.
         scene: String,
     },
+    /// What lights the scene is nothing that the command knows.
+    #[error(
+        "scene `{scene}` has no emissive triangle, and this command does not know what lights it ({lights}); {of_every_kind} take such scenes, or \
+         give a material an emissiveFactor above zero (glTF), a Ke (OBJ) or an AreaLightSource (pbrt)",
+        of_every_kind = OF_EVERY_KIND
+    )]
+    OtherLights {
+        /// The scene.
+        scene: String,
+        /// What there is, in words.
+        lights: String,
+    },
 }
+
+/// The commands that take lights of every kind.
+const OF_EVERY_KIND: &str = "`lightbvh render`, `gallery`, `verify`, `inspect`, `validate` and `variance`";

@@ -105,11 +105,22 @@ impl Scene {
             None => match self.default_camera.get() {
                 Some(camera) => *camera,
                 None if frame > 0 => self.frame(0).camera,
-                None => *self.default_camera.get_or_init(|| framing::view(&out)),
+                None => *self.default_camera.get_or_init(|| framed(&out)),
             },
         };
         out
     }
+}
+
+/// Where a frame is seen from that has no camera: all of its glass where there is nothing else to look at.
+fn framed(frame: &Frame) -> View {
+    if !frame.triangles.is_empty() {
+        return framing::view(frame);
+    }
+    framing::view(&Frame {
+        triangles: frame.clear.clone(),
+        ..frame.clone()
+    })
 }
 
 impl Frame {

@@ -32,6 +32,7 @@ mod gltf_in;
 mod ies_in;
 mod instances;
 mod lamps;
+mod lit_by;
 mod load;
 mod model;
 mod motion_bounds;

@@ -9,7 +9,6 @@ use crate::render::View;
 
 use super::analytic::AnalyticLight;
 use super::deform::{Influence, MorphChannel, Skin};
-use super::error::SceneError;
 use super::frame::emits;
 use super::paint::{Paint, Picture};
 use super::profile::Profile;
@@ -236,6 +235,8 @@ pub struct Camera {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Counts {
     pub triangles: usize,
+    /// Of clear glass that does not emit.
+    pub clear: usize,
     pub emissive: usize,
     pub mesh_lights: usize,
     pub analytic: usize,
@@ -302,69 +303,34 @@ impl Scene {
         Arc::clone(self.paint.get_or_init(|| Arc::new(skin_words::words(&self.data))))
     }
 
-    /// What a command that knows emissive triangles alone leaves out.
-    pub fn unknown_lights(&self) -> Option<String> {
-        let mut parts = Vec::new();
-        if self.has_other_lights() {
-            let count = self.counts.analytic + self.counts.suns;
-            let map = if self.data.environment.is_some() {
-                " and an environment map"
-            } else {
-                ""
-            };
-            parts.push(format!(
-                "{count} lights of other kinds than triangles{map} are left out here"
-            ));
-        }
-        if self.data.is_painted() {
-            parts.push(String::from(
-                "textures are shown by their means here, and glass is left out",
-            ));
-        }
-        (!parts.is_empty()).then(|| format!("{}; `lightbvh render` and `verify` know them", parts.join("; ")))
+    /// Says how many triangles are of glass that leaves light as it is: nobody would see them. Of clear glass that tints, what is behind it says
+    /// that it is there.
+    pub fn unseen_glass(&self) -> Option<String> {
+        let unseen = |mesh: &Mesh| -> usize {
+            let primitives = mesh.primitives.iter().map(|primitive| {
+                let material = &self.data.materials[primitive.material as usize];
+                let is_unseen = material.paint.as_ref().is_some_and(Paint::is_unseen);
+                let triangles = (0..primitive.triangles.len()).filter(|_| is_unseen);
+                triangles.filter(|&t| !primitive.is_shown(t, material)).count()
+            });
+            primitives.sum()
+        };
+        let of_meshes: Vec<usize> = self.data.meshes.iter().map(unseen).collect();
+        let placed = self.data.nodes.iter().filter_map(|node| node.mesh);
+        let count: usize = placed.map(|mesh| of_meshes[mesh as usize]).sum();
+        let there_are = match count {
+            0 => return None,
+            1 => String::from("1 triangle is"),
+            _ => format!("{count} triangles are"),
+        };
+        Some(format!(
+            "note: {there_are} clear glass, which shows nothing by itself: it neither reflects nor bends light here; give it a base colour, which \
+             tints what is behind it"
+        ))
     }
 
     /// Triangles of every frame.
     pub fn triangle_count(&self) -> usize {
         self.counts.triangles
-    }
-
-    /// Emissive triangles of every frame.
-    pub fn emissive_count(&self) -> usize {
-        self.counts.emissive
-    }
-
-    /// Mesh lights of every frame: instances of emissive primitives.
-    pub fn mesh_light_count(&self) -> usize {
-        self.counts.mesh_lights
-    }
-
-    /// Lights by formula that are sampled.
-    pub fn analytic_count(&self) -> usize {
-        self.counts.analytic
-    }
-
-    /// Whether it has other light than that of emissive triangles: lights by formula, suns, an environment map.
-    pub fn has_other_lights(&self) -> bool {
-        self.counts.analytic + self.counts.suns > 0 || self.data.environment.is_some()
-    }
-
-    /// Whether only passes over all kinds of light show all of it: it has [other lights](Self::has_other_lights), or something is painted on
-    /// its surfaces.
-    pub fn has_kinds(&self) -> bool {
-        self.has_other_lights() || self.data.is_painted()
-    }
-
-    /// For commands that sample emissive triangles.
-    ///
-    /// # Errors
-    /// [`SceneError::NoEmissive`] where no triangle emits.
-    pub fn require_lights(&self) -> Result<(), SceneError> {
-        if self.counts.emissive == 0 {
-            return Err(SceneError::NoEmissive {
-                scene: self.data.name.clone(),
-            });
-        }
-        Ok(())
     }
 }

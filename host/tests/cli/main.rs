@@ -5,6 +5,7 @@ mod checks;
 mod compare;
 mod gallery;
 mod inspect;
+mod kinds;
 mod program;
 mod refusals;
 mod render;

@@ -159,7 +159,7 @@ impl Run<'_> {
     ) -> Result<Measured, HostError> {
         self.progress.set_message(format!("{stem}: opened"));
         let opened = subject::open(entry)?;
-        for warning in opened.scene.warnings() {
+        for warning in opened.scene.warnings().iter().chain(&opened.scene.unseen_glass()) {
             news!("{stem}: {warning}");
         }
         if opened.scene.has_kinds() {

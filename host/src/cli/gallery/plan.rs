@@ -19,7 +19,7 @@ pub(super) const MAX_SAMPLES: u32 = 65_536;
 #[derive(Debug, clap::Args)]
 #[command(after_help = LIST_HELP)]
 pub(in crate::cli) struct Args {
-    /// Built-in scenes (street, square, carousel, stage) or .gltf and .glb files, with their entries in the list where they have one; all
+    /// Built-in scenes (street, square, carousel, stage) or .gltf, .glb, .pbrt, .obj and .ply files, with their entries in the list where they have one; all
     /// of the list, or all built-in ones, if none is named.
     scenes: Vec<String>,
     /// A JSON list of scenes with their authors and licences, see below.

@@ -1,6 +1,7 @@
 //! `lightbvh inspect`: what a scene requires, the smallest model that is sufficient, and whether it is.
 
 mod compare;
+mod kinds;
 mod motion;
 mod options;
 mod ratio;
@@ -35,11 +36,17 @@ const MOST_PROBABILITIES: usize = 1 << 25;
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     let scene = Scene::open(&args.scene)?;
-    for warning in scene.warnings().iter().chain(&scene.unknown_lights()) {
+    for warning in scene.warnings() {
         news!("{}: {warning}", scene.name());
     }
-    scene.require_lights()?;
-    let motion = Motion::of(&scene)?;
+    scene.require_any_light()?;
+    if scene.emissive_count() == 0 {
+        return kinds::run(context, args, &scene);
+    }
+    if let Some(left_out) = scene.unknown_lights() {
+        news!("{}: {left_out}", scene.name());
+    }
+    let motion = Motion::of::<Node>(&scene)?;
     let surfaces = Surfaces::of(&scene);
     let (bvh, _) = Instances::new::<Node, (), WIDTH>(&scene, args.frame, BuildParams::default())
         .map_err(|error| HostError::in_frame(scene.name(), args.frame, error))?;
@@ -58,7 +65,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let lights = lights_at(&scene, moved)?;
     let most = MOST_PROBABILITIES / lights.triangles().len().max(1);
     let count = args.points.min((most as u32).max(1));
-    let (_, points) = points::of(&args.scene, 0, moved, count)?;
+    let points = points::on_surfaces(&scene, moved, count);
     let source = Source {
         scene: &scene,
         frame: args.frame,
@@ -76,7 +83,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         moved,
         motion,
         surfaces,
-        kinds: kinds(&scene, args.frame)?,
+        kinds: all_kinds(&scene, args.frame)?,
         requirements,
         chosen,
         asked_for: model != chosen,
@@ -92,7 +99,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
 }
 
 /// The kinds of light of a scene, where there are others than triangles.
-fn kinds(scene: &Scene, frame: u32) -> Result<Option<LightKinds>, HostError> {
+fn all_kinds(scene: &Scene, frame: u32) -> Result<Option<LightKinds>, HostError> {
     if scene.analytic_count() == 0 {
         return Ok(None);
     }

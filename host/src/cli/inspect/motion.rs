@@ -1,11 +1,12 @@
 //! What moves in a scene: its instances over one round of its longest animation.
 
+use lightbvh::node::{Holds, Node};
 use lightbvh::{BuildParams, Edit};
-use lightbvh_kernels::bvh::{Node, WIDTH};
+use lightbvh_kernels::bvh::WIDTH;
 use serde::Serialize;
 
 use crate::error::HostError;
-use crate::scene::{FRAMES_PER_SECOND, Instances, Scene};
+use crate::scene::{FRAMES_PER_SECOND, Instances, Scene, SceneLight};
 
 /// Frames looked at, at most.
 const MOST_FRAMES: u32 = 1000;
@@ -42,11 +43,20 @@ fn frames(scene: &Scene) -> u32 {
     ((longest * f64::from(FRAMES_PER_SECOND)).ceil() as u32).min(MOST_FRAMES)
 }
 
+/// Node and mesh of each instance, or the name of the light that it is.
+fn names<L: SceneLight>(scene: &Scene) -> Vec<String> {
+    let meshes = scene.frame(0).mesh_lights.into_iter().map(|light| light.name);
+    let own = scene.data().analytic.iter();
+    let others = own.filter(|light| light.light().and_then(L::of_kind).is_some());
+    meshes.chain(others.map(|light| light.name.clone())).collect()
+}
+
 impl Motion {
-    pub fn of(scene: &Scene) -> Result<Self, HostError> {
+    /// Of the lights that the nodes of a tree hold.
+    pub fn of<N: Node<WIDTH> + Holds<Light: SceneLight>>(scene: &Scene) -> Result<Self, HostError> {
         let frames = frames(scene);
-        let names = scene.frame(0).mesh_lights;
-        let (_, mut instances) = Instances::new::<Node, (), WIDTH>(scene, 0, BuildParams::FAST)
+        let names = names::<N::Light>(scene);
+        let (_, mut instances) = Instances::<N::Light>::new::<N, (), WIDTH>(scene, 0, BuildParams::FAST)
             .map_err(|error| HostError::in_frame(scene.name(), 0, error))?;
         let mut moves = vec![0_u32; names.len()];
         let mut bends = vec![false; names.len()];
@@ -67,9 +77,9 @@ impl Motion {
         let named = (0..).zip(names.iter().zip(&moves));
         let tracks: Vec<Track> = named
             .filter(|(_, (_, moves))| **moves > 0)
-            .map(|(instance, (light, &moves))| Track {
+            .map(|(instance, (name, &moves))| Track {
                 instance,
-                name: light.name.clone(),
+                name: name.clone(),
                 moves,
             })
             .collect();

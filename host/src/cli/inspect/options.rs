@@ -4,7 +4,7 @@ use lightbvh::requirements::{Layout, Model, Structure, Updates};
 
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// A built-in scene (street, square, carousel) or a .gltf, .glb, .pbrt, .obj or .ply file.
+    /// A built-in scene (street, square, carousel, stage) or a .gltf, .glb, .pbrt, .obj or .ply file.
     pub scene: String,
     /// Lights stay as they are in this frame, whatever the scene's animations say.
     #[arg(long = "static", conflicts_with = "changes")]

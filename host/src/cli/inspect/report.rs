@@ -199,7 +199,7 @@ impl Report<'_> {
 }
 
 /// A line of what is required.
-fn line(name: &str, text: &str) -> String {
+pub(super) fn line(name: &str, text: &str) -> String {
     format!("  {name:<20} {text}\n")
 }
 

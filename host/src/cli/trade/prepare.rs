@@ -45,7 +45,8 @@ pub(super) fn prepare(
     for warning in scene.warnings().iter().chain(&scene.unknown_lights()) {
         news!("{name}: {warning}");
     }
-    let (_, points) = points::of(name, 0, args.frame, budget.points)?;
+    scene.require_lights()?;
+    let points = points::on_surfaces(&scene, args.frame, budget.points);
     // ReSTIR looks back from the frames that are measured.
     let looks_back = args.axes.is_empty() || args.axes.contains(&Axis::Integrator);
     let arrays = |number: u32| {

@@ -4,27 +4,28 @@ use lightbvh::exact::{hash, unit_f32};
 use lightbvh::{Lights, ShadingPoint};
 
 use crate::cli::bench::scene::{random_lights, random_queries};
-use crate::error::HostError;
 use crate::render::camera;
 use crate::scene::Scene;
 use crate::vector::{self, dot};
-use crate::workload::lights_at;
 
-/// The lights of a scene, and points on the front sides of its surfaces, spread evenly over their area; in the scene `random`
-/// points anywhere with any normal.
-pub(in crate::cli) fn of(
-    name: &str,
-    lights: u32,
-    frame: u32,
-    count: u32,
-) -> Result<(Lights, Vec<ShadingPoint>), HostError> {
-    if name == "random" {
-        let points = random_queries(count).into_iter().map(|query| query.point);
-        return Ok((random_lights(lights), points.collect()));
+/// The lights of the scene `random`, and points anywhere with any normal.
+pub(in crate::cli) fn random(lights: u32, count: u32) -> (Lights, Vec<ShadingPoint>) {
+    let points = random_queries(count).into_iter().map(|query| query.point);
+    (random_lights(lights), points.collect())
+}
+
+/// Points on the front sides of a scene's surfaces, spread evenly over their area; none where it has no surface.
+pub(in crate::cli) fn on_surfaces(scene: &Scene, frame: u32, count: u32) -> Vec<ShadingPoint> {
+    let frame = scene.frame(frame);
+    // Where there is nothing but glass, on that.
+    let shown = match frame.triangles.is_empty() {
+        true => &frame.clear,
+        false => &frame.triangles,
+    };
+    let surfaces: Vec<[[f32; 3]; 3]> = shown.iter().map(|t| t.p).collect();
+    if surfaces.is_empty() {
+        return Vec::new();
     }
-    let scene = Scene::open(name)?;
-    let lights = lights_at(&scene, frame)?;
-    let surfaces: Vec<[[f32; 3]; 3]> = scene.frame(frame).triangles.iter().map(|t| t.p).collect();
     let mut ends = Vec::with_capacity(surfaces.len());
     let mut total = 0.0;
     for p in &surfaces {
@@ -48,16 +49,12 @@ pub(in crate::cli) fn of(
             n,
         }
     });
-    Ok((lights, points.collect()))
+    points.collect()
 }
 
-/// Where the camera of the scene is; nowhere in the scene `random`.
-pub(in crate::cli) fn eye(name: &str, frame: u32) -> Result<Option<[f32; 3]>, HostError> {
-    if name == "random" {
-        return Ok(None);
-    }
-    let view = Scene::open(name)?.frame(frame).camera;
-    Ok(Some(camera(&view, 1, 1).origin))
+/// Where the camera of a scene is.
+pub(in crate::cli) fn eye(scene: &Scene, frame: u32) -> [f32; 3] {
+    camera(&scene.frame(frame).camera, 1, 1).origin
 }
 
 /// Area and unit normal; `None` without area.

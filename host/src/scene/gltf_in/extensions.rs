@@ -8,7 +8,7 @@ use super::super::error::SceneError;
 use super::Document;
 
 /// Extensions that are read.
-const READ: [&str; 14] = [
+pub(super) const READ: [&str; 14] = [
     "EXT_lights_ies",
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
@@ -26,7 +26,7 @@ const READ: [&str; 14] = [
 ];
 
 /// Extensions that only add what a renderer of lights has no use for: a file that requires one is shown nevertheless.
-const HARMLESS: [&str; 4] = [
+pub(super) const HARMLESS: [&str; 4] = [
     "KHR_xmp",
     "KHR_xmp_json_ld",
     "EXT_structural_metadata",

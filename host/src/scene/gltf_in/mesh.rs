@@ -15,6 +15,9 @@ use super::attributes::Attributes;
 use super::material::Look;
 use super::{Document, bend, emission};
 
+/// Greatest texture coordinate, as a scene takes them.
+const FARTHEST: f32 = (1 << 20) as f32;
+
 /// Decoded data that neighbouring primitives often share.
 #[derive(Default)]
 struct Shared {
@@ -208,14 +211,28 @@ fn coordinates(
         return Ok(None);
     };
     // What is missing, or no number, lies at the origin.
+    let is_short = values.len() < vertices;
     values.resize(vertices, [0.0; 2]);
+    let mut is_far = false;
     for value in values.as_flattened_mut() {
-        let far = f32::from_bits((127 + 20) << 23);
+        is_far |= !(-FARTHEST..=FARTHEST).contains(value);
         *value = if value.is_nan() {
             0.0
         } else {
-            value.clamp(-far, far)
+            value.clamp(-FARTHEST, FARTHEST)
         };
+    }
+    if is_short {
+        document.warn(format!(
+            "{}: TEXCOORD_{} has fewer entries than POSITION, and what is missing counts as 0",
+            attributes.element, look.set
+        ));
+    }
+    if is_far {
+        document.warn(format!(
+            "{}: numbers of TEXCOORD_{} beyond 2^20 count as 2^20, and what is no number as 0; repair the texture coordinates",
+            attributes.element, look.set
+        ));
     }
     Ok(Some(values))
 }

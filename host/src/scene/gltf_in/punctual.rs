@@ -95,7 +95,8 @@ pub(super) fn read(
     let bounded = data.analytic.iter().filter(|light| light.range.is_some()).count();
     if bounded > 0 {
         document.warn(format!(
-            "{bounded} lights ({NAME}) have a range, which is not looked at: they light what lies beyond too"
+            "{bounded} lights ({NAME}) have a range, which is not applied: light falls off by the square of the distance alone, and what lies \
+             beyond is lit too"
         ));
     }
     Ok(())

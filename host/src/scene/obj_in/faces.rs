@@ -100,7 +100,7 @@ pub(super) fn read(
             }
             "f" => {
                 let part = *part.get_or_insert_with(|| reading.part(&object, &group, &material));
-                reading.face(line, rest, part)?;
+                reading.face(line, rest, part, notes)?;
             }
             "o" => {
                 (object, group) = (rest.to_owned(), String::new());
@@ -211,6 +211,27 @@ impl Corners<'_> {
     }
 }
 
+/// What a corner names.
+struct Index {
+    what: &'static str,
+    /// As it stands in the file.
+    number: i64,
+    /// How many there are before it.
+    count: i64,
+    /// From 0, where there is such a one.
+    found: Option<u32>,
+}
+
+impl Index {
+    fn there(self, file: &str, line: u32) -> Result<u32, SceneError> {
+        let Self {
+            what, number, count, ..
+        } = self;
+        let problem = || format!("it refers to {what} {number}, but there are only {count} before it");
+        self.found.ok_or_else(|| wrong(file, line, problem(), REPAIR))
+    }
+}
+
 impl Reading<'_> {
     /// The place in `parts` of what a group has of a material.
     fn part(&mut self, object: &str, group: &str, material: &str) -> usize {
@@ -237,11 +258,14 @@ impl Reading<'_> {
         part
     }
 
-    fn face(&mut self, line: u32, rest: &str, part: usize) -> Result<(), SceneError> {
+    fn face(&mut self, line: u32, rest: &str, part: usize, notes: &mut Notes) -> Result<(), SceneError> {
         let mut corners = std::mem::take(&mut self.corners);
         corners.clear();
+        let mut lacks_normals = false;
         for word in rest.split_ascii_whitespace() {
-            corners.push(self.corner(line, word)?);
+            let (corner, lacks_normal) = self.corner(line, word)?;
+            corners.push(corner);
+            lacks_normals |= lacks_normal;
             if corners.len() > MAX_CORNERS {
                 let problem = format!("the face has more than {MAX_CORNERS} vertices");
                 return Err(wrong(self.file, line, problem, "split it"));
@@ -250,6 +274,13 @@ impl Reading<'_> {
         if corners.len() < 3 {
             let problem = format!("a face has {} vertices, expected at least 3", corners.len());
             return Err(wrong(self.file, line, problem, REPAIR));
+        }
+        if lacks_normals {
+            let file = Rc::clone(self.file);
+            notes.add(
+                &Place { file, line },
+                "faces that name normals that are not before them are read without normals; export the file again, or with its normals",
+            );
         }
         let faces = &mut self.parts[part].1;
         for pair in corners[1..].windows(2) {
@@ -278,16 +309,21 @@ impl Reading<'_> {
         Ok(())
     }
 
-    /// `vertex`, `vertex/texture`, `vertex//normal` or `vertex/texture/normal`.
-    fn corner(&self, line: u32, word: &str) -> Result<Corner, SceneError> {
+    /// `vertex`, `vertex/texture`, `vertex//normal` or `vertex/texture/normal`; and whether it names a normal that is not there.
+    fn corner(&self, line: u32, word: &str) -> Result<(Corner, bool), SceneError> {
         let mut parts = word.split('/');
-        let mut next = |what: &str, count: usize| match parts.next() {
+        let mut next = |what: &'static str, count: usize| match parts.next() {
             None | Some("") => Ok(None),
             Some(text) => self.index(line, text, what, count).map(Some),
         };
-        let vertex = next("vertex", self.positions.len())?;
+        let there = |index: Index| index.there(self.file, line);
+        let vertex = next("vertex", self.positions.len())?.map(there).transpose()?;
         let texture = next("texture coordinate", self.coordinates.len())?;
-        let normal = next("normal", self.normals.len())?;
+        let texture = texture.map(there).transpose()?;
+        // The shape is whole without it.
+        let named = next("normal", self.normals.len())?;
+        let normal = named.as_ref().and_then(|index| index.found);
+        let lacks_normal = named.is_some() && normal.is_none();
         let missing = || {
             wrong(
                 self.file,
@@ -296,11 +332,11 @@ impl Reading<'_> {
                 REPAIR,
             )
         };
-        Ok((vertex.ok_or_else(missing)?, texture, normal))
+        Ok(((vertex.ok_or_else(missing)?, texture, normal), lacks_normal))
     }
 
-    /// An index from 1, or from -1 for the last one so far, as one from 0.
-    fn index(&self, line: u32, text: &str, what: &str, count: usize) -> Result<u32, SceneError> {
+    /// An index from 1, or from -1 for the last one so far.
+    fn index(&self, line: u32, text: &str, what: &'static str, count: usize) -> Result<Index, SceneError> {
         let number: i64 = text.parse().map_err(|_| {
             let problem = format!("`{}` is no index of a {what}", shown(text));
             wrong(self.file, line, problem, REPAIR)
@@ -311,11 +347,21 @@ impl Reading<'_> {
         } else {
             number - 1
         };
-        if !(0..count).contains(&index) {
-            let problem = format!("it refers to {what} {number}, but there are only {count} before it");
-            return Err(wrong(self.file, line, problem, REPAIR));
+        let found = u32::try_from(index).ok().filter(|_| index < count);
+        if found.is_none() && (0..count).contains(&index) {
+            return Err(wrong(
+                self.file,
+                line,
+                "it has too many vertices",
+                "split the file",
+            ));
         }
-        u32::try_from(index).map_err(|_| wrong(self.file, line, "it has too many vertices", "split the file"))
+        Ok(Index {
+            what,
+            number,
+            count,
+            found,
+        })
     }
 
     /// A node for each group, a primitive for each of its materials.

@@ -78,6 +78,8 @@ pub(super) struct Library {
     pub glows: HashMap<String, Glow>,
     shared: Glows,
     pictures: Pictures,
+    /// What was left out of materials since it was said last, a sentence each.
+    problems: Vec<&'static str>,
 }
 
 impl Library {
@@ -149,6 +151,9 @@ impl Library {
         for problem in self.pictures.take_unshown() {
             notes.add(place, problem);
         }
+        for problem in self.problems.drain(..) {
+            notes.add(place, problem);
+        }
     }
 
     fn close(&mut self, entry: Option<(String, Entry)>) {
@@ -192,6 +197,12 @@ impl Library {
                 .keep(&map.path, opacity.map(|opacity| opacity.path.as_path()))?;
             Some(shown(kept, &map.placing))
         });
+        let lies_alone = |opacity: &Map| base.is_some_and(|base| base.placing != opacity.placing);
+        if base_texture.is_some() && opacity.is_some_and(lies_alone) {
+            self.problems.push(
+                "options `-s`, `-o` and `-clamp` of `map_d` that `map_Kd` does not have are left out: what is cut out lies as the colours do",
+            );
+        }
         let glow_texture = entry
             .emission_map
             .as_ref()

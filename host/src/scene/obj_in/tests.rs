@@ -164,10 +164,11 @@ fn errors_name_the_line() {
         ("v 0 0 0\nf 1 / 1\n", "line 2", "`/` names no vertex"),
         ("v 0 0 0\nf a b c\n", "line 2", "`a` is no index of a vertex"),
         (
-            "v 0 0 0\nf 1//1 1 1\n",
+            "v 0 0 0\nf 1/1 1 1\n",
             "line 2",
-            "normal 1, but there are only 0",
+            "texture coordinate 1, but there are only 0",
         ),
+        ("v 0 0 0\nf 1//x 1 1\n", "line 2", "`x` is no index of a normal"),
     ];
     for (obj, line, problem) in cases {
         let error = Scene::read_obj_slice("x.obj", obj.as_bytes(), None)
@@ -182,6 +183,29 @@ fn errors_name_the_line() {
     assert!(error.to_string().contains("room.mtl, line 2"), "{error}");
     let error = read("negative", ROOM, &LIBRARY.replace("Ke 4", "Ke -4")).expect_err("negative light");
     assert!(error.to_string().contains("light cannot be negative"), "{error}");
+}
+
+/// Files of some exporters name normals that they leave out. Of a face with some of them none counts: which side emits is its front.
+#[test]
+fn faces_that_name_missing_normals_are_read_without() {
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nf 1//1 2//2 3//1\nf 1//9 2//9 3//9\nf 1//-2 2//1 3//1\n";
+    let scene = Scene::read_obj_slice("x.obj", obj.as_bytes(), None).expect("valid");
+    assert_eq!(scene.triangle_count(), 3);
+    let warnings = scene.warnings();
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    assert!(
+        warnings[0].starts_with("faces that name normals that are not before them are read without normals")
+            && warnings[0].ends_with("(3 times, first in x.obj, line 5)"),
+        "{warnings:?}"
+    );
+    let lamp = |normal: &str| {
+        let obj = format!(
+            "mtllib room.mtl\nusemtl glow\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nf 1//1 2//1 3//{normal}\n"
+        );
+        read("normals", &obj, LIBRARY).expect("valid").frame(0).emissive[0].p
+    };
+    let ([_, b, c], [_, d, e]) = (lamp("1"), lamp("2"));
+    assert_eq!((b, c), (e, d), "the normals that are there turn the lamp");
 }
 
 #[test]
@@ -285,9 +309,20 @@ fn colours_opacities_and_options_of_maps() {
     let shape = png(1, &[WHITE, BLACK]);
     let mtl =
         "newmtl sign\nKd 0.5 1 1\nmap_Kd -clamp on -s 2 3 1 -o 0.25 0.5 -bm 1 leaf.png\nmap_d shape.png\n";
-    let scene = painted("leaf", mtl, &[("leaf.png", &leaf), ("shape.png", &shape)]);
+    let files: [(&str, &[u8]); 2] = [("leaf.png", &leaf), ("shape.png", &shape)];
+    let scene = painted("leaf", mtl, &files);
     let data = scene.data();
-    assert_eq!(scene.warnings(), &[] as &[String]);
+    // The shape lies as the colours do, though it has not their options, or others.
+    let others = mtl.replace("map_d shape", "map_d -s 4 4 shape");
+    for scene in [&scene, &painted("leaf-others", &others, &files)] {
+        let warnings = scene.warnings();
+        assert!(
+            warnings.len() == 1 && warnings[0].contains("`map_d`") && warnings[0].contains("`-s`"),
+            "{warnings:?}"
+        );
+    }
+    let same = mtl.replace("map_d shape", "map_d -clamp on -s 2 3 1 -o 0.25 0.5 shape");
+    assert_eq!(painted("leaf-same", &same, &files).warnings(), &[] as &[String]);
     let paint = data.materials[0].paint.expect("a picture");
     assert_eq!(paint.base, [0.5, 1.0, 1.0, 1.0]);
     assert_eq!(paint.opacity, Opacity::Cut(0.5));

@@ -7,7 +7,7 @@ use super::super::transform::Affine;
 use super::params::Params;
 use super::state::{Loader, Placed, Scope};
 use super::token::{Lexer, Token};
-use super::{REPAIR, matrix, shown, wrong};
+use super::{REPAIR, known, matrix, shown, wrong};
 
 /// Most parameters by `Attribute` that hold at once.
 const MAX_ATTRIBUTES: usize = 256;
@@ -165,6 +165,7 @@ impl Loader<'_> {
                 let _kind = lexer.string()?;
                 let class = lexer.string()?;
                 let params = self.params(lexer, "texture")?;
+                self.note_unknown("Texture", &class, &params);
                 self.texture(name, &class, &params);
             }
             "Option" => {
@@ -226,6 +227,7 @@ impl Loader<'_> {
             _ => "",
         };
         let params = self.params(lexer, target)?;
+        self.note_unknown(word, &name, &params);
         match word {
             "Camera" => self.camera(&name, &params),
             "Film" => self.film(&params),
@@ -250,6 +252,21 @@ impl Loader<'_> {
             .filter(|(of, _)| of == target)
             .map(|(_, param)| param);
         Params::read(lexer, own)
+    }
+
+    /// Names parameters that the directive does not have.
+    fn note_unknown(&mut self, directive: &str, kind: &str, params: &Params) {
+        for param in params.own() {
+            if !known::is_known(directive, kind, &param.name) {
+                self.note(
+                    &params.place,
+                    format!(
+                        "ignored parameter `{}` of {directive}: it has none of that name; correct the name",
+                        shown(&param.name)
+                    ),
+                );
+            }
+        }
     }
 
     fn set(&mut self, map: Affine) {

@@ -11,7 +11,7 @@
 //! - perspective cameras. pbrt's cameras are left-handed: z is mirrored where the camera is, so that the picture is not;
 //! - materials, as near as two lobes come to them; pictures of their colours, other textures as their means. Surfaces of glass and of none are left out.
 //!
-//! What is not read is named in [`super::SceneData::warnings`], once for each kind.
+//! What is not read is named in [`super::SceneData::warnings`], once for each kind; so are parameters that no directive has.
 
 mod area;
 mod camera;
@@ -20,6 +20,7 @@ mod directive;
 mod equal_area;
 mod finish;
 mod infinite;
+mod known;
 mod light;
 mod material;
 mod matrix;

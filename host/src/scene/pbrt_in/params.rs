@@ -22,6 +22,8 @@ pub(super) struct Param {
 #[derive(Clone, Debug)]
 pub(super) struct Params {
     list: Vec<Rc<Param>>,
+    /// How many of them, the first ones, are the directive's own.
+    own: usize,
     pub place: Place,
 }
 
@@ -54,8 +56,14 @@ impl Params {
             }
             list.push(Rc::new(param));
         }
+        let own = list.len();
         list.extend(defaults.cloned());
-        Ok(Self { list, place })
+        Ok(Self { list, own, place })
+    }
+
+    /// Those that stand at the directive itself.
+    pub fn own(&self) -> &[Rc<Param>] {
+        &self.list[..self.own]
     }
 
     /// All of them.

@@ -32,6 +32,30 @@ pub(super) struct Surface {
     pub per_light: usize,
 }
 
+impl Surface {
+    /// Coordinates as pbrt has them of meshes that do not say any: of each triangle (0, 0), (1, 0), (1, 1), of each patch its own corners. Every
+    /// triangle gets vertices of its own.
+    fn lie_by_default(&mut self) {
+        const LOWER: [[f32; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
+        const UPPER: [[f32; 2]; 3] = [[0.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let is_patch = self.per_light == 2;
+        let corners = self.triangles.as_flattened().iter();
+        self.positions = corners
+            .clone()
+            .map(|&vertex| self.positions[vertex as usize])
+            .collect();
+        if !self.normals.is_empty() {
+            self.normals = corners.map(|&vertex| self.normals[vertex as usize]).collect();
+        }
+        self.coordinates = (0..self.triangles.len())
+            .flat_map(|t| if is_patch && t % 2 == 1 { UPPER } else { LOWER })
+            .collect();
+        for (triangle, first) in self.triangles.iter_mut().zip((0..).step_by(3)) {
+            *triangle = [first, first + 1, first + 2];
+        }
+    }
+}
+
 impl Loader<'_> {
     /// `Shape "kind"`.
     pub fn shape(&mut self, kind: &str, params: &Params) -> Result<(), SceneError> {
@@ -151,10 +175,11 @@ impl Loader<'_> {
     fn ply_mesh(&mut self, params: &Params) -> Result<(), SceneError> {
         let file = params.string("filename").unwrap_or_default();
         let Some(path) = resolve(self.folder, file) else {
-            self.note(
-                &params.place,
-                "meshes in files are left out, as there is no folder to look in",
-            );
+            let problem = match file {
+                "" => "a `plymesh` has no `filename`, and is left out; name a file",
+                _ => "meshes in files are left out, as there is no folder to look in",
+            };
+            self.note(&params.place, problem);
             return Ok(());
         };
         let mesh = match self.meshes.entry(Rc::clone(&path)) {
@@ -212,6 +237,11 @@ impl Loader<'_> {
             return Ok(());
         }
         self.count(surface.triangles.len())?;
+        let is_painted = self.data.materials[graphics.material as usize].paint.is_some();
+        let shows_picture = is_painted && graphics.area.is_none();
+        if shows_picture && surface.coordinates.is_empty() {
+            surface.lie_by_default();
+        }
         // Vertices that no triangle has take memory too.
         self.count(surface.positions.len() / 4)?;
         if graphics.area.is_some() {
@@ -227,17 +257,16 @@ impl Loader<'_> {
             self.note(place, "texture coordinates beyond 2^20 are left out");
             surface.coordinates.clear();
         }
-        let is_painted = self.data.materials[graphics.material as usize].paint.is_some();
         if is_painted && (surface.coordinates.is_empty() || graphics.area.is_some()) {
             self.note(
                 place,
-                "surfaces without texture coordinates, and those that shine, show the mean colours of their pictures",
+                "surfaces that shine, and those whose texture coordinates are left out, show the mean colours of their pictures",
             );
         }
         let mut primitive = Primitive {
             material: graphics.material,
             // What emits shows no pictures.
-            coordinates: (is_painted && !surface.coordinates.is_empty() && graphics.area.is_none())
+            coordinates: (shows_picture && !surface.coordinates.is_empty())
                 .then(|| std::mem::take(&mut surface.coordinates)),
             ..Primitive::default()
         };

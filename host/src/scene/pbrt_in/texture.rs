@@ -175,6 +175,9 @@ impl Loader<'_> {
         let scale = params.number("scale").unwrap_or(1.0);
         let mean = match resolve(self.folder, &file) {
             Some(path) => self.pictures.mean(&path, encoding),
+            None if file.is_empty() => Err(String::from(
+                "an `imagemap` has no `filename`; name a picture, or remove the texture",
+            )),
             None => Err(String::from("there is no folder to look in")),
         };
         match mean {

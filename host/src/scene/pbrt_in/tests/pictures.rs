@@ -88,8 +88,8 @@ fn what_cannot_be_shown_keeps_its_mean() {
     };
     assert_eq!(of(0), (false, [0.5; 3], [0.0; 3]));
     assert_eq!(of(1), (false, [0.75; 3], [0.0; 3]));
-    // Without coordinates nothing lies anywhere; what emits shows no picture.
-    assert_eq!(of(2), (false, [0.5; 3], [0.0; 3]));
+    // Without coordinates it lies by pbrt's own; what emits shows no picture.
+    assert_eq!(of(2), (true, [0.5; 3], [0.0; 3]));
     assert_eq!(of(3), (false, [0.5; 3], [1.0, 2.0, 3.0]));
     let warnings = scene.warnings().join("\n");
     for part in ["inverted", "brighter"] {
@@ -162,4 +162,79 @@ fn cameras_and_powers_that_mean_nothing_are_named() {
             .join("\n");
         assert!(warnings.contains("not above 0"), "{light}: {warnings}");
     }
+}
+
+/// pbrt-v4, `Triangle::Intersect` and `BilinearPatch`: (0, 0), (1, 0), (1, 1) where a mesh has no `uv`, and a patch its corners.
+#[test]
+fn meshes_without_coordinates_lie_as_in_pbrt() {
+    let scene = scene(
+        "default-uv",
+        "Texture \"bricks\" \"spectrum\" \"imagemap\" \"string filename\" \"bricks.png\"
+         Material \"diffuse\" \"texture reflectance\" \"bricks\"
+         Shape \"trianglemesh\" \"point3 P\" [0 0 0 2 0 0 2 2 0 0 2 0] \"integer indices\" [0 1 2 0 2 3]
+         Shape \"bilinearmesh\" \"point3 P\" [0 0 1 2 0 1 0 2 1 2 2 1]
+         ReverseOrientation
+         Shape \"trianglemesh\" \"point3 P\" [0 0 0 2 0 0 2 2 0]\n",
+    );
+    assert_eq!(scene.warnings(), &[] as &[String]);
+    let of = |mesh: usize| -> Vec<([f32; 3], [f32; 2])> {
+        let primitive = &scene.data().meshes[mesh].primitives[0];
+        let lies = primitive.coordinates.as_ref().expect("where it lies");
+        let vertices = primitive.triangles.as_flattened().iter();
+        vertices
+            .map(|&vertex| (primitive.positions[vertex as usize], lies[vertex as usize]))
+            .collect()
+    };
+    let [a, b, c, d] = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]];
+    let [first, second, third] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
+    let both = [
+        (a, first),
+        (b, second),
+        (c, third),
+        (a, first),
+        (c, second),
+        (d, third),
+    ];
+    assert_eq!(of(0)[..], both);
+    // A patch: each corner has its own place, whichever half it is of.
+    for ([x, y, _], uv) in of(1) {
+        assert_eq!([x / 2.0, y / 2.0], uv);
+    }
+    // Turned over, and each vertex where it was.
+    assert_eq!(of(2)[..], [(a, first), (c, third), (b, second)]);
+}
+
+/// pbrt refuses them; here they are named.
+#[test]
+fn misspelt_parameters_and_missing_files_are_named() {
+    let scene = read(&format!(
+        "Camera \"perspective\" \"float fov_\" 30 \"float lensradius\" 0
+         WorldBegin
+         LightSource \"point\" \"rgb I\" [1 1 1] \"point3 form\" [0 0 1]
+         Texture \"bricks\" \"spectrum\" \"imagemap\"
+         Texture \"noise\" \"float\" \"fbm\" \"integer octave\" 3
+         Material \"diffuse\" \"texture reflectance\" \"bricks\" \"rgb Reflectance\" [1 0 0]
+         Attribute \"shape\" \"float radius\" 3
+         Shape \"plymesh\"
+         Shape \"sphere\" \"float zman\" 1
+         {TRIANGLE}"
+    ));
+    let warnings = scene.warnings().join("\n");
+    for part in [
+        "ignored parameter `fov_` of Camera: it has none of that name; correct the name (x.pbrt, line 1)",
+        "ignored parameter `form` of LightSource",
+        "ignored parameter `octave` of Texture",
+        "ignored parameter `Reflectance` of Material",
+        "ignored parameter `zman` of Shape",
+        "a texture is taken as grey: an `imagemap` has no `filename`",
+        "a `plymesh` has no `filename`",
+    ] {
+        assert!(warnings.contains(part), "{part}: {warnings}");
+    }
+    // What `Attribute` says for all shapes counts for those that have it, and is no mistake of the others.
+    assert!(
+        !warnings.contains("`radius`") && !warnings.contains("folder"),
+        "{warnings}"
+    );
+    assert_eq!(warnings.matches("ignored").count(), 5, "{warnings}");
 }

@@ -1,0 +1,239 @@
+//! A scene that no triangle lights: what its lights are, the tree over all of their kinds, and whether that tree serves.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use lightbvh::exact::hash;
+use lightbvh::importance::DefaultImportance;
+use lightbvh::light::{AnyLight, Light};
+use lightbvh::node::{Holds, Lit, Node};
+use lightbvh::requirements::{Declared, LightKinds};
+use lightbvh::{BuildParams, Lights, MomentNode, ShadingPoint};
+use lightbvh_kernels::bvh::{AnyNode, WIDTH};
+use serde::Serialize;
+use serde_json::json;
+
+use super::motion::Motion;
+use super::options::Args;
+use super::report::line;
+use super::surfaces::Surfaces;
+use super::{MOST_PROBABILITIES, declared};
+use crate::cli::times::ms;
+use crate::cli::trade::quantile::Interval;
+use crate::cli::variance::{kinds::irradiance_of, points};
+use crate::cli::{Context, Outcome, table};
+use crate::error::HostError;
+use crate::metrics::mean;
+use crate::scene::{Instances, Scene};
+use crate::workload::lights_of;
+
+/// Turns of timing, and about how many samples are taken in one.
+const TURNS: u32 = 21;
+const SAMPLES_IN_A_TURN: u32 = 40_000;
+
+/// Without beams: for scenes none of whose lights has a cone.
+type Plain = Lit<MomentNode<WIDTH>, AnyLight>;
+
+/// What was found of a tree.
+#[derive(Serialize)]
+struct Checked {
+    /// The invariant that does not hold, if any.
+    violation: Option<String>,
+    /// Points that probabilities were asked for at, and how many were asked for.
+    points: usize,
+    probabilities: usize,
+    /// How many lights that send light to a point are never chosen there.
+    unreached: usize,
+    /// Mean over the points of the relative variance of one sample.
+    variance: f64,
+    nodes: usize,
+    depth: u32,
+    bytes_per_light: f64,
+    memory_per_light: f64,
+    ns_per_sample: Interval,
+}
+
+impl Checked {
+    fn holds(&self) -> bool {
+        self.violation.is_none() && self.unreached == 0
+    }
+}
+
+/// The whole command for such a scene.
+pub(super) fn run(context: &Context, args: &Args, scene: &Scene) -> Result<Outcome, HostError> {
+    let parts = ["layout", "levels", "uniform share", "updates"];
+    if args.width.is_some() || parts.iter().any(|part| args.asks_for(part)) {
+        return Err(HostError::Usage {
+            option: "--layout, --levels, --width, --uniform or --updates",
+            needs: "a scene with emissive triangles; over lights of other kinds there is one tree to choose",
+        });
+    }
+    let motion = Motion::of::<AnyNode>(scene)?;
+    let surfaces = Surfaces::of(scene);
+    let declared = declared(args, &motion, &surfaces);
+    // What is refitted is looked at after a refit.
+    let moved = args.frame + u32::from(declared.changes.transforms);
+    let lights = lights_of::<AnyLight>(scene, moved)?;
+    let most = MOST_PROBABILITIES / lights.triangles().len().max(1);
+    let count = args.points.min((most as u32).max(1));
+    let points = points::on_surfaces(scene, moved, count);
+    let kinds = LightKinds::of(lights.triangles());
+    let checked = match kinds.narrow {
+        0 => check::<Plain>(scene, [args.frame, moved], &lights, &points)?,
+        _ => check::<AnyNode>(scene, [args.frame, moved], &lights, &points)?,
+    };
+    let tree = format!("Bvh<{}, Defensive<Moments, 6>, {WIDTH}>", kinds.node_type(WIDTH));
+    if context.json {
+        table::print_json(&json!({
+            "scene": args.scene, "frame": args.frame, "checked_frame": moved, "lights": lights.triangles().len(),
+            "kinds": { "said": kinds.said(), "narrow": kinds.narrow, "light": kinds.light_type(), "node": kinds.node_type(WIDTH) },
+            "suns": scene.sun_count(), "environment": scene.data().environment.is_some(),
+            "motion": motion, "surfaces": surfaces, "tree": tree, "checked": checked, "holds": checked.holds(),
+        }))?;
+    } else {
+        let about = About {
+            scene,
+            args,
+            declared,
+            motion: &motion,
+            surfaces,
+            kinds,
+        };
+        table::print_text(&about.said(lights.triangles().len(), &tree, moved, &checked))?;
+    }
+    Ok(Outcome::good_if(checked.holds()))
+}
+
+/// What the text is about.
+struct About<'a> {
+    scene: &'a Scene,
+    args: &'a Args,
+    declared: Declared,
+    motion: &'a Motion,
+    surfaces: Surfaces,
+    kinds: LightKinds,
+}
+
+impl About<'_> {
+    fn said(&self, lights: usize, tree: &str, moved: u32, checked: &Checked) -> String {
+        let Self { scene, kinds, .. } = self;
+        let [gloss, masks] = self.surfaces.said();
+        let mut text = format!(
+            "{} in frame {}, lit by {}\n\nwhat it requires\n",
+            self.args.scene,
+            self.args.frame,
+            scene.other_lights()
+        );
+        let of_tree = match lights {
+            0 => String::from("none; what lights the scene stands beside trees"),
+            _ => format!(
+                "{}; {} of them send their light into a cone of less than 90 degrees",
+                kinds.said(),
+                kinds.narrow
+            ),
+        };
+        text += &line("lights of a tree", &of_tree);
+        if scene.sun_count() > 0 || scene.data().environment.is_some() {
+            text += &line(
+                "beside it",
+                "suns and environment maps (lightbvh::light::infinite)",
+            );
+        }
+        let Declared { changes, glossy, pmf } = self.declared;
+        text += &line("changes", &table::yes(changes.any()));
+        text += &line("glossy receivers", &format!("{}: {gloss}", table::yes(glossy)));
+        text += &line("pmf of given lights", &table::yes(pmf));
+        text += &line("masks", &masks);
+        text += &line("animation", &self.motion.said());
+        text += &format!("\na tree over its lights: {tree}, two levels\n");
+        let refitted = match moved == self.args.frame {
+            true => String::new(),
+            false => format!(" in frame {moved}, after a refit"),
+        };
+        text += &match &checked.violation {
+            None => format!("every invariant holds{refitted}\n"),
+            Some(violation) => {
+                format!("{violation}{refitted}: this is a fault of lightbvh; please report it\n")
+            }
+        };
+        let memory = format!(
+            "{} nodes, {} deep; {:.1} bytes per light that sampling reads, {:.1} in all arrays",
+            checked.nodes, checked.depth, checked.bytes_per_light, checked.memory_per_light
+        );
+        text += &match checked.points {
+            0 => format!("there is no surface that is shown, so nothing was asked\n{memory}\n"),
+            points => format!(
+                "{} probabilities from {points} points on surfaces: {} lights that send light there are never chosen; variance of one sample {:.4}\n\
+                 {memory}, {:.0} ns per sample\n",
+                checked.probabilities, checked.unreached, checked.variance, checked.ns_per_sample.median
+            ),
+        };
+        text
+    }
+}
+
+/// Builds the tree in the first of the frames, moves it to the second, and asks it.
+fn check<N: Node<WIDTH> + Holds<Light = AnyLight>>(
+    scene: &Scene,
+    [first, moved]: [u32; 2],
+    lights: &Lights<AnyLight>,
+    points: &[ShadingPoint],
+) -> Result<Checked, HostError>
+where
+    DefaultImportance: lightbvh::ImportanceModel<N, WIDTH>,
+{
+    let refused = |error| HostError::in_frame(scene.name(), moved, error);
+    let (mut bvh, mut instances) =
+        Instances::<AnyLight>::new::<N, DefaultImportance, WIDTH>(scene, first, BuildParams::default())
+            .map_err(refused)?;
+    bvh.apply(instances.edits(scene, moved)).map_err(refused)?;
+    bvh.refit();
+    let lights = lights.triangles();
+    let (mut unreached, mut variances) = (0, Vec::new());
+    for point in points {
+        let (mut sum, mut square) = (0.0, 0.0);
+        for (number, light) in (0..).zip(lights) {
+            let sent = irradiance_of(light, point);
+            if sent > 0.0 {
+                let pmf = f64::from(bvh.pmf(point, number, light.mesh()));
+                unreached += usize::from(pmf <= 0.0);
+                sum += sent;
+                square += sent * sent / pmf;
+            }
+        }
+        if sum > 0.0 {
+            // Below zero by rounding only, where one light counts.
+            variances.push((square / (sum * sum) - 1.0).max(0.0));
+        }
+    }
+    let passes = SAMPLES_IN_A_TURN.div_ceil((points.len() as u32).max(1));
+    let times = (0..TURNS).map(|turn| {
+        let (start, mut sum) = (Instant::now(), 0.0);
+        for pass in 0..passes {
+            for (point, k) in points.iter().zip(0_u32..) {
+                sum += bvh
+                    .sample(
+                        point,
+                        hash(hash(turn) ^ pass.wrapping_mul(points.len() as u32).wrapping_add(k)),
+                    )
+                    .pmf;
+            }
+        }
+        black_box(sum);
+        1e6 * ms(start.elapsed()) / (f64::from(passes) * points.len().max(1) as f64)
+    });
+    let ns_per_sample = Interval::of(times.collect());
+    let per_light = |bytes: usize| bytes as f64 / lights.len().max(1) as f64;
+    Ok(Checked {
+        violation: bvh.validate().err().map(|violation| violation.to_string()),
+        points: points.len(),
+        probabilities: points.len() * lights.len(),
+        unreached,
+        variance: mean(&variances),
+        nodes: bvh.nodes().len(),
+        depth: bvh.depth(),
+        bytes_per_light: per_light(bvh.bytes()),
+        memory_per_light: per_light(bvh.memory()),
+        ns_per_sample,
+    })
+}
