@@ -12,7 +12,7 @@ mod meshes;
 mod queue;
 mod worker;
 
-use alloc::collections::VecDeque;
+use alloc::collections::BTreeSet;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
@@ -20,6 +20,7 @@ use core::time::Duration;
 
 use self::clock::Clock;
 use self::meshes::Meshes;
+use self::queue::Queue;
 use self::worker::{Built, Job, Product, Worker, build};
 use crate::bvh::{Bvh, RebuildParams, Search, Taken, Trails};
 use crate::node::{DefaultNode, Holds, Node};
@@ -153,11 +154,14 @@ pub struct Rebuilder<N: Holds = DefaultNode, const W: usize = 8> {
     taken: Option<Taken>,
     /// For the next part of a large top level.
     search: Search,
-    /// Instances that are to be opened, or closed, and of which light BVH.
-    reopening: VecDeque<(u32, bool)>,
+    /// Instances that are to be opened, those `to_open`, or closed, and of which light BVH.
+    reopening: Queue,
+    to_open: BTreeSet<u32>,
     /// Those that were.
     reopened: Vec<u32>,
     reopens: Option<Taken>,
+    /// Frames since there was time for any.
+    held: u32,
     /// Whether small meshes that are many had the last turn.
     is_tops_turn: bool,
     /// How a worker is started.
@@ -166,6 +170,8 @@ pub struct Rebuilder<N: Holds = DefaultNode, const W: usize = 8> {
 
 /// Instances that a frame opens or closes.
 const REOPENED: usize = 2;
+/// Frames in a row in which none is, for parts of a large top level come in.
+const HELD: u32 = 3;
 
 /// A rebuild under way.
 #[derive(Debug)]
@@ -193,9 +199,11 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
             meshes: Meshes::default(),
             taken: None,
             search: Search::default(),
-            reopening: VecDeque::new(),
+            reopening: Queue::default(),
+            to_open: BTreeSet::new(),
             reopened: Vec::new(),
             reopens: None,
+            held: 0,
             is_tops_turn: false,
             start: Worker::start,
         }
@@ -212,6 +220,12 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
     #[must_use]
     pub fn is_busy(&self) -> bool {
         self.flight.is_some() || self.meshes.is_busy() || !self.reopening.is_empty()
+    }
+
+    /// How many instances wait for being opened or closed.
+    #[cfg(test)]
+    pub(crate) fn waiting_to_reopen(&self) -> usize {
+        self.reopening.len()
     }
 
     /// Swaps in what is due. Comes before the frame's [`Bvh::apply`] or after it, but before its [`Bvh::plan`] and [`Bvh::refit`],
@@ -235,9 +249,10 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
         let flight = self.begin_flight(scene, &mut start);
         let most = match start.swapped {
             false => REOPENED,
-            true if scene.is_top_large() => 0,
+            true if scene.is_top_large() && self.held < HELD => 0,
             true => 1,
         };
+        self.held = if most == 0 { self.held + 1 } else { 0 };
         let closed = scene.close_for_stages(most);
         self.reopen_some(scene, most - closed);
         flight?;
@@ -289,10 +304,13 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
                 .install_as(rebuilt, false)
                 .map_err(|_| RebuildError::Foreign)?;
             self.meshes.note_lost(unfit);
-            for (opens, those) in [true, false].into_iter().zip(wanted) {
-                self.reopening
-                    .extend(those.into_iter().map(|index| (index, opens)));
+            let [open, close] = wanted;
+            for &index in open.iter().chain(&close) {
+                self.reopening.push(index);
             }
+            // What is wanted last counts.
+            close.iter().for_each(|index| _ = self.to_open.remove(index));
+            self.to_open.extend(open);
             self.reopens = Some(scene.now());
         }
         self.taken = taken;
@@ -302,14 +320,16 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
     }
 
     /// Opens or closes some of the instances that a rebuilt top level asks it for: as many parts go and come as a node has children, and each is put
-    /// in where it costs least, which is as long as what else a frame has time for. Not in a frame in which a part of a large top level comes in.
+    /// in where it costs least, which is as long as what else a frame has time for. Where a part of a large top level comes in, one in [`HELD`] frames.
     fn reopen_some<I, T: Trails>(&mut self, scene: &mut Bvh<N, I, W, T>, most: usize) {
         if self.reopens.is_some_and(|of| !of.is_of_same(scene.now())) {
-            self.reopening.clear();
+            self.reopening = Queue::default();
+            self.to_open.clear();
             self.reopened.clear();
         }
         for _ in 0..most {
-            if let Some((index, opens)) = self.reopening.pop_front() {
+            if let Some(index) = self.reopening.pop() {
+                let opens = self.to_open.remove(&index);
                 if scene.reopen_one(index, opens) {
                     self.reopened.push(index);
                 }

@@ -95,17 +95,22 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 } => {
                     let blas = self.meshes[mesh.index as usize].blas;
                     self.write_triangle_range(blas, first, &triangles);
+                    if triangles.len() == self.blas_len(blas) {
+                        reshaped.push(blas);
+                    }
                 }
                 Edit::RemoveInstance(id) => self.take_instance(id.index),
                 Edit::RemoveMesh(id) => self.take_mesh(id.index),
             }
         }
         if !added.is_empty() && 2 * added.len() >= self.live.len() {
+            self.freshen(&added);
             self.build_top();
         } else {
             let has_new = !added.is_empty() || !brightened.is_empty();
             let usual = if has_new { self.usual_flux() } else { 0.0 };
             let jumped = self.take_jumped(reshaped);
+            self.freshen(&added);
             moved.extend(&jumped);
             self.decide_added(&added);
             brightened.extend(&added);

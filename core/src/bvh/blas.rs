@@ -42,6 +42,8 @@ pub(super) struct Blas {
     pub created: u64,
     /// When what is known of it as a whole changed last.
     pub changed: u64,
+    /// When more than one in 32 of its triangles changed in one frame last.
+    pub stirred: u64,
     /// The tree that is to take its place.
     pub staged: Option<Box<Staged>>,
     /// The stage that made this one.
@@ -58,6 +60,8 @@ pub(super) struct Blas {
     pub outgoing: Option<Outgoing>,
     /// Whether this is such a tree.
     pub is_outgoing: bool,
+    /// Whether all its triangles were set since its nodes were computed.
+    pub is_stale: bool,
 }
 
 impl Blas {
@@ -76,6 +80,7 @@ impl Blas {
             known_flux: KnownFlux::default(),
             created: 0,
             changed: 0,
+            stirred: 0,
             staged: None,
             adopted: 0,
             parts: 0..0,
@@ -84,6 +89,7 @@ impl Blas {
             is_staged_only: false,
             outgoing: None,
             is_outgoing: false,
+            is_stale: false,
         }
     }
 }
@@ -145,6 +151,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     pub(super) fn write_triangles(&mut self, index: u32, triangles: &[N::Light]) {
         self.put_triangles(index, 0, triangles);
         self.changes.new.mark_blas(index);
+        self.blases[index as usize].is_stale = true;
     }
 
     /// Writes those of its triangles that begin with its `first`-th, and marks them for refit.
@@ -155,6 +162,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let range = self.put_triangles(index, first, triangles);
         if range.len() == self.blases[index as usize].triangles.len() {
             self.changes.new.mark_blas(index);
+            self.blases[index as usize].is_stale = true;
         } else {
             self.changes.new.parts.push(range);
         }
@@ -213,6 +221,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         blas.is_unlisted = false;
         blas.misfits.clear();
         blas.unsettled = 0;
+        blas.is_stale = false;
         blas.depth = topology.depth;
         blas.created = created;
         self.roots[index as usize].node = nodes.start;

@@ -42,6 +42,15 @@ impl KnownFlux {
         Some(crate::exact::max(was, phi))
     }
 
+    /// How many times as bright it was, where it blinks.
+    fn was_brighter(self, phi: f32) -> f64 {
+        if self.blinks && self.phi > phi && phi > 0.0 {
+            f64::from(self.phi) / f64::from(phi)
+        } else {
+            1.0
+        }
+    }
+
     /// A word of the format: the flux, the sign telling that it blinks.
     pub fn word(self) -> u32 {
         self.phi.copysign(if self.blinks { -1.0 } else { 1.0 }).to_bits()
@@ -81,6 +90,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 }
             }
         }
+    }
+
+    /// By how much a bottom level was brighter, where it blinks: one that was opened for its light is not closed and opened with it.
+    pub(super) fn was_brighter(&self, blas: u32) -> f64 {
+        let own = &self.blases[blas as usize];
+        own.known_flux.was_brighter(self.root_of(blas).phi())
     }
 
     /// The mean flux of what hangs in the top level, W.

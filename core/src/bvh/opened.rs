@@ -92,15 +92,24 @@ pub(super) fn parts_below<N: Node<W>, const W: usize>(root: &N) -> u32 {
     if is_all && count > 1 { count as u32 } else { 0 }
 }
 
-/// Of the `openable` instances, each with the root of its bottom level, those that are to be opened, and those that are to be closed,
+/// An instance that is opened or could be.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Openable {
+    pub index: u32,
+    instance: Instance,
+    root: BlasRoot,
+    /// By how much its mesh was brighter, where it blinks.
+    was_brighter: f64,
+}
+
+/// Of the `openable` instances those that are to be opened, and those that are to be closed,
 /// the costliest first; at most [`MOST`] of both, so that no frame has much to do for them. All lights together cost `whole`.
-pub(super) fn wanted<N: Node<W>, const W: usize>(
-    whole: f64,
-    openable: &[(u32, Instance, BlasRoot)],
-) -> [Vec<u32>; 2] {
+pub(super) fn wanted<N: Node<W>, const W: usize>(whole: f64, openable: &[Openable]) -> [Vec<u32>; 2] {
     let mut changes: Vec<(f64, u32, bool)> = Vec::new();
-    for (index, instance, root) in openable {
-        let own = cost(&root.summary::<N::Summary>().to_world::<N::Light>(instance));
+    for own in openable {
+        let (index, instance) = (&own.index, &own.instance);
+        let as_is = cost(&own.root.summary::<N::Summary>().to_world::<N::Light>(instance));
+        let own = as_is * own.was_brighter;
         let is_open = instance.part != INVALID;
         let wanted = is_to_open(own, whole, is_open);
         if wanted != is_open {
@@ -117,7 +126,7 @@ pub(super) fn wanted<N: Node<W>, const W: usize>(
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Those of some instances that are opened or could be.
-    pub(super) fn openable(&self, some: impl Iterator<Item = u32>) -> Vec<(u32, Instance, BlasRoot)> {
+    pub(super) fn openable(&self, some: impl Iterator<Item = u32>) -> Vec<Openable> {
         if !self.params.opens {
             return Vec::new();
         }
@@ -125,8 +134,13 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             some.filter(|&index| !self.placed[index as usize].parts.is_empty() || self.can_open(index));
         found
             .map(|index| {
-                let own = self.instances[index as usize];
-                (index, own, self.roots[own.blas as usize])
+                let instance = self.instances[index as usize];
+                Openable {
+                    index,
+                    instance,
+                    root: self.roots[instance.blas as usize],
+                    was_brighter: self.was_brighter(instance.blas),
+                }
             })
             .collect()
     }
@@ -156,7 +170,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// What an instance costs as a whole.
     fn own_cost(&self, index: u32) -> f64 {
-        cost(&self.in_world(index))
+        cost(&self.in_world(index)) * self.was_brighter(self.instances[index as usize].blas)
     }
 
     /// Opens and closes instances that hang nowhere in the top level, by what they cost of `whole`.

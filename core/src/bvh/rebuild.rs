@@ -111,6 +111,8 @@ struct Bottom<L> {
     created: u64,
     range: Range<u32>,
     triangles: Vec<L>,
+    /// What was unsettled of it then.
+    unsettled: u32,
 }
 
 /// What a [`Rebuild`] gives: trees to be swapped in by [`Bvh::install`].
@@ -285,6 +287,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 created: own.created,
                 triangles: self.triangles[range.start as usize..range.end as usize].to_vec(),
                 range,
+                unsettled: own.unsettled,
             }
         });
         Rebuild {
@@ -334,8 +337,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 unfit.push(bottom.blas);
                 continue;
             }
+            let unsettled = self.blases[bottom.blas as usize].unsettled;
             self.place_blas(bottom.blas, topology);
             self.update_root(bottom.blas);
+            self.note_unsettled(bottom.blas, unsettled - bottom.unsettled.min(unsettled));
         }
         let mut room = Quota::default();
         for top in &rebuilt.top {
@@ -353,6 +358,16 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             self.bound_changes();
         }
         Ok((changes, unfit))
+    }
+
+    /// So much of a bottom level changed while its tree was built, which counts as built for it as it is: it may want another at rest.
+    fn note_unsettled(&mut self, blas: u32, unsettled: u32) {
+        self.blases[blas as usize].unsettled = unsettled;
+        if unsettled > 0 {
+            self.epoch += 1;
+            self.blases[blas as usize].changed = self.epoch;
+            self.note_refitted(blas, self.epoch);
+        }
     }
 
     /// Opens or closes one instance beside the frames, unless it is so already; that is still to be [noted](Self::note_reopened).

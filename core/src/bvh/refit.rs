@@ -110,7 +110,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         // Any of them is computed, so the epoch is one later below.
         let parts = self.parts(&pending);
         for &blas in pending.blases.iter().chain(parts.keys()) {
-            self.blases[blas as usize].changed = self.epoch + 1;
+            let changed = parts.get(&blas);
+            let changed = changed.map(|ranges| ranges.iter().map(ExactSizeIterator::len).sum());
+            self.note_changed(blas, changed, self.epoch + 1);
             self.note_refitted(blas, self.epoch + 1);
         }
         let (work, counted) = if is_listed {

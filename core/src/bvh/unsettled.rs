@@ -11,6 +11,9 @@ use crate::summary::Summary;
 pub(super) const MOST: u32 = u32::MAX >> 2;
 /// One in so many triangles must have changed. A tree is made once for that, and only when nothing moves.
 const SHARE: u64 = 32;
+/// And where some go on changing, as what flickers does, one in so many, each time counting.
+#[cfg(feature = "std")]
+const MUCH: u64 = 8;
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Some triangles of bottom level `blas` are about to be these. One that outshines the mean of the mesh, as the last refit saw it, counts as
@@ -38,11 +41,25 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         })
     }
 
-    /// Whether nothing of a bottom level has changed since that epoch.
+    /// So many triangles of a bottom level changed since the refit before, or all.
+    pub(super) fn note_changed(&mut self, blas: u32, triangles: Option<usize>, epoch: u64) {
+        let own = &mut self.blases[blas as usize];
+        own.changed = epoch;
+        own.is_stale &= triangles.is_some();
+        if triangles.is_none_or(|count| count as u64 * SHARE > own.triangles.len() as u64) {
+            own.stirred = epoch;
+        }
+    }
+
+    /// Whether a bottom level has rested since that epoch: nothing of it changed, or it is much of it that is unsettled, and no more than one in [`SHARE`]
+    /// of its triangles changed in any frame.
     #[cfg(feature = "std")]
     pub(crate) fn is_at_rest(&self, blas: u32, since: u64) -> bool {
         let own = self.blases.get(blas as usize);
-        own.is_some_and(|own| own.changed <= since)
+        own.is_some_and(|own| {
+            let is_much = u64::from(own.unsettled) * MUCH >= own.triangles.len() as u64;
+            own.changed <= since || (is_much && own.stirred <= since)
+        })
     }
 }
 

@@ -169,6 +169,30 @@ fn what_only_one_side_does_stays_short() {
     bvh.validate().expect("valid");
 }
 
+/// Refits count what changed, whether they gather their lists themselves or take those of a plan: what is written to a file is the same, and so what a
+/// rebuilder does.
+#[test]
+fn plans_change_nothing_of_what_refits_count() {
+    let (mut bvh, ids) = lamps(600);
+    let words = bvh.to_words();
+    let mut planned = LightBvh::from_words(&words).expect("sound words");
+    for round in 0..20_u32 {
+        for (k, bvh) in [&mut bvh, &mut planned].into_iter().enumerate() {
+            let some = ids.iter().skip(round as usize).step_by(7 + round as usize);
+            let edits = some.map(|id| {
+                let id = bvh.instance_id(id.index()).expect("there");
+                up(id, round as f32 + 0.1 * (id.index() % 9) as f32)
+            });
+            let edits = edits.collect();
+            bvh.apply(edits).expect("moved");
+            (0..k).for_each(|_| _ = bvh.plan());
+            bvh.refit();
+        }
+        assert!(bvh.to_words() == planned.to_words(), "round {round}");
+    }
+    assert!(bvh.top.changes.iter().any(|&changes| changes > 0));
+}
+
 #[test]
 fn a_copy_has_ids_and_rebuilds_of_its_own() {
     let (mut bvh, ids) = lamps(20);

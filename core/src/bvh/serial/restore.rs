@@ -66,6 +66,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 });
             }
             own.changed = self.epoch;
+            own.stirred = self.epoch;
             let nodes = own.nodes.clone();
             for (node, share) in nodes.clone().zip(built) {
                 self.quality[node as usize].built = share;

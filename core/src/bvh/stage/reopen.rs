@@ -45,7 +45,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Whether instances of a bottom level stay closed, for a tree waits for that.
     pub(in crate::bvh) fn stays_closed(&self, blas: u32) -> bool {
         let staged = self.blases[blas as usize].staged.as_ref();
-        staged.is_some_and(|staged| staged.closes.is_some())
+        staged.is_some_and(|staged| staged.closes.is_some() && staged.is_built(self.id.0))
     }
 
     /// Closes at most `most` instances that trees wait for; how many it has.

@@ -130,14 +130,31 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 }
             }
             if jumped.len() > before {
-                let nodes = self.blases[blas as usize].nodes.clone();
-                let (first, range) = (nodes.start, nodes.start as usize..nodes.end as usize);
-                sweep::bottom_sweep(&mut self.nodes[range], first, &self.triangles, &[first]);
-                self.roots[blas as usize] = refit::root(&self.nodes, first);
+                self.sweep_now(blas);
             }
         }
         jumped.sort_unstable();
         jumped
+    }
+
+    /// Where meshes of instances that are added were set as a whole since the last refit, what is known of them is brought up to date: once each
+    /// time, in no more than a part of the time that setting them took.
+    pub(in crate::bvh) fn freshen(&mut self, added: &[u32]) {
+        for &index in added {
+            let blas = self.blas_index(&self.placed[index as usize]);
+            if self.blases[blas as usize].is_stale {
+                self.sweep_now(blas);
+            }
+        }
+    }
+
+    /// Computes a bottom level and its root before the next refit does.
+    fn sweep_now(&mut self, blas: u32) {
+        let nodes = self.blases[blas as usize].nodes.clone();
+        let (first, range) = (nodes.start, nodes.start as usize..nodes.end as usize);
+        sweep::bottom_sweep(&mut self.nodes[range], first, &self.triangles, &[first]);
+        self.roots[blas as usize] = refit::root(&self.nodes, first);
+        self.blases[blas as usize].is_stale = false;
     }
 
     /// Whether an instance whose centre is `center` now, metres, lies farther from where the last refit saw it than the deviation of what its

@@ -8,6 +8,7 @@ use alloc::vec::Vec;
 use super::cut::{Cut, Part};
 use crate::beam::Limits;
 use crate::build::{BuildParams, Topology, build_top};
+use crate::bvh::opened::Openable;
 use crate::bvh::quality::Spread;
 use crate::bvh::{Bvh, Trails, opened};
 use crate::instance::Instance;
@@ -46,7 +47,7 @@ pub(crate) struct TopCopy<N> {
     /// neither side: large lamps would hide what small ones gain.
     cost: f64,
     /// The instances that are opened or could be.
-    openable: Vec<(u32, Instance, BlasRoot)>,
+    openable: Vec<Openable>,
     /// What all lights cost together, where it is more than those of the copy.
     whole: Option<f64>,
 }

@@ -4,6 +4,7 @@ extern crate std;
 
 use std::vec::Vec;
 
+use crate::build::BuildParams;
 use crate::bvh::{RebuildParams, RebuilderParams, Swap};
 use crate::kit::Random;
 use crate::rebuilder::Rebuilder;
@@ -78,8 +79,9 @@ fn what_changed_a_little_at_a_time_gets_one_tree_at_rest() {
         let (mut bvh, mesh) = scene(random, count);
         let own = &mut rebuilder();
         let mut next = 0;
-        let each = count as u32 / 400 + 1;
-        let while_moving = trees(&mut bvh, own, 60, |bvh, _| {
+        // More than one in 32, so it does not rest.
+        let each = count as u32 / 32 + 1;
+        let while_moving = trees(&mut bvh, own, 20, |bvh, _| {
             let some = (0..each).map(|_| lamp(random, 1.0)).collect();
             bvh.set_triangle_range(mesh, next, some).expect("in the mesh");
             next += each;
@@ -103,6 +105,73 @@ fn bright_ones_count_more() {
             .expect("in the mesh");
         bvh.refit();
         assert_eq!(trees(&mut bvh, own, 60, |_, _| {}), expected, "{radiance}");
+    }
+}
+
+/// One triangle that flickers does not keep a mesh from its tree, of which much changed; where little did, it waits for rest.
+#[test]
+fn what_flickers_holds_nothing_up() {
+    for (changed, expected) in [(60, 1), (10, 0)] {
+        let random = &mut Random(12);
+        let (mut bvh, mesh) = scene(random, 320);
+        let own = &mut rebuilder();
+        let some: Vec<_> = (0..changed).map(|_| lamp(random, 1.0)).collect();
+        bvh.set_triangle_range(mesh, 0, some).expect("in the mesh");
+        bvh.refit();
+        let found = trees(&mut bvh, own, 24, |bvh, frame| {
+            let one = bvh.triangles()[bvh.of_mesh(0).triangles.start as usize + 300];
+            let radiance = [1.0 + 0.01 * (frame % 2) as f32; 3];
+            bvh.set_triangle_range(mesh, 300, [EmissiveTriangle { radiance, ..one }].to_vec())
+                .expect("in the mesh");
+        });
+        assert_eq!(found, expected, "{changed}");
+    }
+}
+
+/// What changes while a small tree is built counts for the next one, as with large ones: by edits before the start of the frame in which it
+/// comes in, and in a single level.
+#[test]
+fn what_changes_while_a_small_tree_is_built_counts() {
+    for is_single in [false, true] {
+        let random = &mut Random(13);
+        let all = |random: &mut Random| -> Vec<_> { (0..300).map(|_| lamp(random, 1.0)).collect() };
+        let (mut bvh, mesh) = match is_single {
+            false => scene(random, 300),
+            true => {
+                let lights = all(random);
+                let bvh = LightBvh::single_level(
+                    &crate::Lights::new(lights).expect("lights"),
+                    &BuildParams::default(),
+                );
+                let mesh = bvh.mesh_id(0).expect("there");
+                (bvh, mesh)
+            }
+        };
+        let mut own = Own::new(RebuilderParams {
+            swap: Swap::Deterministic,
+            rebuild: RebuildParams {
+                top: f64::INFINITY,
+                ..RebuildParams::default()
+            },
+            ..RebuilderParams::default()
+        });
+        let mut came = 0;
+        for frame in 0..30 {
+            // The second while the first is being built for.
+            if frame < 2 {
+                bvh.set_triangles(mesh, all(random)).expect("as many");
+            }
+            let before = bvh.of_mesh(0).created;
+            own.begin_frame(&mut bvh).expect("no panic");
+            came += u32::from(bvh.of_mesh(0).created != before);
+            bvh.refit();
+            own.end_frame(&bvh);
+            if frame == 1 {
+                assert_eq!((came, bvh.of_mesh(0).unsettled), (1, 300), "{is_single}");
+            }
+        }
+        assert_eq!((came, bvh.of_mesh(0).unsettled), (2, 0), "{is_single}");
+        assert!(!own.is_busy());
     }
 }
 
@@ -137,11 +206,13 @@ fn files_tell_what_is_still_to_be_tried() {
     bvh.set_triangle_range(mesh, 7, some).expect("in the mesh");
     bvh.refit();
     let nodes = bvh.of_mesh(0).nodes.clone();
+    bvh.blases[0].is_staged_only = true;
     bvh.blases[0].misfits = [nodes.start + 9, nodes.end - 1].to_vec();
     let words = bvh.to_words();
     let mut read = LightBvh::from_words(&words).expect("sound words");
     assert_eq!(read.of_mesh(0).misfits, bvh.of_mesh(0).misfits);
     assert_eq!(read.of_mesh(0).unsettled, 500);
+    assert!(read.of_mesh(0).is_staged_only);
     assert_eq!(read.to_words(), words);
     let (own, other) = (&mut rebuilder(), &mut rebuilder());
     for frame in 0..120 {
@@ -161,7 +232,7 @@ fn files_tell_what_is_still_to_be_tried() {
     // Too many of them, and one that is no node of the mesh.
     let at = words
         .windows(4)
-        .position(|some| some == [500, 2, nodes.start + 9, nodes.end - 1]);
+        .position(|some| some == [500 | 1 << 31, 2, nodes.start + 9, nodes.end - 1]);
     let at = at.expect("they are there");
     for (place, word) in [(at + 1, 65), (at + 2, nodes.end), (at + 3, u32::MAX)] {
         let mut wrong = words.clone();

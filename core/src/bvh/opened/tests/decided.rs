@@ -79,7 +79,7 @@ fn the_costliest_are_opened_first_and_64_at_most() {
     order.sort_by(|a, b| own(b).total_cmp(&own(a)).then(a.cmp(b)));
     order.truncate(64);
     assert_eq!(wanted::<MomentNode<8>, 8>(0.0, &all), [order.clone(), Vec::new()]);
-    all.iter_mut().for_each(|(_, instance, _)| instance.part = 0);
+    all.iter_mut().for_each(|own| own.instance.part = 0);
     let closed = wanted::<MomentNode<8>, 8>(f64::INFINITY, &all);
     assert_eq!(closed, [Vec::new(), order]);
 }

@@ -135,3 +135,71 @@ fn small_meshes_wait_for_their_instances() {
         bvh.validate().expect("valid");
     }
 }
+
+/// Beside lamps that move in every frame, so that a part of a large top level comes in with each, instances are still closed and opened.
+#[test]
+fn frames_in_which_parts_come_in_hold_nothing_up() {
+    let (mut bvh, mesh, others) = scene(12);
+    let lamp = bvh.add_mesh([lamps(3)[0]].to_vec()).expect("a mesh");
+    let random = &mut Random(6);
+    let place = |random: &mut Random| Transform::at((random.vector() * 20.0).to_array());
+    let add = (0..600).map(|_| Edit::AddInstance {
+        mesh: lamp,
+        transform: place(random),
+        radiance: 1.0,
+    });
+    let ids = bvh.apply(add.collect()).expect("instances").instances;
+    bvh.set_triangles(mesh, others).expect("as many");
+    bvh.refit();
+    let mut own: Rebuilder<MomentNode<8>, 8> = Rebuilder::new(RebuilderParams {
+        swap: Swap::Deterministic,
+        ..RebuilderParams::default()
+    });
+    let (mut swapped, mut adopted) = (0, None);
+    for frame in 0..160 {
+        let start = own.begin_frame(&mut bvh).expect("no panic");
+        swapped += u32::from(start.swapped);
+        if start.adopted > 0 {
+            adopted.get_or_insert(frame);
+        }
+        let moves = ids.iter().map(|&instance| Edit::SetTransform {
+            instance,
+            transform: place(random),
+        });
+        bvh.apply(moves.collect()).expect("there");
+        bvh.refit();
+        own.end_frame(&bvh);
+    }
+    assert!(swapped > 140, "{swapped}");
+    assert!(adopted.is_some_and(|frame| frame < 120), "{adopted:?}");
+    // What waits is known once, however often it is wanted.
+    assert!(own.waiting_to_reopen() <= 612);
+}
+
+/// The search for those to be closed begins anew at the end of the list, and none is opened meanwhile, unless nobody builds the tree any more.
+#[test]
+fn none_is_opened_while_a_tree_waits() {
+    let (mut bvh, mesh, others) = scene(40);
+    let mut own: Rebuilder<MomentNode<8>, 8> = Rebuilder::new(RebuilderParams {
+        swap: Swap::Deterministic,
+        ..RebuilderParams::default()
+    });
+    bvh.set_triangles(mesh, others).expect("as many");
+    bvh.refit();
+    while !bvh.stays_closed(0) {
+        own.begin_frame(&mut bvh).expect("no panic");
+        bvh.refit();
+        own.end_frame(&bvh);
+    }
+    let before = bvh.of_mesh(0).opened;
+    if let Some(staged) = &mut bvh.blases[0].staged {
+        staged.closes = Some(40);
+    }
+    assert_eq!(bvh.close_for_stages(2), 0, "the end of the list");
+    assert_eq!(bvh.close_for_stages(2), 2);
+    assert_eq!(bvh.of_mesh(0).opened, before - 2);
+    let closed = (0..40).find(|&k| bvh.placed[k].parts.is_empty()).expect("two") as u32;
+    assert!(!bvh.reopen_one(closed, true));
+    drop(own);
+    assert!(bvh.reopen_one(closed, true));
+}

@@ -176,6 +176,13 @@ fn meshes_whose_vertices_jump_are_put_in_elsewhere() {
         assert!(!set(0.5) && !set(-0.5), "{k}: it sways");
         assert!(set(200.0) && set(-200.0), "{k}: it jumps");
     }
+    // By a range of all of its triangles too.
+    assert!(is_put_elsewhere(&scene, |scene| {
+        let mesh = scene.mesh_id(meshes[7].index()).expect("there");
+        scene
+            .set_triangle_range(mesh, 0, vec![at(7, 200.0)])
+            .expect("in the mesh");
+    }));
     // Words are those of a refit, and where it went it is among its neighbours.
     scene
         .set_triangles(meshes[0], vec![at(999, 0.5)])
@@ -193,6 +200,49 @@ fn meshes_whose_vertices_jump_are_put_in_elsewhere() {
     });
     let near: vec::Vec<_> = is_near.collect();
     assert!(near.contains(&999) && !near.contains(&1), "{near:?}");
+}
+
+/// A lamp whose triangles are set before its first instance comes in, in one call or in two, is put in where it is then, by the whole or
+/// by a range.
+#[test]
+fn instances_come_in_where_their_meshes_are() {
+    for (is_range, is_one_call) in [(false, false), (false, true), (true, false), (true, true)] {
+        let (mut scene, _) = grid(10);
+        let far = |x: f32| triangle([[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x, 1.0, 0.0]]);
+        let mesh = scene.add_mesh(vec![far(-500.0)]).expect("a mesh");
+        let there = scene.add_mesh(vec![far(500.0)]).expect("a mesh");
+        let add = |mesh| Edit::AddInstance {
+            mesh,
+            transform: Transform::IDENTITY,
+            radiance: 1.0,
+        };
+        let beside = scene
+            .apply([add(there), add(there)].to_vec())
+            .expect("added")
+            .instances;
+        scene.refit();
+        let triangles = vec![far(500.5)];
+        let set = match is_range {
+            true => Edit::SetTriangleRange {
+                mesh,
+                first: 0,
+                triangles,
+            },
+            false => Edit::SetTriangles { mesh, triangles },
+        };
+        let added = if is_one_call {
+            scene.apply([set, add(mesh)].to_vec())
+        } else {
+            scene.apply([set].to_vec()).expect("as many");
+            scene.apply([add(mesh)].to_vec())
+        };
+        let id = added.expect("added").instances[0];
+        let node = |id: crate::InstanceId| scene.placed[id.index() as usize].node;
+        assert!(
+            beside.iter().any(|&other| node(other) == node(id)),
+            "{is_range} {is_one_call}"
+        );
+    }
 }
 
 /// Lamps that come on among dim ones are as new to the tree around them as lamps that are added.
