@@ -30,18 +30,18 @@ const FAR_IN: u32 = 4;
 /// It has strayed where a node beside is nearer by this factor of squared distance, and it has come so far itself.
 const NEARER: f64 = 4.0;
 
-/// Triangles of a mesh that is looked at where all of them are set.
+/// Triangles of a mesh that are looked at where all of them are set: of a larger one every second, third or so.
 const JUMPS: usize = 1024;
 /// Part of a mesh's own variance by which its centre may move for it to stay: half of its deviation.
 const SWAYS: f64 = 4.0;
 
-/// The centre of lights by flux, in the space of their mesh; `None` where none has flux.
+/// The centre by flux of lights, or of [`JUMPS`] of them, in the space of their mesh; `None` where none has flux.
 fn center_of<N>(lights: &[N::Light]) -> Option<[f32; 3]>
 where
     N: Holds,
 {
     let (mut phi, mut sum) = (0.0, [0.0; 3]);
-    for light in lights {
+    for light in lights.iter().step_by(lights.len().div_ceil(JUMPS).max(1)) {
         let own = LightMoments::of_light(light);
         let flux = f64::from(own.phi());
         phi += flux;
@@ -104,13 +104,13 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// Of bottom levels whose triangles were all set, which may repeat: the instances that lie far from where they were, in order. What is known of
-    /// their meshes is brought up to date, as the next refit would. Others are looked at no closer: a mesh that sways costs a sum over its
-    /// triangles.
+    /// their meshes is brought up to date, as the next refit would. Others are looked at no closer: a mesh that sways costs a sum over
+    /// some of its triangles.
     pub(in crate::bvh) fn take_jumped(&mut self, mut reshaped: Vec<u32>) -> Vec<u32> {
         let mut jumped = Vec::new();
         reshaped.sort_unstable();
         reshaped.dedup();
-        reshaped.retain(|&blas| self.blas_len(blas) <= JUMPS && !self.single);
+        reshaped.retain(|_| !self.single);
         for blas in reshaped {
             let range = self.blases[blas as usize].triangles.clone();
             let mesh = center_of::<N>(&self.triangles[range.start as usize..range.end as usize]);

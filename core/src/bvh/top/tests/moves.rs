@@ -202,6 +202,31 @@ fn meshes_whose_vertices_jump_are_put_in_elsewhere() {
     assert!(near.contains(&999) && !near.contains(&1), "{near:?}");
 }
 
+/// A large mesh too, of which some triangles are looked at.
+#[test]
+fn large_meshes_that_jump_are_put_in_elsewhere() {
+    let (mut scene, _) = grid(10);
+    let all = |x: f32| -> vec::Vec<_> {
+        (0..3000_u16)
+            .map(|k| {
+                let x = x + 0.001 * f32::from(k);
+                triangle([[x, 0.0, 0.0], [x + 0.001, 0.0, 0.0], [x, 0.001, 0.0]])
+            })
+            .collect()
+    };
+    let mesh = scene.add_mesh(all(0.0)).expect("a mesh");
+    scene.add_instance(mesh, Transform::IDENTITY).expect("added");
+    scene.refit();
+    let index = mesh.index();
+    for (x, expected) in [(0.5, false), (300.0, true)] {
+        let found = is_put_elsewhere(&scene, |scene| {
+            let mesh = scene.mesh_id(index).expect("there");
+            scene.set_triangles(mesh, all(x)).expect("as many");
+        });
+        assert_eq!(found, expected, "{x}");
+    }
+}
+
 /// A lamp whose triangles are set before its first instance comes in, in one call or in two, is put in where it is then, by the whole or
 /// by a range.
 #[test]
