@@ -52,6 +52,7 @@ mod sky;
 mod srgb;
 mod track;
 mod transform;
+mod upright;
 
 pub mod carousel;
 pub mod square;
