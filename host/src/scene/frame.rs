@@ -105,7 +105,9 @@ impl Scene {
             None => match self.default_camera.get() {
                 Some(camera) => *camera,
                 None if frame > 0 => self.frame(0).camera,
-                None => *self.default_camera.get_or_init(|| framing::view(&out)),
+                None => *self
+                    .default_camera
+                    .get_or_init(|| framing::view(&out, &data.materials)),
             },
         };
         out
