@@ -15,7 +15,7 @@ const UP: [f64; 3] = [0.0, 1.0, 0.0];
 pub(super) struct Candidate {
     pub view: View,
     pub counts: f64,
-    /// Whether it is among the surfaces, not beyond all.
+    /// Whether it may be among the surfaces, not beyond all.
     pub is_inside: bool,
 }
 
@@ -31,8 +31,9 @@ const ABOVE: [(&[f64], f64, f64); 4] = [
     (&AROUND, -25.0, 0.5),
 ];
 
-/// Of what shows as well from behind, the front is wanted: glTF's models face +Z.
+/// Of what shows as well from behind, the front is wanted: glTF's models face +Z. Those of some programs face +X.
 const BEHIND: f64 = 0.8;
+const LEFT: f64 = 0.95;
 
 /// Parts of all points, and of lit ones, that may lie beyond each side of the image, and what a place so near counts: something far off may be given
 /// up, but what is cut looks wrong.
@@ -81,7 +82,8 @@ pub(super) fn around(points: &[Point], corners: &[[f32; 3]], size: f64) -> Vec<C
             all.push(Candidate {
                 view: looking(eye, forward, UP, DEFAULT_YFOV),
                 counts: counts * of_direction,
-                is_inside: false,
+                // One that leaves a part out may stand within it.
+                is_inside: part > 0.0,
             });
         }
     }
@@ -150,8 +152,9 @@ fn directions() -> impl Iterator<Item = ([f64; 3], f64)> {
             .map(move |&around| (direction(around, above), counts))
     });
     all.map(|(towards, counts)| {
-        let of_side = if towards[2] < -0.1 { BEHIND } else { 1.0 };
-        (towards, counts * of_side)
+        let behind = if towards[2] < -0.1 { BEHIND } else { 1.0 };
+        let left = if towards[0] < -0.1 { LEFT } else { 1.0 };
+        (towards, counts * behind * left)
     })
 }
 
