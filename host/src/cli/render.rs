@@ -67,6 +67,9 @@ pub(super) struct Args {
     /// Vertical field of view with --look-from, degrees, 1 to 170.
     #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=170), requires = "look_from")]
     fov: u32,
+    /// Which axis of a .obj or .ply file points up; those formats do not say. With z, (x, y, z) of the file lies at (x, z, -y), for --look-from too.
+    #[arg(long, value_enum, default_value_t = Up::Y)]
+    up: Up,
     /// An environment map that lights the scene: a .hdr or .exr picture by longitude and latitude.
     #[arg(long, value_name = "FILE.hdr|FILE.exr")]
     environment: Option<PathBuf>,
@@ -117,7 +120,6 @@ pub(super) struct Args {
     output: PathBuf,
 }
 
-/// A factor above zero.
 /// Three coordinates.
 fn place(text: &str) -> Result<[f32; 3], String> {
     let numbers: Vec<f32> = text
@@ -131,11 +133,35 @@ fn place(text: &str) -> Result<[f32; 3], String> {
     }
 }
 
+/// A factor above zero.
 fn exposure(text: &str) -> Result<f32, String> {
     let number = text.parse().ok();
     number
         .filter(|&number: &f32| number.is_finite() && number > 0.0)
         .ok_or_else(|| format!("{text} is no finite number above 0"))
+}
+
+/// An axis that points up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Up {
+    Y,
+    Z,
+}
+
+impl Up {
+    /// The scene of a file whose axis this is.
+    fn turn(self, scene: Scene) -> Result<Scene, HostError> {
+        let name = scene.name().to_ascii_lowercase();
+        let name = name.strip_suffix(".gz").unwrap_or(&name);
+        match self {
+            Self::Y => Ok(scene),
+            Self::Z if name.ends_with(".obj") || name.ends_with(".ply") => Ok(scene.from_z_up()?),
+            Self::Z => Err(HostError::Usage {
+                option: "--up z",
+                needs: "a .obj or .ply file; in others it is known which way is up",
+            }),
+        }
+    }
 }
 
 /// What light is followed.
@@ -235,7 +261,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         given("--candidates", recipe.candidates, 1..=MAX_CANDIDATES.into()),
         given("--scattered", args.scattered, 0..=MAX_SCATTERED.into()),
     ])?;
-    let mut scene = Scene::open(&args.scene)?;
+    let mut scene = args.up.turn(Scene::open(&args.scene)?)?;
     let cameras = scene.data().cameras.len();
     if args.camera > 0 {
         if args.camera >= cameras {
@@ -436,5 +462,25 @@ impl Sequence<'_> {
     fn arrays<L: SceneLight>(&self, frame: u32) -> Result<Arc<SceneArrays<L>>, HostError> {
         let arrays = arrays_lit_by(self.scene, frame, self.args.width, self.args.height)?;
         Ok(Arc::new(arrays))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_files_that_do_not_say_are_turned() {
+        let street = || Scene::open("street").expect("built in");
+        let error = Up::Z
+            .turn(street())
+            .expect_err("a built-in scene is upright")
+            .to_string();
+        assert!(
+            error.contains("--up z") && error.contains(".obj or .ply"),
+            "{error}"
+        );
+        let same = Up::Y.turn(street()).expect("as it is");
+        assert_eq!(same.data(), street().data());
     }
 }

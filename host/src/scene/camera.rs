@@ -53,7 +53,7 @@ pub(super) fn view_of_box(min: [f64; 3], max: [f64; 3], towards: [f64; 3], dista
 }
 
 /// `forward` is a unit vector; `up` is made orthogonal to it.
-fn looking(eye: [f64; 3], forward: [f64; 3], up: [f64; 3], yfov: f32) -> View {
+pub(super) fn looking(eye: [f64; 3], forward: [f64; 3], up: [f64; 3], yfov: f32) -> View {
     // A camera that looks straight up or down takes -Z as its up direction.
     let beside = unit_or(cross(forward, [0.0, 0.0, -1.0]), [1.0, 0.0, 0.0]);
     let up = unit_or(up, [0.0, 1.0, 0.0]);

@@ -10,6 +10,7 @@ use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 
 use crate::render::{RayBvh, View};
 
+use super::Material;
 use super::analytic::AnalyticKind;
 use super::animate::Pose;
 use super::camera::view_of_node;
@@ -105,7 +106,7 @@ impl Scene {
             None => match self.default_camera.get() {
                 Some(camera) => *camera,
                 None if frame > 0 => self.frame(0).camera,
-                None => *self.default_camera.get_or_init(|| framed(&out)),
+                None => *self.default_camera.get_or_init(|| framed(&out, &data.materials)),
             },
         };
         out
@@ -113,14 +114,15 @@ impl Scene {
 }
 
 /// Where a frame is seen from that has no camera: all of its glass where there is nothing else to look at.
-fn framed(frame: &Frame) -> View {
+fn framed(frame: &Frame, materials: &[Material]) -> View {
     if !frame.triangles.is_empty() {
-        return framing::view(frame);
+        return framing::view(frame, materials);
     }
-    framing::view(&Frame {
+    let clear = Frame {
         triangles: frame.clear.clone(),
         ..frame.clone()
-    })
+    };
+    framing::view(&clear, materials)
 }
 
 impl Frame {

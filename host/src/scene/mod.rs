@@ -53,6 +53,7 @@ mod sky;
 mod srgb;
 mod track;
 mod transform;
+mod upright;
 
 pub mod carousel;
 pub mod square;
