@@ -58,7 +58,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let own = self.blases.get(blas as usize);
         own.is_some_and(|own| {
             let is_much = u64::from(own.unsettled) * MUCH >= own.triangles.len() as u64;
-            own.changed <= since || (is_much && own.stirred <= since)
+            // A rebuilder that is new has seen no frame yet, and of what was before it files tell less than the tree knows.
+            own.changed <= since || (is_much && since > 0 && own.stirred <= since)
         })
     }
 }

@@ -67,12 +67,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// The tree of a stage becomes its mesh's, another bottom level. Where the next refit computes the leaves of all its instances anyway, or they are
     /// few, all follow; else those that [`hand_over_some`](Self::hand_over_some) takes.
     pub(super) fn put_in_place(&mut self, old: u32, staged: Staged) {
-        let is_refitted = self
-            .changes
-            .all()
-            .iter()
-            .any(|pending| pending.blases.contains(&old))
-            || self.has_changed_parts(old);
+        let is_refitted = self.is_to_be_refitted(old);
         let is_at_once = is_refitted || self.leaves_of_mesh(old) <= HANDED;
         let new = staged.index;
         let own = &mut self.blases[old as usize];
@@ -90,6 +85,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             powers: own.powers,
             known_flux: own.known_flux,
             created,
+            stirred: own.stirred,
             adopted: staged.number,
             unsettled: own.unsettled - staged.unsettled.min(own.unsettled),
             outgoing: Some(Outgoing {
@@ -103,7 +99,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let nothing = BlasRoot::new(INVALID, &N::Summary::EMPTY);
         put(&mut self.roots, new, refit::root(&self.nodes, root), &nothing);
         self.meshes[mesh as usize].blas = new;
-        self.changes.replace_blas(old, new);
+        if is_refitted {
+            self.changes.replace_blas(old, new);
+        }
         self.changes.new.roots.insert(new);
         self.changes.forget_lists();
         let at = self.handing.partition_point(|&other| other < new);
@@ -113,11 +111,14 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Whether triangles of a bottom level changed since the last refit or plan.
-    fn has_changed_parts(&self, blas: u32) -> bool {
-        let changes = &self.changes;
-        let mut lists = [&changes.new, &changes.unrefitted, &changes.unplanned].into_iter();
-        lists.any(|pending| !pending.parts.is_empty() && self.parts(pending).contains_key(&blas))
+    /// Whether triangles of a bottom level changed since the last refit. What a plan has still to tell is no matter: a mirror computes the old tree
+    /// by it, and trees do not depend on plans.
+    fn is_to_be_refitted(&self, blas: u32) -> bool {
+        let mut lists = [&self.changes.new, &self.changes.unrefitted].into_iter();
+        lists.any(|pending| {
+            let has_parts = || !pending.parts.is_empty() && self.parts(pending).contains_key(&blas);
+            pending.blases.contains(&blas) || has_parts()
+        })
     }
 
     /// Has instances follow the new trees of their meshes, those of about `most` leaves. What lies together in the top level follows together: nodes
