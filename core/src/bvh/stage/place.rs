@@ -152,8 +152,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     fn place_trails_of(&mut self, tree: &mut MeshTree<N>, triangles: &Range<u32>, bytes: &mut usize) {
-        // All trails are rewritten where this is the first tree too deep for one word.
+        // All trails are rewritten where this is the first tree too deep for one word, which files know by the depth.
         self.reserve_trails(tree.depth, triangles.start);
+        self.bottom_depth = self.bottom_depth.max(tree.depth);
         let words = self.trail_words as usize;
         let from = tree.trails_placed;
         let to = (from + *bytes / (4 * words)).min(tree.trails.len());
