@@ -123,7 +123,7 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
 
 #[test]
 fn scenes() {
-    scene::<CompactNode<4>, Eq4, 4>(0x2323_f764_06ab_3658);
-    scene::<FullNode<2>, Eq4, 2>(0x7161_e2ba_0c8b_bc42);
-    scene::<MomentNode<8>, Moments, 8>(0x6dc5_23df_09a6_2976);
+    scene::<CompactNode<4>, Eq4, 4>(0x9e4c_384a_2048_2952);
+    scene::<FullNode<2>, Eq4, 2>(0xb722_a63d_d26a_1528);
+    scene::<MomentNode<8>, Moments, 8>(0xcb6b_5d19_f8cb_5b12);
 }
