@@ -128,6 +128,29 @@ fn what_flickers_holds_nothing_up() {
     }
 }
 
+/// A rebuilder that is new has seen no rest: it waits as long over a tree as over what a file told of it.
+#[test]
+fn new_rebuilders_wait_for_rest() {
+    let random = &mut Random(14);
+    let (mut bvh, mesh) = scene(random, 160);
+    for frame in 0..40 {
+        bvh.set_triangle_range(mesh, 2 * frame, [lamp(random, 1.0)].to_vec())
+            .expect("in the mesh");
+        bvh.refit();
+    }
+    let mut read = LightBvh::from_words(&bvh.to_words()).expect("sound words");
+    let (own, other) = (&mut rebuilder(), &mut rebuilder());
+    let mut came = 0;
+    for frame in 0..40 {
+        let found = trees(&mut bvh, own, 1, |_, _| {});
+        assert_eq!(found, trees(&mut read, other, 1, |_, _| {}), "frame {frame}");
+        assert!(found == 0 || frame >= 16, "frame {frame}");
+        came += found;
+    }
+    assert_eq!(came, 1);
+    assert!(read.to_words() == bvh.to_words());
+}
+
 /// What changes while a small tree is built counts for the next one, as with large ones: by edits before the start of the frame in which it
 /// comes in, and in a single level.
 #[test]
