@@ -194,7 +194,7 @@ fn what_is_edited_follows() {
 
 /// Another rebuilder goes on, that of a copy and that of what was read from a file too: word for word.
 #[test]
-fn whoever_is_there_hands_over() {
+fn another_rebuilder_goes_on_word_for_word() {
     for opened in [0, 40] {
         let (mut bvh, _, mut own) = scene(opened);
         until_adopted(&mut bvh, &mut own);
