@@ -108,9 +108,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// some of its triangles.
     pub(in crate::bvh) fn take_jumped(&mut self, mut reshaped: Vec<u32>) -> Vec<u32> {
         let mut jumped = Vec::new();
+        // The lights of a single level are in no top level.
+        if self.single {
+            return jumped;
+        }
         reshaped.sort_unstable();
         reshaped.dedup();
-        reshaped.retain(|_| !self.single);
         for blas in reshaped {
             let range = self.blases[blas as usize].triangles.clone();
             let mesh = center_of::<N>(&self.triangles[range.start as usize..range.end as usize]);
