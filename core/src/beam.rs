@@ -34,8 +34,9 @@ const WIDEN_COS_DEFECT: f32 = pow2(-23);
 const LEAST_SQUARE: f32 = pow2(-60);
 /// What a radius is rounded up by, as a factor: more than the error of the lengths that it is computed from.
 const LONGER: f32 = 1.001;
-/// Rounding of coordinates, as a part of them, and of lengths in units.
+/// Rounding of coordinates as a part of them, with that of a map.
 const ROUNDING: f32 = pow2(-21);
+/// Rounding of lengths in units.
 const LEAST_RADIUS: f32 = pow2(-18);
 /// How far from a similarity a map may be and count as one, in squared lengths of about 1.
 const UNEVEN: f32 = pow2(-14);
@@ -108,15 +109,12 @@ impl Beam {
     }
 
     /// The greatest distance of its places from `c`, in units of which one is 1/`per_unit` metres, rounded up. All lengths are at most some of
-    /// them.
+    /// them. Rounding of `c` is not in it: that is the walk's, which knows how near the point is.
     #[inline(always)]
     pub(crate) fn radius_about(&self, c: Vec3, per_unit: f32) -> f32 {
         let away = flush3((self.c - c) * per_unit, pow2(-30));
         let apart = exact::sqrt(exact::flush(length_squared(away), LEAST_SQUARE));
-        // Coordinates are rounded, and so is what comes into their space from another.
-        let a = abs3(c);
-        let rounding = (exact::max(exact::max(a.x, a.y), a.z) * ROUNDING) * per_unit;
-        (apart + self.radius * per_unit) * LONGER + rounding + LEAST_RADIUS
+        (apart + self.radius * per_unit) * LONGER + LEAST_RADIUS
     }
 
     /// The beam in the world of a set that `instance` puts there. Where its map is no similarity light may go anywhere: angles between axes
@@ -196,16 +194,44 @@ impl Limits {
     };
 }
 
+/// How far a point at `p` and a light near it may be from where their coordinates say: what lies far apart sees no angle change by that.
+#[inline(always)]
+pub(crate) fn rounding_at(p: Vec3) -> f32 {
+    let a = abs3(p);
+    exact::max(exact::max(a.x, a.y), a.z) * ROUNDING
+}
+
 impl Instance {
+    /// The squared length of its first column over four to some power, and that power; zero where its map is no similarity, within 2^-14.
+    #[inline(always)]
+    fn even_square(&self) -> (f32, i32) {
+        let ([a, b, c], e) = self.columns_of_one();
+        let (aa, bb, cc) = (dot(a, a), dot(b, b), dot(c, c));
+        let (ab, bc, ca) = (dot(a, b), dot(b, c), dot(c, a));
+        let most = UNEVEN * aa;
+        let near = |x: f32| exact::abs(x) <= most;
+        let is_even = near(aa - bb) & near(aa - cc) & near(ab) & near(bc) & near(ca);
+        (if is_even { aa } else { 0.0 }, e)
+    }
+
     /// Whether its map keeps angles: a similarity, within 2^-14.
     #[inline(always)]
     #[must_use]
     pub fn is_even(&self) -> bool {
-        let ([a, b, c], _) = self.columns_of_one();
-        let (aa, bb, cc) = (dot(a, a), dot(b, b), dot(c, c));
-        let (ab, bc, ca) = (dot(a, b), dot(b, c), dot(c, a));
-        let slack = UNEVEN * aa;
-        let near = |x: f32| exact::abs(x) <= slack;
-        near(aa - bb) & near(aa - cc) & near(ab) & near(bc) & near(ca)
+        self.even_square().0 > 0.0
+    }
+
+    /// How far a light may be, by the rounding of its place in the world, from where its place in the mesh's space says, in metres of that
+    /// space: 2^-21 of the origin's greatest coordinate. −1 where the map is no similarity within 2^-14, so that angles differ. What
+    /// [`ImportanceModel::weights_in`](crate::ImportanceModel::weights_in) is told.
+    #[inline(always)]
+    #[must_use]
+    pub fn slack(&self) -> f32 {
+        let (squared, e) = self.even_square();
+        let is_even = squared > 0.0;
+        let length = exact::sqrt(if is_even { squared } else { 1.0 });
+        let away = exact::div(rounding_at(self.origin()), length);
+        let slack = exact::flush(away * pow2(-e), pow2(-100));
+        if is_even { slack } else { -1.0 }
     }
 }

@@ -154,7 +154,7 @@ impl Instance {
     }
 
     #[inline(always)]
-    fn origin(&self) -> Vec3 {
+    pub(crate) fn origin(&self) -> Vec3 {
         vector(&self.translation)
     }
 

@@ -211,6 +211,11 @@ pub enum LightError {
         /// Cosine of the angle from which on it has none.
         cos_outer: f32,
     },
+    /// The range of a point light or a spot is not 0, nor from 2^-20 to 2^40.
+    Range {
+        /// What was found, metres.
+        range: f32,
+    },
     /// The numbers of a profile are none: a cosine out of −1..=1, the cone's within 2^-20 of 1 or above the mean one, or an integral that is not
     /// 0, nor from 2^-40 to 2.
     Profile {
@@ -276,6 +281,11 @@ impl core::fmt::Display for LightError {
                  angles, or widen the cone",
                 Number(cos_inner),
                 Number(cos_outer)
+            ),
+            Self::Range { range } => write!(
+                f,
+                "the range of a light is {} metres, expected 0 for none, or 2^-20 to 2^40; leave it out, or turn the light off",
+                Number(range)
             ),
             Self::Profile {
                 cos_outer,

@@ -55,7 +55,7 @@ pub struct RebuilderParams {
     /// changes. A subtree that lost its
     /// shape while the mesh as a whole has not, of a node for each 128 bytes at most, is built anew alone.
     pub bytes: u32,
-    /// Large meshes that are under way at a time, each with a thread of its own; at least 1.
+    /// Large meshes that are under way at a time, each with a thread of its own; at least 1. By default 2.
     pub meshes: u32,
     /// Most instances of the parts of the top level that a frame hands to the worker; at least 1024, the default, with which
     /// start and end of a frame take 0.1 to 0.2 ms, and more than 0.3 ms once in some hundreds to ten thousand, by the machine and how busy it is (`docs/dynamics.md`). Each further 1000 take about 0.1 ms more of each. Where all of many instances move their own ways, what is built in a frame decides how good the tree is: with *N* of them every part has its turn in *N* over

@@ -200,6 +200,7 @@ fn point(random: &mut Random) -> PointLight {
     PointLight {
         p: random.vector(1.0),
         intensity: random.shine(),
+        range: 0.0,
         mesh: 0,
     }
 }
@@ -209,6 +210,7 @@ fn spot(random: &mut Random) -> SpotLight {
     SpotLight {
         p: random.vector(1.0),
         intensity: random.shine(),
+        range: 0.0,
         axis: random.unit_vector(),
         cos_inner: outer + (1.0 - outer) * random.unit(),
         cos_outer: outer,

@@ -113,6 +113,7 @@ fn any(random: &mut Random) -> LinkedAny {
         0 => PointLight {
             p: random.vector(5.0),
             intensity: random.radiance(),
+            range: 0.0,
             mesh: 0,
         }
         .into(),

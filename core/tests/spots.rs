@@ -78,6 +78,7 @@ fn spot(random: &mut Random, reach: f32, shared: [f32; 3], apart: u32) -> SpotLi
     SpotLight {
         p: random.vector(reach),
         intensity: [level; 3],
+        range: 0.0,
         axis,
         cos_inner: inner.min(1.0),
         cos_outer: outer.min(1.0 - 1.0e-5),
@@ -104,6 +105,7 @@ fn other(random: &mut Random) -> AnyLight {
         0 => PointLight {
             p: at,
             intensity: emission,
+            range: 0.0,
             mesh: 0,
         }
         .into(),
@@ -181,12 +183,12 @@ fn told<L: Light, I: ImportanceModel<Lit<SpotMomentNode<8>, L>, 8>>(
     let mut open = vec![(tree.root, u32::MAX, 1.0_f32)];
     while let Some((index, leaf, least)) = open.pop() {
         let node = &tree.nodes[index as usize];
-        let (local, is_even) = match tree.instances.get(leaf as usize) {
-            Some(instance) => (instance.to_local(point), instance.is_even()),
-            None => (*point, true),
+        let (local, slack) = match tree.instances.get(leaf as usize) {
+            Some(instance) => (instance.to_local(point), instance.slack()),
+            None => (*point, 0.0),
         };
-        let with = I::weights_in(node, &local, is_even);
-        let without = I::weights_in(node, &local, false);
+        let with = I::weights_in(node, &local, slack);
+        let without = I::weights_in(node, &local, -1.0);
         for slot in 0..8 {
             let to = node.kind(slot);
             if to == kind::EMPTY || without[slot] == 0.0 {
@@ -308,6 +310,89 @@ fn no_light_that_reaches_a_point_is_told_not_to() {
     assert!(seen.outside > seen.dark / 100 * 98, "beams say little: {seen:?}");
 }
 
+/// Far from the world's origin coordinates are rounded by more than a narrow cone is wide near its lamp: a point in it is in it still.
+#[test]
+fn far_from_the_origin_no_light_is_told_not_to_reach_a_point() {
+    for (far, least) in [(100.0_f32, 0.99), (1.0e4, 0.97), (3.0e5, 0.8)] {
+        let random = &mut Random(77);
+        let mut seen = Seen::default();
+        for _ in 0..20 {
+            let mut bvh = Tree::<AnyLight>::default();
+            let about = random.vector(far);
+            for _ in 0..1 + random.below(6) {
+                let count = [1, 1, 3, 12][random.below(4) as usize];
+                let mesh = bvh
+                    .add_mesh(any(spots(random, count, 0.3)))
+                    .expect("in the domain");
+                for _ in 0..=random.below(4) {
+                    let mut place = even(random, 4.0, 1.0);
+                    (0..3).for_each(|k| place.translation[k] += about[k]);
+                    bvh.add_instance(mesh, place).expect("in the domain");
+                }
+            }
+            bvh.refit();
+            check_beams(&bvh, 1.0, random, 300, &mut seen);
+        }
+        println!("{far}: {seen:?}");
+        assert!(seen.lit > 5_000 && seen.dark > 50_000, "{far}: {seen:?}");
+        assert_eq!(seen.wrong, 0, "{far}: {seen:?}");
+        let share = f64::from(seen.outside) / f64::from(seen.dark);
+        assert!(share > least, "{far}: beams say little: {share}");
+    }
+}
+
+/// A node of one spot knows its cone, wherever in its space the spot stands.
+#[test]
+fn spots_alone_in_their_meshes_keep_their_cones() {
+    for away in [0.0_f32, 1.0, 300.0] {
+        let random = &mut Random(31);
+        let own: Vec<SpotLight> = (0..60)
+            .map(|_| {
+                let [x, y, z] = random.vector(6.0);
+                SpotLight {
+                    p: [x + away, y, z + 3.0],
+                    axis: [0.0, 0.0, -1.0],
+                    intensity: [1.0; 3],
+                    range: 0.0,
+                    cos_inner: 0.996,
+                    cos_outer: 0.995,
+                    mesh: 0,
+                }
+            })
+            .collect();
+        let mut bvh = Tree::<AnyLight>::default();
+        for spot in &own {
+            let mesh = bvh.add_mesh(any([*spot].to_vec())).expect("in the domain");
+            bvh.add_instance(mesh, Transform::IDENTITY)
+                .expect("in the domain");
+        }
+        bvh.refit();
+        let (mut dark, mut outside) = (0, 0);
+        for _ in 0..200 {
+            let [x, y, _] = random.vector(7.0);
+            let p = [x + away, y, -2.0];
+            for found in told(
+                &bvh,
+                &ShadingPoint {
+                    p,
+                    n: [0.0, 0.0, 1.0],
+                },
+            ) {
+                let light = world_light(bvh.triangles(), bvh.instances(), found.light, found.instance);
+                let is_lit = sent(&light, p) > 0.0;
+                assert!(!is_lit || found.least >= 0.99);
+                dark += u32::from(!is_lit);
+                outside += u32::from(!is_lit && found.least < 0.99);
+            }
+        }
+        // All but those at the very edge.
+        assert!(
+            dark > 9000 && outside * 100 >= dark * 99,
+            "{away}: {outside} of {dark}"
+        );
+    }
+}
+
 /// Sum of squares of what a sample gives over the square of what all lights give: 1 is perfect.
 fn second_moment<L: Light>(lights: &[L], point: &ShadingPoint, pmf: impl Fn(usize) -> f32) -> f64 {
     let (mut sum, mut squares) = (0.0, 0.0);
@@ -335,6 +420,7 @@ fn points_beside_a_cone_choose_what_lights_them() {
                 PointLight {
                     p: [4.0 * random.signed(), 4.0 * random.signed(), 3.0],
                     intensity: [1.0; 3],
+                    range: 0.0,
                     mesh: 0,
                 }
                 .into()
@@ -344,6 +430,7 @@ fn points_beside_a_cone_choose_what_lights_them() {
             SpotLight {
                 p: [0.0, 0.0, 3.5],
                 intensity: [2000.0; 3],
+                range: 0.0,
                 axis: [0.0, 0.0, -1.0],
                 cos_inner: angle.to_radians().cos(),
                 cos_outer: angle.to_radians().cos(),
@@ -389,6 +476,7 @@ fn points_in_a_cone_see_how_bright_it_is() {
             SpotLight {
                 p: [x, 0.0, 4.0],
                 intensity: [5.0; 3],
+                range: 0.0,
                 axis: [0.0, 0.0, -1.0],
                 cos_inner: cosine,
                 cos_outer: cosine,
@@ -400,6 +488,7 @@ fn points_in_a_cone_see_how_bright_it_is() {
             PointLight {
                 p: [x, 0.0, 4.0],
                 intensity: [5.0; 3],
+                range: 0.0,
                 mesh: 0,
             }
             .into()

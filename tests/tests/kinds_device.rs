@@ -41,12 +41,23 @@ fn light(random: &mut Random, number: usize, reach: f32) -> AnyLight {
         1 => PointLight {
             p,
             intensity: shine,
+            // Every other one.
+            range: if number & 8 == 0 {
+                0.0
+            } else {
+                0.5 * reach + a[0].abs()
+            },
             mesh,
         }
         .into(),
         2 => SpotLight {
             p,
             intensity: shine,
+            range: if number & 8 == 0 {
+                0.0
+            } else {
+                0.5 * reach + a[0].abs()
+            },
             axis,
             cos_inner: 0.9,
             cos_outer: 0.5,

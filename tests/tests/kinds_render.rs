@@ -320,7 +320,7 @@ fn room() -> Scene {
             kind,
             color: [1.0, 0.8, 0.3 + 0.05 * k as f32],
             intensity: 2.0,
-            range: None,
+            range: (k % 2 == 1).then_some(2.5),
         });
     }
     profiles::hang(&mut data);

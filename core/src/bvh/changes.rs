@@ -46,18 +46,6 @@ impl Changes {
         }
     }
 
-    /// A bottom level is in the place of another, with what is still to be refitted of it.
-    pub fn replace_blas(&mut self, old: u32, new: u32) {
-        for pending in self.all() {
-            if pending.blases.remove(&old) {
-                pending.blases.insert(new);
-            }
-            if pending.built.remove(&old) {
-                pending.built.insert(new);
-            }
-        }
-    }
-
     /// The nodes of the top level are others.
     pub fn forget_top(&mut self) {
         self.is_fresh = false;

@@ -223,7 +223,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             }
             for leaf in self.leaves_of(index) {
                 let flux = f64::from(self.in_world(leaf).phi());
-                self.unsettle_above(self.placed[leaf as usize].node, flux);
+                self.unsettle_above(self.placed[leaf as usize].node, flux, self.epoch + 1);
             }
         }
     }

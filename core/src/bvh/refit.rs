@@ -35,7 +35,8 @@ pub struct RefitPlan {
     pub trees: Vec<Range<u32>>,
     /// Nodes of bottom levels of which only some triangles changed: those of `bottom` that are in none of `trees`.
     pub parts: Levels,
-    /// Bottom levels whose root changed: another node, or another summary. A mirror takes the node from [`Bvh::roots`].
+    /// Bottom levels whose root changed: another node, or another summary. A mirror takes the node from [`Bvh::roots`] and computes
+    /// [`refit::root`] of its own nodes and it.
     pub roots: Vec<u32>,
     /// Nodes of the top level with instances that changed, and those above them.
     pub top: Levels,
@@ -52,8 +53,11 @@ impl RefitPlan {
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Says what changed since the last call: the lists of [`work`](Self::work), for a mirror on a device that does them in its place,
     /// call by call without gaps. Whether and when the BVH is refitted here does not matter to what it says. The first call says what changed since
-    /// the last [`refit`](Self::refit); a mirror takes over all arrays before it. Arrays that are longer than before are longer in the mirror; they
-    /// never get shorter, and what is in use of them [`plan_of_everything`](Self::plan_of_everything) says.
+    /// the last [`refit`](Self::refit); a mirror takes over all arrays before it. Arrays that are longer than before are longer in the mirror, whose
+    /// new places may hold anything: lists name a place once something stands there, and no walk comes to it before. Arrays never get shorter, and what is
+    /// in use of them [`plan_of_everything`](Self::plan_of_everything) says. The words of places that are not in use any more may differ from a mirror's.
+    ///
+    /// To read the arrays beside the lists, drop what this returns and ask [`work`](Self::work), before the next refit.
     ///
     /// Where only a device refits, nodes here stay as they were: samples taken here are of that tree, and a
     /// [`rebuild`](Self::rebuild) sees no bottom level lose quality. A refit here, now and then, is enough for both.

@@ -36,7 +36,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Reserves room for [`MESHES`] new trees of the largest mesh and a few small ones; in no time where there is some. A new tree may have
+    /// Has room for [`MESHES`] new trees of the largest mesh and a few small ones; in no time where it is there. A new tree may have
     /// a few nodes more.
     pub(super) fn reserve_room(&mut self) {
         let [triangles, nodes] = self.largest;
@@ -99,9 +99,13 @@ fn next(length: usize, end: u32, size: usize, bytes: &mut usize) -> u32 {
     end.min((length + more) as u32)
 }
 
-/// Reserves room for as many entries, where the system has it: nobody has asked for them yet.
+/// Has room for as many entries, where the system has it: nobody has asked for them yet. Where there is not, the list gets twice the room: with no more than is asked for,
+/// the next small mesh would move a list that a large one has just moved, 30 ms of 10^6 triangles.
 pub(super) fn reserve<E>(list: &mut Vec<E>, length: usize) {
-    _ = list.try_reserve(length.saturating_sub(list.len()));
+    let room = length.saturating_sub(list.len());
+    if list.capacity() - list.len() < room {
+        _ = list.try_reserve_exact(2 * room);
+    }
 }
 
 #[cfg(test)]
@@ -157,6 +161,21 @@ mod tests {
         // What fits into a hole needs none.
         bvh.triangle_ranges.give(ends[0]..ends[0] + 3000);
         assert!(bvh.take_triangles(3000, &mut 0).is_some());
+    }
+
+    /// A small mesh that comes after a large one moves no array again.
+    #[test]
+    fn a_small_mesh_after_a_large_one_moves_no_array() {
+        let mut bvh = LightBvh::default();
+        let large = (0..5000).map(|k| line(k, 1.0)).collect();
+        bvh.add_mesh(large).expect("a mesh");
+        let before = places(&bvh);
+        for _ in 0..100 {
+            let small = (0..40).map(|k| line(k, 1.0)).collect();
+            let mesh = bvh.add_mesh(small).expect("a mesh");
+            bvh.add_instance(mesh, Transform::IDENTITY).expect("one");
+            assert_eq!(places(&bvh), before);
+        }
     }
 
     /// Small trees and parts of the top level find room too, after each edit that brings a mesh.

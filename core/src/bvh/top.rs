@@ -70,6 +70,8 @@ pub(super) struct Top {
     pub changes: Vec<u32>,
     /// The epoch as changes were counted last.
     pub counted_at: u64,
+    /// The epoch at which all of it was built last.
+    pub built_at: u64,
     /// By number: children that came or went since the last refit.
     pub counted: Vec<u32>,
     /// Nodes whose children edits have changed; they may be gone.
@@ -209,8 +211,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             self.replace_top(&topology.nodes);
         }
         self.changes.new.whole_top = true;
-        // That they are new is no change.
+        // That they are new is no change, nor is what they were built of.
         self.top.tried.fill(self.epoch + 1);
+        self.top.built_at = self.epoch;
         // Edits before the next refit go by what nodes know, and what they change is no tree as built.
         let levels = self.top.by_height();
         for range in levels.ranges() {

@@ -33,12 +33,12 @@ impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W,
 
     #[inline(always)]
     fn weights(node: &N, receiver: &GlossyPoint) -> [f32; W] {
-        Self::weights_in(node, receiver, true)
+        Self::weights_in(node, receiver, 0.0)
     }
 
     #[inline(always)]
-    fn weights_in(node: &N, receiver: &GlossyPoint, is_even: bool) -> [f32; W] {
-        let mut weights = I::weights_in(node, &receiver.point, is_even);
+    fn weights_in(node: &N, receiver: &GlossyPoint, slack: f32) -> [f32; W] {
+        let mut weights = I::weights_in(node, &receiver.point, slack);
         for slot in 0..W {
             let summary = node.summary(slot);
             let reflected = reflectance(summary.center(), summary.spread(), receiver);

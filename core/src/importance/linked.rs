@@ -64,12 +64,12 @@ impl<N: Node<W>, I: ImportanceModel<N, W, P>, P, const W: usize> ImportanceModel
 
     #[inline(always)]
     fn weights(node: &N, receiver: &LinkedPoint<P>) -> [f32; W] {
-        Self::weights_in(node, receiver, true)
+        Self::weights_in(node, receiver, 0.0)
     }
 
     #[inline(always)]
-    fn weights_in(node: &N, receiver: &LinkedPoint<P>, is_even: bool) -> [f32; W] {
-        let mut weights = I::weights_in(node, &receiver.point, is_even);
+    fn weights_in(node: &N, receiver: &LinkedPoint<P>, slack: f32) -> [f32; W] {
+        let mut weights = I::weights_in(node, &receiver.point, slack);
         let mut greatest = 0.0;
         for slot in 0..W {
             let is_common = exact::mask_of(node.mask(slot) & receiver.mask != 0);

@@ -60,11 +60,12 @@ pub trait ImportanceModel<N, const W: usize, P = ShadingPoint> {
     /// else positive and at most 2^120. Hostile words may give anything.
     fn weights(node: &N, point: &P) -> [f32; W];
 
-    /// The weights in a space that `is_even` or not: that of the world, or one of which the map to the world is a similarity or is not. In
-    /// others angles differ from the world's, so what nodes say of them by [`SpotMomentNode`](crate::node::SpotMomentNode)'s beams does not
-    /// count. The same as [`weights`](Self::weights), unless the layout stores beams; an importance made of others asks them this.
+    /// The weights in the space of a mesh, with that space's [`Instance::slack`](crate::Instance::slack): how far, in metres of the space, the
+    /// instance's own place may have moved points and lights by rounding, which the beams of a [`SpotMomentNode`](crate::node::SpotMomentNode)
+    /// allow for; below zero where its map is no similarity, for angles differ from the world's there and beams do not count. 0 in the world. The
+    /// same as [`weights`](Self::weights), unless the layout stores beams; an importance made of others asks them this.
     #[inline(always)]
-    fn weights_in(node: &N, point: &P, _is_even: bool) -> [f32; W] {
+    fn weights_in(node: &N, point: &P, _slack: f32) -> [f32; W] {
         Self::weights(node, point)
     }
 
@@ -108,8 +109,8 @@ impl<N, I: ImportanceModel<N, W, P>, P, const HALVINGS: u32, const W: usize> Imp
     }
 
     #[inline(always)]
-    fn weights_in(node: &N, point: &P, is_even: bool) -> [f32; W] {
-        I::weights_in(node, point, is_even)
+    fn weights_in(node: &N, point: &P, slack: f32) -> [f32; W] {
+        I::weights_in(node, point, slack)
     }
 
     #[inline(always)]

@@ -24,12 +24,12 @@ impl<M: Math, N: MomentLayout<W>, const W: usize> ImportanceModel<N, W> for Mome
 
     #[inline(always)]
     fn weights(node: &N, point: &ShadingPoint) -> [f32; W] {
-        Self::weights_in(node, point, true)
+        Self::weights_in(node, point, 0.0)
     }
 
     #[inline(always)]
-    fn weights_in(node: &N, point: &ShadingPoint, is_even: bool) -> [f32; W] {
-        node.moment_weights::<M>(point.position(), point.normal(), is_even)
+    fn weights_in(node: &N, point: &ShadingPoint, slack: f32) -> [f32; W] {
+        node.moment_weights::<M>(point.position(), point.normal(), slack)
     }
 
     #[inline(always)]
@@ -58,6 +58,8 @@ pub(crate) struct Frame {
     pub x: Vec3,
     /// The node's unit, scaled: 2^-40 to 1.
     pub unit: f32,
+    /// A metre, scaled: 2^-42 to 2^40.
+    pub per_metre: f32,
 }
 
 impl Frame {
@@ -82,9 +84,11 @@ pub(crate) fn frame(origin: Vec3, unit_exponent: i32, p: Vec3) -> Frame {
     let e = greatest_exponent(x, unit_exponent);
     let below = unit_exponent - e;
     let bounded = if below < LEAST_FRAME { LEAST_FRAME } else { below };
+    let per_metre = pow2(-e);
     Frame {
-        x: x * pow2(-e),
+        x: x * per_metre,
         unit: pow2(bounded),
+        per_metre,
     }
 }
 

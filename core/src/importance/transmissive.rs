@@ -24,13 +24,13 @@ impl<N, I: ImportanceModel<N, W>, const W: usize> ImportanceModel<N, W, Transmis
 
     #[inline(always)]
     fn weights(node: &N, receiver: &TransmissivePoint) -> [f32; W] {
-        Self::weights_in(node, receiver, true)
+        Self::weights_in(node, receiver, 0.0)
     }
 
     #[inline(always)]
-    fn weights_in(node: &N, receiver: &TransmissivePoint, is_even: bool) -> [f32; W] {
-        let front = I::weights_in(node, &receiver.point, is_even);
-        let back = I::weights_in(node, &receiver.turned(), is_even);
+    fn weights_in(node: &N, receiver: &TransmissivePoint, slack: f32) -> [f32; W] {
+        let front = I::weights_in(node, &receiver.point, slack);
+        let back = I::weights_in(node, &receiver.turned(), slack);
         // The greater part counts as 1, so that no weight falls below the lesser of the two.
         let greater = exact::max(receiver.front, receiver.back);
         let receives = greater > 0.0;

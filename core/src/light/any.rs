@@ -137,6 +137,7 @@ impl AnyLight {
         PointLight {
             p: self.three(0),
             intensity: self.emission,
+            range: self.words[3],
             mesh: self.mesh,
         }
     }
@@ -149,6 +150,7 @@ impl AnyLight {
             axis: self.three(3),
             cos_inner: self.words[6],
             cos_outer: self.words[7],
+            range: self.words[8],
             mesh: self.mesh,
         }
     }
@@ -238,7 +240,8 @@ impl From<EmissiveTriangle> for AnyLight {
 impl From<PointLight> for AnyLight {
     #[inline(always)]
     fn from(own: PointLight) -> Self {
-        Self::new(Self::POINT, 0, own.mesh, own.intensity).with(0, &own.p)
+        let any = Self::new(Self::POINT, 0, own.mesh, own.intensity);
+        any.with(0, &own.p).with(3, &[own.range, 0.0, 0.0])
     }
 }
 
@@ -248,7 +251,7 @@ impl From<SpotLight> for AnyLight {
         let any = Self::new(Self::SPOT, 0, own.mesh, own.intensity);
         any.with(0, &own.p)
             .with(3, &own.axis)
-            .with(6, &[own.cos_inner, own.cos_outer, 0.0])
+            .with(6, &[own.cos_inner, own.cos_outer, own.range])
     }
 }
 

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::record::{Each, Light, checked_emission, checked_place, greatest, shining};
+use super::record::{Each, Light, checked_emission, checked_place, greatest, of_mesh_at_place, shining};
 use super::round::disc;
 use super::{INVALID, LightError, LightPoint, TWO_SIDED};
 use crate::bounds::LightBounds;
@@ -288,26 +288,11 @@ macro_rules! flat_light {
                 mesh: INVALID,
                 flags: 0,
             };
-            const MESH_WORD: usize = core::mem::offset_of!(Self, mesh) / 4;
+            of_mesh_at_place!();
             type Slots<const W: usize> = Each<Self, W>;
 
             fn checked(self) -> Result<Self, LightError> {
                 Ok(Self::of(&self.flat().checked(&$names)?))
-            }
-
-            #[inline(always)]
-            fn mesh(&self) -> u32 {
-                self.mesh
-            }
-
-            #[inline(always)]
-            fn of_mesh(self, mesh: u32) -> Self {
-                Self { mesh, ..self }
-            }
-
-            #[inline(always)]
-            fn centroid(&self) -> [f32; 3] {
-                self.p
             }
 
             fn reach(&self) -> f32 {

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::record::{Each, Light, checked_emission, checked_place, of_mesh_at_place, shining, towards, unit};
-use super::{INVALID, LightError, LightPoint};
+use super::{INVALID, LightError, LightPoint, MAX_COORDINATE};
 use crate::beam::Beam;
 use crate::bounds::LightBounds;
 use crate::cone::Cone;
@@ -15,7 +15,7 @@ use crate::moments::LightMoments;
 use crate::point::NORMAL_TOLERANCE;
 use crate::vector::{flush3, length_squared};
 
-/// A point that sends the same intensity in every direction. An instance that scales leaves it as it is.
+/// A point that sends the same intensity in every direction. An instance that scales leaves it as it is, and its range.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct PointLight {
@@ -23,6 +23,9 @@ pub struct PointLight {
     pub p: [f32; 3],
     /// Radiant intensity, W/sr, linear RGB; zero or from 2^-100 to 2^100.
     pub intensity: [f32; 3],
+    /// Metres from which on nothing arrives, 2^-20 to 2^40: on the way intensity falls by 1 − (d / range)⁴ (glTF 2.0, `KHR_lights_punctual`, "Range Property"). 0 for a
+    /// light that arrives everywhere. Trees do not know it: a light out of range is chosen as if it were in it, for nothing.
+    pub range: f32,
     /// Index of the mesh light that owns it.
     pub mesh: u32,
 }
@@ -43,6 +46,8 @@ pub struct SpotLight {
     pub cos_inner: f32,
     /// Cosine of the angle from which on it has none; −1 up to 1 − 2^-20.
     pub cos_outer: f32,
+    /// Metres from which on nothing arrives, or 0; as of a [`PointLight`].
+    pub range: f32,
     /// Index of the mesh light that owns it.
     pub mesh: u32,
 }
@@ -112,6 +117,29 @@ fn apart_squared(axis: Vec3, direction: Vec3) -> f32 {
     length_squared(flush3(direction - axis, pow2(-40)))
 }
 
+/// The part of its intensity that a light at `p` with this range has at `from`.
+#[inline(always)]
+fn window(p: &[f32; 3], range: f32, from: Vec3) -> f32 {
+    let has_range = range > 0.0;
+    let per_range = exact::div(1.0, if has_range { range } else { 1.0 });
+    let near = |x: f32| exact::clamp(x * per_range, -2.0, 2.0);
+    let (x, y, z) = (near(from.x - p[0]), near(from.y - p[1]), near(from.z - p[2]));
+    let squared = length_squared(flush3(Vec3::new(x, y, z), pow2(-30)));
+    let left = exact::max(1.0 - squared * squared, 0.0);
+    if has_range { left } else { 1.0 }
+}
+
+/// A range that is one, 0 among them.
+fn checked_range(range: f32) -> Result<f32, LightError> {
+    // NaN is in no range.
+    if range == 0.0 || (pow2(-20)..=MAX_COORDINATE).contains(&range) {
+        // Of the two zeros the positive one.
+        Ok(if range == 0.0 { 0.0 } else { range })
+    } else {
+        Err(LightError::Range { range })
+    }
+}
+
 #[inline(always)]
 pub(super) fn at(p: &[f32; 3], intensity: [f32; 3]) -> LightPoint {
     LightPoint {
@@ -128,6 +156,7 @@ impl Light for PointLight {
     const DARK: Self = Self {
         p: [0.0; 3],
         intensity: [0.0; 3],
+        range: 0.0,
         mesh: INVALID,
     };
 
@@ -138,6 +167,7 @@ impl Light for PointLight {
     fn checked(mut self) -> Result<Self, LightError> {
         self.p = checked_place("point light", self.p)?;
         self.intensity = checked_emission("intensity of a point light", self.intensity)?;
+        self.range = checked_range(self.range)?;
         Ok(self)
     }
 
@@ -166,12 +196,15 @@ impl Light for PointLight {
             p: instance.vertex(self.p),
             intensity: shining(&self.intensity, instance.radiance, self.has_flux()),
             mesh: index,
+            ..*self
         }
     }
 
     #[inline(always)]
-    fn point_for(&self, _from: Vec3, _uv: [f32; 2]) -> LightPoint {
-        at(&self.p, self.intensity)
+    fn point_for(&self, from: Vec3, _uv: [f32; 2]) -> LightPoint {
+        let left = window(&self.p, self.range, from);
+        let [r, g, b] = self.intensity;
+        at(&self.p, [r * left, g * left, b * left])
     }
 }
 
@@ -222,6 +255,7 @@ impl Light for SpotLight {
         axis: [0.0, 0.0, 1.0],
         cos_inner: 1.0,
         cos_outer: -1.0,
+        range: 0.0,
         mesh: INVALID,
     };
 
@@ -232,6 +266,7 @@ impl Light for SpotLight {
     fn checked(mut self) -> Result<Self, LightError> {
         self.p = checked_place("spot", self.p)?;
         self.intensity = checked_emission("intensity of a spot", self.intensity)?;
+        self.range = checked_range(self.range)?;
         let squared = length_squared(self.axis());
         // NaN is in no range.
         if !(1.0 - NORMAL_TOLERANCE..=1.0 + NORMAL_TOLERANCE).contains(&squared) {
@@ -302,7 +337,8 @@ impl Light for SpotLight {
     #[inline(always)]
     fn point_for(&self, from: Vec3, _uv: [f32; 2]) -> LightPoint {
         let direction = towards(Vec3::new(self.p[0], self.p[1], self.p[2]), from);
-        let falloff = self.falloff(direction);
+        let left = window(&self.p, self.range, from);
+        let falloff = exact::flush(self.falloff(direction) * left, pow2(-60));
         let [r, g, b] = self.intensity;
         at(&self.p, [r * falloff, g * falloff, b * falloff])
     }

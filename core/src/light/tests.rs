@@ -26,6 +26,7 @@ fn spot(cos_inner: f32, cos_outer: f32) -> SpotLight {
     SpotLight {
         p: [1.0, 2.0, -1.0],
         intensity: SHINE,
+        range: 0.0,
         axis: [0.36, -0.8, 0.48],
         cos_inner,
         cos_outer,
@@ -272,6 +273,7 @@ fn points_and_spots_send_their_intensity() {
     let point = PointLight {
         p: [1.0, 2.0, -1.0],
         intensity: SHINE,
+        range: 0.0,
         mesh: 0,
     };
     for receiver in receivers() {
@@ -314,6 +316,7 @@ fn narrow_spots_send_what_their_cone_says() {
                 let own = SpotLight {
                     p: [0.0; 3],
                     intensity: [1.0; 3],
+                    range: 0.0,
                     axis: axis.map(|x| x as f32),
                     cos_inner: inner.cos() as f32,
                     cos_outer: exact::min(outer.cos() as f32, 1.0 - exact::pow2(-20)),
@@ -883,6 +886,7 @@ fn extremes_stay_finite() {
                 check(PointLight {
                     p,
                     intensity: radiance,
+                    range: 0.0,
                     mesh: 0,
                 });
                 check(SpotLight {
@@ -939,3 +943,5 @@ fn extremes_stay_finite() {
         }
     }
 }
+
+mod ranges;

@@ -13,7 +13,7 @@ use glam::Vec3;
 
 use crate::beam::Beam;
 use crate::exact::{self, pow2};
-use crate::importance::{Math, dot_by};
+use crate::importance::{Lobe, Math, dot_by};
 use crate::moments::LightMoments;
 use crate::vector::{flush3, length_squared};
 
@@ -29,6 +29,9 @@ const UNITS: f32 = 65536.0;
 const PER_UNIT: f32 = pow2(-16);
 const PER_GAIN: f32 = 4.0;
 const GAIN_UNIT: f32 = 0.25;
+/// A slack that takes all points in, and the least that counts.
+const ALL_OF_SPACE: f32 = 256.0;
+const LEAST_SLACK: f32 = pow2(-60);
 /// What absorbs the rounding of a squared length, as `LEAST_DISTANCE` of the weights.
 const LEAST_SQUARED: f32 = pow2(-50);
 
@@ -89,17 +92,26 @@ pub(super) fn beam_of(word: u32, stored: &LightMoments, unit: f32) -> Beam {
     }
 }
 
-/// The factor on the weight of a child with this word, the centre of which is at `x` from the point, with the mean normal `m` in units of
-/// which one is `m_unit`; lengths are in units of the scale, of which one of the frame has `unit`.
+/// What the test of a cone allows for where rounding may have moved a point by `moved`, in units of the scale: with v from the apex, v·m − cos θ m |v|
+/// changes by twice as much at most.
 #[inline(always)]
-pub(super) fn beam_factor<M: Math>(word: u32, x: Vec3, m: Vec3, m_unit: f32, unit: f32) -> f32 {
+pub(super) fn cone_slack(moved: f32) -> f32 {
+    // Lengths are at most about 60, and what a device flushes is cut here.
+    exact::flush(exact::min(moved + moved, ALL_OF_SPACE), LEAST_SLACK)
+}
+
+/// The factor on the weight of a child with this word and these moments, its mean normal in units of which one is `m_unit`; lengths are in
+/// units of the scale, of which one of the frame has `unit`; a point counts as in the cone by [`cone_slack`] `slack`.
+#[inline(always)]
+pub(super) fn beam_factor<M: Math>(word: u32, lobe: &Lobe, m_unit: f32, unit: f32, slack: f32) -> f32 {
+    let (x, m) = (lobe.x, lobe.m);
     let behind = length_of(word) * unit * m_unit;
     let from_apex = Vec3::new(
         M::add_product(x.x, -m.x, behind),
         M::add_product(x.y, -m.y, behind),
         M::add_product(x.z, -m.z, behind),
     );
-    let along = dot_by::<M>(m, from_apex) * -m_unit;
+    let along = M::add_product(slack, dot_by::<M>(m, from_apex), -m_unit);
     let apex_squared = dot_by::<M>(from_apex, from_apex) + LEAST_SQUARED;
     let squared = dot_by::<M>(x, x) + LEAST_SQUARED;
     let cone = (word >> 16) as i32 as f32 * PER_UNIT;

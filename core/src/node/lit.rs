@@ -93,8 +93,8 @@ impl<N: Node<W>, L: Light, const W: usize> Node<W> for Lit<N, L> {
 
 impl<N: MomentLayout<W>, L: Light, const W: usize> MomentLayout<W> for Lit<N, L> {
     #[inline(always)]
-    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, is_even: bool) -> [f32; W] {
-        self.node.moment_weights::<M>(p, n, is_even)
+    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, slack: f32) -> [f32; W] {
+        self.node.moment_weights::<M>(p, n, slack)
     }
 }
 

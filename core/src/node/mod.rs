@@ -152,6 +152,6 @@ pub trait BoundsNode<const W: usize>: Node<W, Summary = LightBounds> {
 /// A layout that stores [`LightMoments`].
 pub trait MomentLayout<const W: usize>: Node<W, Summary = LightMoments> {
     /// The weights of the children at the point `p` with the normal `n`, in the node's space, by the operations `M`; see
-    /// [`ImportanceModel::weights`](crate::ImportanceModel::weights). Where the space is not `is_even`, beams say nothing.
-    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, is_even: bool) -> [f32; W];
+    /// [`ImportanceModel::weights`](crate::ImportanceModel::weights). `slack` is [`Instance::slack`](crate::Instance::slack).
+    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, slack: f32) -> [f32; W];
 }

@@ -4,14 +4,14 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::beam_row::{beam_factor, beam_of, beam_word};
+use super::beam_row::{beam_factor, beam_of, beam_word, cone_slack};
 use super::codes::{
     BREADTH_MASK, BREADTH_SHIFT, EXTENT_RANGE, PER_EXTENT_RANGE, PHI_MASK, PHI_SHIFT, SPREAD_UNIT, SQRT_2,
     SQRT_HALF, WORD_UNIT, breadth_code, breadth_value, field, fraction, frame_of, phi_code, phi_value,
     spread_code,
 };
 use super::{Holds, MomentLayout, Node};
-use crate::beam::{Beam, Limits, Union};
+use crate::beam::{Beam, Limits, Union, rounding_at};
 use crate::exact::{self, pow2};
 use crate::importance::{Lobe, Math, dot_by, frame, side, weight};
 use crate::light::EmissiveTriangle;
@@ -371,7 +371,7 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> MomentLayout<W>
     for PackedMomentNode<W, ROWS, BEAMS>
 {
     #[inline(always)]
-    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, is_even: bool) -> [f32; W] {
+    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, slack: f32) -> [f32; W] {
         let frame = frame(self.origin(), self.unit_exponent(), p);
         let side = side(n, WORD_UNIT);
         let word_unit = frame.unit * WORD_UNIT;
@@ -379,6 +379,11 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> MomentLayout<W>
         let up = abs3(n) * (2.0 * EXTENT_RANGE);
         let up_sum = (up.x + up.y) + up.z;
         let up = up * WORD_UNIT;
+        let cone_slack = if BEAMS {
+            cone_slack((slack + rounding_at(p)) * frame.per_metre)
+        } else {
+            0.0
+        };
         let mut weights = [0.0; W];
         for i in 0..W {
             let (w0, w1, w2, w3) = (
@@ -403,8 +408,9 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> MomentLayout<W>
             };
             weights[i] = weight::<M>(&lobe, &side);
             if BEAMS {
-                let factor = beam_factor::<M>(self.0[Self::BEAM][i], lobe.x, lobe.m, WORD_UNIT, frame.unit);
-                weights[i] *= if is_even { factor } else { 1.0 };
+                let factor =
+                    beam_factor::<M>(self.0[Self::BEAM][i], &lobe, WORD_UNIT, frame.unit, cone_slack);
+                weights[i] *= if slack >= 0.0 { factor } else { 1.0 };
             }
         }
         weights

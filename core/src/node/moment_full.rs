@@ -139,7 +139,7 @@ impl<const W: usize> Node<W> for FullMomentNode<W> {
 
 impl<const W: usize> MomentLayout<W> for FullMomentNode<W> {
     #[inline(always)]
-    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, _is_even: bool) -> [f32; W] {
+    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, _slack: f32) -> [f32; W] {
         // One scale for all: of the farthest or largest child with flux, and of the brightest one.
         let mut size = LEAST_EXPONENT;
         let mut greatest = 0.0;

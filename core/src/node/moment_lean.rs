@@ -144,7 +144,7 @@ impl<const W: usize> Node<W> for LeanMomentNode<W> {
 
 impl<const W: usize> MomentLayout<W> for LeanMomentNode<W> {
     #[inline(always)]
-    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, _is_even: bool) -> [f32; W] {
+    fn moment_weights<M: Math>(&self, p: Vec3, n: Vec3, _slack: f32) -> [f32; W] {
         let frame = frame(self.origin(), (self.0[0][3] & 255) as i32 - 127, p);
         let side = side(n, WORD_UNIT);
         let word_unit = frame.unit * WORD_UNIT;

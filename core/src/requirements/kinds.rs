@@ -85,6 +85,7 @@ mod tests {
     const POINT: PointLight = PointLight {
         p: [0.0; 3],
         intensity: [1.0; 3],
+        range: 0.0,
         mesh: 0,
     };
 
@@ -92,6 +93,7 @@ mod tests {
         SpotLight {
             p: [0.0; 3],
             intensity: [1.0; 3],
+            range: 0.0,
             axis: [0.0, -1.0, 0.0],
             cos_inner: 1.0,
             cos_outer,

@@ -42,7 +42,7 @@ pub(super) fn sample_split<N: Node<W>, I: ImportanceModel<N, W>, const W: usize,
         let parent = subtrees[k];
         subtrees[k].gain = 0.0;
         let node = parent.walk.node(tree);
-        let weights = I::weights_in(node, &parent.walk.point, parent.walk.is_even);
+        let weights = I::weights_in(node, &parent.walk.point, parent.walk.slack);
         let (mut sum, mut children) = (0.0, 0);
         for slot in 0..W {
             sum += exact::max(weights[slot], 0.0);

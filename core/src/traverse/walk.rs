@@ -38,8 +38,8 @@ pub(super) struct Walk<P = ShadingPoint> {
     halvings: u32,
     /// The point in the space of the node.
     pub point: P,
-    /// Whether angles are those of the world there, where the layout asks.
-    pub is_even: bool,
+    /// What the layout is told where it asks: [`Instance::slack`].
+    pub slack: f32,
     steps: u32,
 }
 
@@ -66,7 +66,7 @@ impl<P: Receiver> Walk<P> {
             range: FULL,
             halvings: 0,
             point: *point,
-            is_even: true,
+            slack: 0.0,
             steps: tree.depth,
         };
         walk.narrow(taken, FULL - taken);
@@ -81,7 +81,7 @@ impl<P: Receiver> Walk<P> {
         world: &P,
     ) {
         let node = self.node(tree);
-        let weights = I::weights_in(node, &self.point, self.is_even);
+        let weights = I::weights_in(node, &self.point, self.slack);
         let share = choose(
             &weights,
             self.range,
@@ -139,7 +139,7 @@ impl<P: Receiver> Walk<P> {
             self.position = levels + u32::from(instance.is_part());
             self.point = world.to_local(instance);
             if N::HAS_BEAMS {
-                self.is_even = instance.is_even();
+                self.slack = instance.slack();
             }
         } else {
             self.index = if descends { link } else { self.index };

@@ -20,7 +20,7 @@ pub struct AnalyticLight {
     /// Factor on the colour, not negative. Of points and spots radiant intensity, W/sr (glTF: candela), of profiles a number alone, of suns irradiance (glTF: lux), of
     /// spheres, rectangles and discs radiance, W/(m² sr), of boxes what a metre adds to it, W/(m³ sr).
     pub intensity: f32,
-    /// Metres beyond which nothing should be lit, above zero; not looked at.
+    /// Of points and spots: metres from which on nothing arrives, 2^-20 to 2^40; without, light arrives everywhere.
     pub range: Option<f32>,
 }
 
@@ -110,6 +110,7 @@ impl AnalyticLight {
     pub fn light(&self) -> Option<AnyLight> {
         let emission = self.emission();
         let (p, mesh) = ([0.0; 3], 0);
+        let range = self.range.unwrap_or(0.0);
         // The front of what has one is the node's -Z.
         let flat = |[x, y]: [f32; 2]| [[0.0, y, 0.0], [x, 0.0, 0.0]];
         Some(match self.kind {
@@ -117,12 +118,14 @@ impl AnalyticLight {
             AnalyticKind::Point => PointLight {
                 p,
                 intensity: emission,
+                range,
                 mesh,
             }
             .into(),
             AnalyticKind::Spot { inner, outer } => SpotLight {
                 p,
                 intensity: emission,
+                range,
                 axis: [0.0, 0.0, -1.0],
                 cos_inner: cosine(inner),
                 cos_outer: cosine(outer).min(1.0 - 2.0_f32.powi(-20)),

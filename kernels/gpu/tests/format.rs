@@ -155,8 +155,8 @@ fn lights_of_other_kinds_have_their_words() {
             assert_eq!(offset_of!($type, mesh), <$type>::MESH_WORD * 4);
         };
     }
-    light!(PointLight: p, intensity, mesh);
-    light!(SpotLight: p, intensity, axis, cos_inner, cos_outer, mesh);
+    light!(PointLight: p, intensity, range, mesh);
+    light!(SpotLight: p, intensity, axis, cos_inner, cos_outer, range, mesh);
     light!(ProfileLight: p, intensity, axis, across, cos_outer, whole, mean_cosine, mesh, flags);
     light!(SphereLight: p, radius, radiance, mesh);
     light!(RectangleLight: p, half, radiance, mesh, flags);

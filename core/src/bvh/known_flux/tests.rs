@@ -159,6 +159,43 @@ fn files_tell_it() {
     }
 }
 
+/// And goes on word for word, where another flux was the last thing that changed before the file was written.
+#[test]
+fn files_of_another_flux_go_on() {
+    for refits in 1..4 {
+        let mut bvh = LightBvh::default();
+        let random = &mut Random(refits);
+        let lamp = bvh.add_mesh(mesh_of(1, 1.0)).expect("a lamp");
+        let mesh = bvh.add_mesh(mesh_of(20, 1.0)).expect("a mesh");
+        let add = (0..60).map(|_| Edit::AddInstance {
+            mesh: lamp,
+            transform: Transform::at((random.vector() * 20.0).to_array()),
+            radiance: 1.0,
+        });
+        bvh.apply(add.collect()).expect("instances");
+        bvh.add_instance(mesh, Transform::IDENTITY).expect("one");
+        bvh.refit();
+        bvh.set_triangles(mesh, mesh_of(20, 3.0)).expect("as many");
+        (0..refits).for_each(|_| bvh.refit());
+        let mut read = LightBvh::from_words(&bvh.to_words()).expect("its own");
+        let own = || {
+            Rebuilder::new(RebuilderParams {
+                swap: Swap::Deterministic,
+                ..RebuilderParams::default()
+            })
+        };
+        let mut rebuilders = [own(), own()];
+        for frame in 0..40 {
+            for (bvh, rebuilder) in [&mut bvh, &mut read].into_iter().zip(&mut rebuilders) {
+                rebuilder.begin_frame(bvh).expect("no panic");
+                bvh.refit();
+                rebuilder.end_frame(bvh);
+            }
+            assert!(bvh.to_words() == read.to_words(), "{refits}: {frame}");
+        }
+    }
+}
+
 /// Each instance counts, by its own flux, for what it outshines in each node above: the root's share is that of its instances, and no node counts fewer
 /// than the one below.
 #[test]

@@ -26,6 +26,7 @@ fn point(random: &mut Random) -> PointLight {
     PointLight {
         p: random.vector().to_array(),
         intensity: SHINE,
+        range: 0.0,
         mesh: 0,
     }
 }
@@ -35,6 +36,7 @@ fn spot(random: &mut Random) -> SpotLight {
     SpotLight {
         p: random.vector().to_array(),
         intensity: SHINE,
+        range: 0.0,
         axis: [0.0, 0.6, 0.8],
         cos_inner: 0.9,
         cos_outer: 0.5,

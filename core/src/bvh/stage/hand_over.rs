@@ -67,8 +67,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// The tree of a stage becomes its mesh's, another bottom level. Where the next refit computes the leaves of all its instances anyway, or they are
     /// few, all follow; else those that [`hand_over_some`](Self::hand_over_some) takes.
     pub(super) fn put_in_place(&mut self, old: u32, staged: Staged) {
-        let is_refitted = self.is_to_be_refitted(old);
-        let is_at_once = is_refitted || self.leaves_of_mesh(old) <= HANDED;
+        let is_at_once = self.is_to_be_refitted(old) || self.leaves_of_mesh(old) <= HANDED;
         let new = staged.index;
         let own = &mut self.blases[old as usize];
         own.is_outgoing = true;
@@ -99,9 +98,6 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let nothing = BlasRoot::new(INVALID, &N::Summary::EMPTY);
         put(&mut self.roots, new, refit::root(&self.nodes, root), &nothing);
         self.meshes[mesh as usize].blas = new;
-        if is_refitted {
-            self.changes.replace_blas(old, new);
-        }
         self.changes.new.roots.insert(new);
         self.changes.forget_lists();
         let at = self.handing.partition_point(|&other| other < new);

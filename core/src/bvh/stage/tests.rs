@@ -387,6 +387,49 @@ pub(super) fn worn_clusters() -> LightBvh {
     bvh
 }
 
+/// A tree that needs wide trails makes all of them wide as its first one is put in place, and the depth that files tell them by grows then, not frames later.
+#[test]
+fn trails_are_as_wide_as_files_say_while_they_are_put_in_place() {
+    let mut bvh = LightBvh::default();
+    // Deep, once it is built anew: lights at powers of two.
+    let deep: Vec<EmissiveTriangle> = (0..2000)
+        .map(|k| {
+            let size = crate::exact::pow2((k % 96) - 58);
+            let z = size * 1e-3 * (k / 96) as f32;
+            EmissiveTriangle {
+                p: [[size, 0.0, z], [size * 1.01, 0.0, z], [size, 0.01 * size, z]],
+                radiance: [1.0; 3],
+                mesh: 0,
+                flags: 0,
+            }
+        })
+        .collect();
+    let mesh = bvh.add_mesh(lamps(1)[..2000].to_vec()).expect("a mesh");
+    for x in [0.0, 50.0] {
+        bvh.add_instance(mesh, Transform::at([x, 0.0, 0.0])).expect("one");
+    }
+    bvh.refit();
+    bvh.set_triangles(mesh, deep).expect("as many");
+    bvh.refit();
+    let (.., mut rebuilder) = scene();
+    let (mut frames, mut wide) = (0, 0);
+    loop {
+        rebuilder.end_frame(&bvh);
+        let start = rebuilder.begin_frame(&mut bvh).expect("no panic");
+        let words = crate::trail::trail_words(8, bvh.bottom_depth);
+        assert_eq!(bvh.trail_words, words, "{frames}");
+        wide += u32::from(words == 2);
+        bvh.refit();
+        LightBvh::from_words(&bvh.to_words()).expect("sound words");
+        frames += 1;
+        if start.adopted > 0 {
+            break;
+        }
+        assert!(frames < 500);
+    }
+    assert!(wide > 1, "{wide}: all trails came in with one frame");
+}
+
 /// The levels of a part count where it is deeper than all that was before: files would be refused, and the depth told be too small.
 #[test]
 fn a_part_that_is_deeper_is_counted() {

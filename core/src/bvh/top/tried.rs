@@ -56,7 +56,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     pub(in crate::bvh) fn note_changes(&mut self, counted: &Counted, top: &Levels) {
         let Counted { refitted, swept, all } = counted;
         let now = self.epoch + 1;
-        let since = core::mem::replace(&mut self.top.counted_at, self.epoch);
+        let since = core::mem::replace(&mut self.top.counted_at, self.epoch).max(self.top.built_at);
         let mut counts = core::mem::take(&mut self.top.counted);
         let mut count = |leaf: u32| {
             let number = self.top.number(self.placed[leaf as usize].node);
@@ -143,10 +143,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.top.stirred[number] = bounded_sum(self.top.stirred[number], count);
     }
 
-    /// So many instances below the node of that number are others than it was built for: it is to be tried, and once more when it rests.
-    pub(in crate::bvh) fn unsettle_one(&mut self, number: usize, count: u32) {
+    /// So many instances below the node of that number are others than it was built for, since the epoch `at`: it is to be tried, and once more when it rests.
+    pub(in crate::bvh) fn unsettle_one(&mut self, number: usize, count: u32, at: u64) {
         self.stir_one(number, count);
         self.top.changes[number] = bounded_sum(self.top.changes[number], count);
-        self.top.moved[number] = self.epoch + 1;
+        self.top.moved[number] = at;
     }
 }

@@ -46,6 +46,7 @@ mod tests {
         let point = PointLight {
             p: [0.0, 3.0, 0.0],
             intensity: [5.0; 3],
+            range: 0.0,
             mesh: 0,
         };
         let expected = 5.0 * cosine / squared;

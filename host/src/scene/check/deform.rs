@@ -119,9 +119,9 @@ impl Check<'_> {
             return Err(self.out_of_range(name("intensity"), light.intensity, "0 to 2^100"));
         }
         if let Some(range) = light.range
-            && !(range > 0.0 && range.is_finite())
+            && !(2.0_f32.powi(-20)..=MAX_COORDINATE).contains(&range)
         {
-            return Err(self.out_of_range(name("range"), range, "metres above 0"));
+            return Err(self.out_of_range(name("range"), range, "2^-20 to 2^40 metres, or none"));
         }
         if let AnalyticKind::Spot { inner, outer } = light.kind
             && !(inner >= 0.0 && inner <= outer && outer > 0.0 && outer <= std::f32::consts::FRAC_PI_2)

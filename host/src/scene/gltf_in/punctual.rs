@@ -1,5 +1,6 @@
 //! Lights without area (`KHR_lights_punctual`): read and checked.
 
+use lightbvh::light::MAX_COORDINATE;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
@@ -92,13 +93,6 @@ pub(super) fn read(
             )),
         }
     }
-    let bounded = data.analytic.iter().filter(|light| light.range.is_some()).count();
-    if bounded > 0 {
-        document.warn(format!(
-            "{bounded} lights ({NAME}) have a range, which is not applied: light falls off by the square of the distance alone, and what lies \
-             beyond is lit too"
-        ));
-    }
     Ok(())
 }
 
@@ -122,6 +116,10 @@ fn light(value: &Value, node: u32) -> Result<AnalyticLight, String> {
     if range.is_some_and(|range| !(range > 0.0 && range.is_finite())) {
         return Err(String::from("its range is not above 0 metres"));
     }
+    // The domain of lights, which begins below any room and ends beyond any scene.
+    let range = range
+        .filter(|range| *range <= MAX_COORDINATE)
+        .map(|range| range.max(2.0_f32.powi(-20)));
     let kind = match light.kind {
         Kind::Directional => AnalyticKind::Directional,
         Kind::Point => AnalyticKind::Point,

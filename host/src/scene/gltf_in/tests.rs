@@ -66,13 +66,15 @@ fn texture_coordinates_that_are_none_are_named() {
     assert!(scene.warnings()[0].contains("TEXCOORD_0 has fewer entries than POSITION"));
 }
 
-/// Once for a file, whatever the number of lights.
+/// What exporters write for none is none.
 #[test]
-fn ranges_of_lights_are_said_not_to_be_applied() {
+fn lights_have_their_ranges() {
     let mut root = painted([[0.0; 2]; 3]);
-    let lamp = json!({ "type": "point", "range": 3 });
-    root["extensions"] = json!({ "KHR_lights_punctual": { "lights": [lamp, lamp] } });
-    for light in 0..2 {
+    let lamp = |range: f64| json!({ "type": "point", "range": range });
+    let spot = json!({ "type": "spot", "range": 7.5 });
+    let far = lamp(3.4e38);
+    root["extensions"] = json!({ "KHR_lights_punctual": { "lights": [lamp(3.0), spot, far, lamp(1e-9)] } });
+    for light in 0..4 {
         let nodes = root["nodes"].as_array_mut().expect("nodes");
         nodes.push(json!({ "extensions": { "KHR_lights_punctual": { "light": light } } }));
         let number = nodes.len() - 1;
@@ -82,13 +84,9 @@ fn ranges_of_lights_are_said_not_to_be_applied() {
             .push(json!(number));
     }
     let scene = read(&root);
-    assert_eq!(scene.analytic_count(), 2);
-    let warnings = scene.warnings();
-    assert!(
-        warnings.len() == 1
-            && warnings[0].starts_with("2 lights (KHR_lights_punctual) have a range, which is not applied"),
-        "{warnings:?}"
-    );
+    let found: Vec<Option<f32>> = scene.data().analytic.iter().map(|light| light.range).collect();
+    assert_eq!(found, [Some(3.0), Some(7.5), None, Some(2.0_f32.powi(-20))]);
+    assert!(scene.warnings().is_empty(), "{:?}", scene.warnings());
 }
 
 /// Every extension that is read stands in the documentation.

@@ -139,6 +139,7 @@ impl Lamp for AnyLight {
             1 => PointLight {
                 p,
                 intensity: shine,
+                range: 0.0,
                 mesh,
             }
             .into(),

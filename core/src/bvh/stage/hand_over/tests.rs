@@ -101,6 +101,9 @@ fn a_few_instances_follow_in_each_frame() {
             bvh.of_mesh(0).outgoing.expect("some are left").blas,
             bvh.meshes[0].blas,
         );
+        // The frame in which much of it changed last is known of the new one too.
+        let stirred = bvh.blases[old as usize].stirred;
+        assert!(stirred > 0 && bvh.of_mesh(0).stirred == stirred);
         let mut frames = 0;
         while left(&bvh) > 0 {
             let before = left(&bvh);

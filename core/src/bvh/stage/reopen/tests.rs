@@ -84,6 +84,51 @@ fn instances_are_closed_a_few_in_each_frame() {
     }
 }
 
+/// Of a mesh that is handed over a few records at a time all instances are closed before, where its new tree has another number of parts.
+#[test]
+fn all_are_closed_for_a_tree_that_is_handed_over() {
+    let (mut bvh, mesh, others) = scene(40);
+    // Far off and small, so closed.
+    let add = (0..300).map(|k| Edit::AddInstance {
+        mesh,
+        transform: Transform::from_rows([
+            [1e-3, 0.0, 0.0, 1e4 * (k + 1) as f32],
+            [0.0, 1e-3, 0.0, 0.0],
+            [0.0, 0.0, 1e-3, 0.0],
+        ]),
+        radiance: 1e-9,
+    });
+    bvh.apply(add.collect()).expect("instances");
+    bvh.set_triangles(mesh, others).expect("as many");
+    bvh.refit();
+    let mut own: Rebuilder<MomentNode<8>, 8> = Rebuilder::new(RebuilderParams {
+        swap: Swap::Deterministic,
+        rebuild: RebuildParams {
+            top: f64::INFINITY,
+            ..RebuildParams::default()
+        },
+        ..RebuilderParams::default()
+    });
+    let created = bvh.of_mesh(0).created;
+    let mut frames = 0;
+    loop {
+        let before = bvh.of_mesh(0).opened;
+        own.end_frame(&bvh);
+        own.begin_frame(&mut bvh).expect("no panic");
+        bvh.refit();
+        bvh.validate().expect("valid");
+        if bvh.of_mesh(0).created != created {
+            assert!(
+                before <= AT_ONCE && bvh.of_mesh(0).outgoing.is_some(),
+                "{before} were open"
+            );
+            break;
+        }
+        frames += 1;
+        assert!(frames < 1000);
+    }
+}
+
 /// A small mesh, which is put in place at once, waits for its instances too where its new tree has another number of parts; where it has as many
 /// it does not.
 #[test]

@@ -117,3 +117,40 @@ fn a_part_of_which_an_eighth_was_kept_is_tried() {
         }
     }
 }
+
+/// Edits between a top level that was built as a whole and its first refit count alone, not with them all that it was built of: what rests has
+/// nothing to be tried.
+#[test]
+fn what_a_whole_top_level_was_built_of_is_no_change() {
+    let random = &mut crate::kit::Random(5);
+    let mut scene = LightBvh::default();
+    let mesh = lamp(&mut scene);
+    let mut add = |count: u32| -> Vec<Edit> {
+        let place = |_| Edit::AddInstance {
+            mesh,
+            transform: Transform::at((random.vector() * 100.0).to_array()),
+            radiance: 1.0,
+        };
+        (0..count).map(place).collect()
+    };
+    let all = add(20_000);
+    scene.apply(all).expect("instances");
+    for _ in 0..3 {
+        let few = add(1);
+        scene.apply(few).expect("instances");
+    }
+    scene.refit();
+    let number = scene.top.number(scene.top.root) as usize;
+    assert!(scene.top.changes[number] < 50, "{}", scene.top.changes[number]);
+    let mut own = Rebuilder::new(RebuilderParams {
+        swap: Swap::Deterministic,
+        ..RebuilderParams::default()
+    });
+    let mut swapped = 0;
+    for _ in 0..60 {
+        swapped += u32::from(own.begin_frame(&mut scene).expect("no panic").swapped);
+        scene.refit();
+        own.end_frame(&scene);
+    }
+    assert!(swapped <= 1, "{swapped} trees for nothing");
+}

@@ -1,0 +1,82 @@
+//! How far points and spots reach.
+
+use super::*;
+
+/// A range leaves 1 − (d / range)⁴ of a light, nothing from there on, and all of it where there is none; an instance leaves it as it is.
+#[test]
+fn ranges_are_a_window() {
+    let point = PointLight {
+        p: [1.0, 2.0, -1.0],
+        intensity: [1.0, 2.0, 4.0],
+        range: 0.0,
+        mesh: 0,
+    };
+    let turned =
+        crate::Transform::from_rows([[3.0, 0.0, 0.0, 1.0], [0.0, 3.0, 0.0, 2.0], [0.0, 0.0, 3.0, 5.0]])
+            .instance(0.5);
+    for range in [exact::pow2(-20), 0.3, 8.0, 5000.0, exact::pow2(40)] {
+        let bounded = PointLight { range, ..point }.checked().expect("a range");
+        let cone = SpotLight {
+            range,
+            ..spot(0.9, 0.5)
+        };
+        assert_eq!(
+            AnyLight::from(bounded).point_for(Vec3::ZERO, [0.5; 2]),
+            bounded.point_for(Vec3::ZERO, [0.5; 2])
+        );
+        assert_eq!(PointLight::try_from(AnyLight::from(bounded)), Ok(bounded));
+        assert_eq!(SpotLight::try_from(AnyLight::from(cone)), Ok(cone));
+        assert_eq!(bounded.in_world(&turned, 1).range, range);
+        assert_eq!(cone.in_world(&turned, 1).range, range);
+        for share in [0.0_f32, 1e-12, 0.25, 0.5, 0.9, 0.999, 1.001, 1.5, 3.0, 1e9, 1e30] {
+            for axis in [[1.0, 0.0, 0.0], [0.0, -0.6, 0.8], [0.36, 0.48, -0.8]] {
+                let d = f64::from(share) * f64::from(range);
+                if d > f64::from(exact::pow2(41)) {
+                    continue;
+                }
+                let from = Vec3::from(core::array::from_fn::<f32, 3, _>(|k| {
+                    point.p[k] + d as f32 * axis[k]
+                }));
+                // As far as it is, coordinates rounded.
+                let away = minus(from.to_array().map(f64::from), point.p.map(f64::from));
+                let q = (dot(away, away).sqrt() / f64::from(range)).min(1.0);
+                let expected = 1.0 - q.powi(4);
+                let all = point.point_for(from, [0.5; 2]).radiance;
+                assert_eq!(all, point.intensity);
+                let found = bounded.point_for(from, [0.5; 2]).radiance;
+                for k in 0..3 {
+                    let left = f64::from(found[k] / all[k]);
+                    assert!(
+                        (left - expected).abs() < 2e-6,
+                        "{range} {d}: {left}, expected {expected}"
+                    );
+                }
+                let free = spot(0.9, 0.5).point_for(from, [0.5; 2]).radiance;
+                let found = cone.point_for(from, [0.5; 2]).radiance;
+                let near = SpotLight { p: point.p, ..cone };
+                assert_eq!(near.p, cone.p);
+                for k in 0..3 {
+                    let difference = f64::from(found[k]) - expected * f64::from(free[k]);
+                    assert!(
+                        difference.abs() < 1e-5 * f64::from(SHINE[k]),
+                        "{range} {d}: {difference}"
+                    );
+                }
+            }
+        }
+    }
+    for range in [-1.0, f32::NAN, f32::INFINITY, exact::pow2(-21), exact::pow2(41)] {
+        let wrong = PointLight { range, ..point }
+            .checked()
+            .map(|_| ())
+            .expect_err("no range");
+        assert!(format!("{wrong}").contains("the range of a light is"), "{wrong}");
+        let wrong = SpotLight {
+            range,
+            ..spot(0.9, 0.5)
+        };
+        assert!(matches!(wrong.checked(), Err(LightError::Range { .. })));
+    }
+    let zero = PointLight { range: -0.0, ..point }.checked().expect("none");
+    assert_eq!(zero.range.to_bits(), 0);
+}
