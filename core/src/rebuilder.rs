@@ -168,6 +168,8 @@ pub struct Rebuilder<N: Holds = DefaultNode, const W: usize = 8> {
     start: fn() -> std::io::Result<Worker<N, W>>,
 }
 
+/// Leaves of instances whose meshes went elsewhere that a frame puts in anew, or a few more where the last one is opened.
+const STRAYED: usize = 2;
 /// Instances that a frame opens or closes.
 const REOPENED: usize = 2;
 /// Frames in a row in which none is, for parts of a large top level come in.
@@ -253,6 +255,7 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
             true => 1,
         };
         self.held = if most == 0 { self.held + 1 } else { 0 };
+        scene.put_strayed_elsewhere(STRAYED);
         let closed = scene.close_for_stages(most);
         self.reopen_some(scene, most - closed);
         flight?;

@@ -222,6 +222,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if !self.placed[index as usize].parts.is_empty() {
             self.close(index);
         }
+        self.top.strayed.remove(&index);
         let placed = &mut self.placed[index as usize];
         placed.live = false;
         placed.node = INVALID;

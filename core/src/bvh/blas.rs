@@ -38,6 +38,8 @@ pub(super) struct Blas {
     pub powers: Powers,
     /// Its flux as the top level was built for it, and whether that was less once.
     pub known_flux: KnownFlux,
+    /// The centre of its lights as its instances were put where they are, in their space; NaN before it is known.
+    pub center: [f32; 3],
     /// When its topology was made.
     pub created: u64,
     /// When what is known of it as a whole changed last.
@@ -78,6 +80,7 @@ impl Blas {
             extent: Extent::of::<L>(&[]),
             powers: Powers::default(),
             known_flux: KnownFlux::default(),
+            center: [f32::NAN; 3],
             created: 0,
             changed: 0,
             stirred: 0,
@@ -115,7 +118,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.write_triangles(index, triangles);
         topology.move_primitives::<W>(range.start);
         self.place_blas(index, &topology);
-        self.blases[index as usize].known_flux = KnownFlux::of(self.root_of(index).phi());
+        let root = self.root_of(index);
+        let own = &mut self.blases[index as usize];
+        own.known_flux = KnownFlux::of(root.phi());
+        if root.phi() > 0.0 {
+            own.center = root.center().to_array();
+        }
         index
     }
 

@@ -149,6 +149,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         self.judge_list(work.top.nodes());
         self.note_fluxes(&work.roots);
+        self.note_centers(&work.roots);
         // The lists of the last plan stay, for mirrors that follow it later.
         if is_listed || is_told {
             self.planned = work;

@@ -17,8 +17,10 @@ mod remove;
 #[cfg(feature = "std")]
 mod search;
 mod settle;
+mod strayed;
 mod tried;
 
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 pub(super) use self::come::Quota;
@@ -74,6 +76,8 @@ pub(super) struct Top {
     pub built_at: u64,
     /// By number: children that came or went since the last refit.
     pub counted: Vec<u32>,
+    /// Instances whose meshes went elsewhere, to be looked at.
+    pub strayed: BTreeSet<u32>,
     /// Nodes whose children edits have changed; they may be gone.
     pub touched: Vec<u32>,
     /// By number: the last search that came by. Instances have theirs.

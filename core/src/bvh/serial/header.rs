@@ -9,7 +9,7 @@ use crate::node::Node;
 use crate::trail::max_levels;
 
 /// Version of the words of [`Bvh::to_words`](crate::Bvh::to_words).
-pub const FORMAT: u32 = 7;
+pub const FORMAT: u32 = 8;
 
 /// "LBVH" as bytes in little-endian order.
 const MAGIC: u32 = u32::from_le_bytes(*b"LBVH");
@@ -23,7 +23,7 @@ pub(super) const OUTGOING: u32 = 1 << 30;
 pub(super) const FOLLOWS: u32 = 1 << 31;
 
 /// Words of a header.
-pub(super) const HEADER_WORDS: usize = 19;
+pub(super) const HEADER_WORDS: usize = 20;
 
 const SINGLE: u32 = 1;
 const FORGOTTEN: u32 = 2;
@@ -55,6 +55,8 @@ pub(super) struct Header {
     pub top_nodes: u32,
     /// Number of bottom levels that may have lost quality.
     pub refitted: u32,
+    /// Number of instances whose meshes went elsewhere.
+    pub strayed: u32,
 }
 
 impl Header {
@@ -82,6 +84,7 @@ impl Header {
             self.top_root,
             self.top_nodes,
             self.refitted,
+            self.strayed,
         ]
     }
 
@@ -129,7 +132,7 @@ impl Header {
         words.expect(triangles as usize <= MAX_LIGHTS, "number of triangles")?;
         let [blases, meshes, instances, lights] = words.array()?;
         words.expect(lights as usize <= MAX_LIGHTS, "end of the lights' numbers")?;
-        let [removed, top_root, top_nodes, refitted] = words.array()?;
+        let [removed, top_root, top_nodes, refitted, strayed] = words.array()?;
         if top_root >= nodes {
             return Err(ReadError::Places {
                 what: "the top level's root",
@@ -155,6 +158,7 @@ impl Header {
             top_root,
             top_nodes,
             refitted,
+            strayed,
         })
     }
 }

@@ -61,6 +61,12 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
         let refitted = read_indices(words, header.refitted, header.blases, "refitted bottom level")?;
         let built = bvh.read_quality(words, &refitted)?;
+        let strayed = read_indices(words, header.strayed, header.instances, "strayed instance")?;
+        let is_sound = |&index: &u32| bvh.placed[index as usize].live;
+        words.expect(
+            strayed.is_sorted_by(|a, b| a < b) && strayed.iter().all(is_sound),
+            "strayed instances",
+        )?;
         bvh.read_nodes(words, &header)?;
         bvh.read_triangles(words, &header)?;
         bvh.restore(&header, &behind)?;
@@ -69,7 +75,10 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         bvh.reserve_room();
         bvh.restore_top_quality(&top_built);
         // Where what was written was not refitted.
-        bvh.note_fluxes(&Vec::from_iter(0..header.blases));
+        let all = Vec::from_iter(0..header.blases);
+        bvh.top.strayed = strayed.into_iter().collect();
+        bvh.note_fluxes(&all);
+        bvh.note_centers(&all);
         Ok(bvh)
     }
 
@@ -84,6 +93,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
                 blas.nodes = read_range(words, header.nodes, "nodes of a bottom level")?;
                 blas.triangles = read_range(words, header.triangles, "triangles of a bottom level")?;
                 blas.parts = read_parts(words, header.blases)?;
+                blas.center = words.array()?.map(f32::from_bits);
                 let known = KnownFlux::from_word(words.one()?);
                 blas.known_flux = known.ok_or_else(|| words.wrong("flux of a mesh"))?;
                 let unsettled = words.one()?;

@@ -35,6 +35,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             top_root: self.top.root,
             top_nodes: self.top.nodes.len() as u32,
             refitted: refitted.len() as u32,
+            strayed: self.top.strayed.len() as u32,
         };
         let mut words = header.words::<N, W>().to_vec();
         self.write_bottoms(&mut words);
@@ -55,6 +56,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             let nodes = self.blases[blas as usize].nodes.clone();
             words.extend(nodes.map(|node| self.quality[node as usize].built.to_bits()));
         }
+        words.extend(&self.top.strayed);
         self.write_nodes(&mut words);
         self.write_triangles_to(&mut words);
         words[LENGTH] = words.len() as u32;
@@ -78,6 +80,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             let staged_only = if blas.is_staged_only { STAGED_ONLY } else { 0 };
             let outgoing = if blas.is_outgoing { OUTGOING } else { 0 };
             let unsettled = blas.unsettled | staged_only | outgoing;
+            words.extend(blas.center.map(f32::to_bits));
             words.extend([blas.known_flux.word(), unsettled, blas.misfits.len() as u32]);
             words.extend(&blas.misfits);
             if blas.is_outgoing {

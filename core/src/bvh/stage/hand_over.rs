@@ -83,6 +83,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             extent: own.extent,
             powers: own.powers,
             known_flux: own.known_flux,
+            center: own.center,
             created,
             stirred: own.stirred,
             adopted: staged.number,

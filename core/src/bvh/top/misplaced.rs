@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use super::cost::Cluster;
 use crate::bvh::{Bvh, Trails};
 use crate::exact::hash;
+use crate::light::Light;
 use crate::moments::LightMoments;
 use crate::node::{Holds, Node, kind};
 use crate::refit;
@@ -23,25 +24,34 @@ const FACTOR: f32 = 2.0;
 const MOST: usize = 64;
 /// Each of the rest counts as so many that are in subtrees built anew: where one in 32 of a part is misplaced there may be something to gain,
 /// even where no node has lost any of its order, as where lamps come on that were off when it was built.
-const STIRS: u32 = 4;
+pub(super) const STIRS: u32 = 4;
 
 /// Of so many instances that are moved one is compared with what lies beside its nodes at all levels.
 const FAR_IN: u32 = 4;
 /// It has strayed where a node beside is nearer by this factor of squared distance, and it has come so far itself.
 const NEARER: f64 = 4.0;
 
-/// Triangles of a mesh that are looked at where all of them are set: of a larger one every second, third or so.
+/// Triangles of a mesh that are looked at where all of them are set: of a larger one, one of each two, three or so.
 const JUMPS: usize = 1024;
 /// Part of a mesh's own variance by which its centre may move for it to stay: half of its deviation.
-const SWAYS: f64 = 4.0;
+pub(super) const SWAYS: f64 = 4.0;
 
 /// The centre by flux of lights, or of [`JUMPS`] of them, in the space of their mesh; `None` where none has flux.
 fn center_of<N>(lights: &[N::Light]) -> Option<[f32; 3]>
 where
     N: Holds,
 {
+    // One of each run, at any place in it: lights in a pattern are dark every second one.
+    let run = lights.len().div_ceil(JUMPS).max(1);
+    let place = |k: usize, own: &[N::Light]| hash(k as u32) as usize % own.len();
+    let some = lights.chunks(run).enumerate().map(|(k, own)| &own[place(k, own)]);
+    // Where none of them has flux few have, and all are looked at.
+    center_by_flux(some).or_else(|| center_by_flux(lights.iter()))
+}
+
+fn center_by_flux<'a, L: Light + 'a>(lights: impl Iterator<Item = &'a L>) -> Option<[f32; 3]> {
     let (mut phi, mut sum) = (0.0, [0.0; 3]);
-    for light in lights.iter().step_by(lights.len().div_ceil(JUMPS).max(1)) {
+    for light in lights {
         let own = LightMoments::of_light(light);
         let flux = f64::from(own.phi());
         phi += flux;
@@ -54,7 +64,7 @@ where
 }
 
 /// Squared distance, m².
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub(super) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|k| (a[k] - b[k]) * (a[k] - b[k])).sum()
 }
 
@@ -127,13 +137,17 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             let before = jumped.len();
             for &user in &self.meshes[self.blases[blas as usize].mesh as usize].users {
                 let center = self.instances[user as usize].vertex(center);
-                // Parts of an opened one stay, for a rebuild.
+                // An opened one is looked at after the refit.
                 if self.placed[user as usize].parts.is_empty() && self.has_jumped(user, center) {
                     jumped.push(user);
                 }
             }
             if jumped.len() > before {
                 self.sweep_now(blas);
+                // Those that stay are where they belong.
+                if self.blases[blas as usize].opened == 0 {
+                    self.blases[blas as usize].center = self.root_of(blas).center().to_array();
+                }
             }
         }
         jumped.sort_unstable();

@@ -1,0 +1,138 @@
+//! Meshes whose lights went elsewhere a few at a time, as by ranges of triangles: no single edit is far, and no node of the mesh is worse.
+//!
+//! A refit compares the centre of each mesh that it computes with where that was as its instances were put where they are. Those of one that
+//! left its own extent are noted, and the rebuilder puts a few in elsewhere as a frame begins: edits had to pay for what they did not change.
+
+use alloc::vec::Vec;
+
+use super::misplaced::{STIRS, SWAYS, distance};
+use crate::bvh::{Bvh, Trails};
+use crate::node::{Node, kind};
+use crate::summary::Summary;
+use crate::tree::INVALID;
+
+/// Instances of a mesh that are noted; of more each counts as some that are in subtrees built anew, and parts are tried.
+const FEW: usize = 256;
+/// Noted instances that one frame looks at.
+#[cfg(feature = "std")]
+const LOOKED_AT: usize = 16;
+
+impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
+    /// After a refit of these roots: notes the instances of meshes whose centre left what the mesh's own extent was where they were put. In time in
+    /// proportion to their instances, and to nothing where there are none.
+    pub(in crate::bvh) fn note_centers(&mut self, roots: &[u32]) {
+        // The lights of a single level are in no top level.
+        if self.single {
+            return;
+        }
+        for &blas in roots {
+            // Parts of opened instances have roots of their own, which go with the whole.
+            let Some(own) = self.blases.get(blas as usize).filter(|own| !own.nodes.is_empty()) else {
+                continue;
+            };
+            let root = self.root_of(blas);
+            // Without flux it is nowhere.
+            if root.phi() <= 0.0 {
+                continue;
+            }
+            let (was, center) = (own.center, root.center().to_array());
+            let is_known = !was[0].is_nan();
+            let squared = distance(center.map(f64::from), was.map(f64::from));
+            if is_known && squared * SWAYS <= f64::from(root.spread()) {
+                continue;
+            }
+            let mesh = own.mesh as usize;
+            self.blases[blas as usize].center = center;
+            if !is_known {
+                continue;
+            }
+            let few = self.meshes[mesh].users.len() <= FEW;
+            for user in 0..self.meshes[mesh].users.len() {
+                let index = self.meshes[mesh].users[user];
+                if few {
+                    self.note_strayed(index, was);
+                } else {
+                    for leaf in self.leaves_of(index) {
+                        self.stir(self.placed[leaf as usize].node, STIRS);
+                    }
+                }
+            }
+        }
+    }
+
+    /// An instance is to be looked at whose mesh had its centre at `was`, in its own space.
+    fn note_strayed(&mut self, index: u32, was: [f32; 3]) {
+        let center = self.instances[index as usize].vertex(was);
+        let placed = &mut self.placed[index as usize];
+        if placed.hung_center[0].is_nan() {
+            placed.hung_center = center;
+        }
+        self.top.strayed.insert(index);
+    }
+
+    /// Puts noted instances in elsewhere that went farther than what lies beside them is spread, about `most` leaves of them.
+    #[cfg(feature = "std")]
+    pub(crate) fn put_strayed_elsewhere(&mut self, most: usize) {
+        let mut out = Vec::new();
+        for _ in 0..LOOKED_AT {
+            if out.len() >= most {
+                break;
+            }
+            let Some(index) = self.top.strayed.pop_first() else {
+                break;
+            };
+            let leaves: Vec<u32> = self.leaves_of(index).collect();
+            let is_opened = !self.placed[index as usize].parts.is_empty();
+            if is_opened || self.lies_elsewhere(index) {
+                let hung = leaves.into_iter();
+                out.extend(hung.filter(|&leaf| self.placed[leaf as usize].node != INVALID));
+            }
+        }
+        if out.is_empty() {
+            return;
+        }
+        self.epoch += 1;
+        for &leaf in &out {
+            self.remove_leaf(leaf);
+        }
+        out.sort_unstable();
+        self.insert_instances(&out);
+        self.settle_some(crate::bvh::rebuild::ADOPTED);
+    }
+
+    /// Whether an instance is farther from where it was put than its node was wide then: the others in it, and it where it was.
+    #[cfg(feature = "std")]
+    fn lies_elsewhere(&self, index: u32) -> bool {
+        let placed = &self.placed[index as usize];
+        if placed.node == INVALID
+            || self.parents[placed.node as usize] == INVALID
+            || placed.hung_center[0].is_nan()
+        {
+            return false;
+        }
+        let node = &self.nodes[placed.node as usize];
+        let own = self.in_world(index);
+        let (was, is) = (
+            placed.hung_center.map(f64::from),
+            own.center().to_array().map(f64::from),
+        );
+        // Flux, flux times centre, and flux times squared distance from where it was.
+        let mut phi = f64::from(own.phi());
+        let (mut first, mut second) = ([0.0; 3], phi * f64::from(own.spread()));
+        for slot in (0..W).filter(|&slot| slot != placed.slot as usize && node.kind(slot) != kind::EMPTY) {
+            let other = node.summary(slot);
+            let flux = f64::from(other.phi());
+            let center = other.center().to_array().map(f64::from);
+            phi += flux;
+            (0..3).for_each(|k| first[k] += flux * (center[k] - was[k]));
+            second += flux * (f64::from(other.spread()) + distance(center, was));
+        }
+        // Of all about their mean; the instance itself is at zero.
+        let mean = first.map(|x| x / phi);
+        let spread = second / phi - distance(mean, [0.0; 3]);
+        distance(is, was) > spread
+    }
+}
+
+#[cfg(all(test, feature = "std"))]
+mod tests;
