@@ -13,6 +13,8 @@ use crate::tree::INVALID;
 
 /// Instances of a mesh that are noted; of more each counts as some that are in subtrees built anew, and parts are tried.
 const FEW: usize = 256;
+/// A mesh is dim that was brighter by more than this factor, where it blinks.
+const DIM: f64 = 2.0;
 /// Noted instances that one frame looks at.
 #[cfg(feature = "std")]
 const LOOKED_AT: usize = 16;
@@ -31,8 +33,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 continue;
             };
             let root = self.root_of(blas);
-            // Without flux it is nowhere.
-            if root.phi() <= 0.0 {
+            // Without flux it is nowhere, and one that blinks is where it is bright.
+            if root.phi() <= 0.0 || self.was_brighter(blas) > DIM {
                 continue;
             }
             let (was, center) = (own.center, root.center().to_array());
