@@ -86,7 +86,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 let index = self.meshes[mesh].users[user];
                 let flux = f64::from(greater) * f64::from(self.instances[index as usize].flux);
                 for leaf in self.leaves_of(index) {
-                    self.unsettle_above(self.placed[leaf as usize].node, flux, self.epoch);
+                    self.unsettle_above(self.placed[leaf as usize].node, flux);
                 }
             }
         }
@@ -107,6 +107,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// After `leaves` were put in: those that outshine what is usual were put where they cost least in a tree that was built without them, which may
     /// be a bad one with them.
     pub(super) fn unsettle_bright(&mut self, leaves: &[u32], usual: f64) {
+        self.epoch += u64::from(!leaves.is_empty());
         for &leaf in leaves {
             // Where the top level was built anew as it came in, it may have been opened or closed.
             if self.placed[leaf as usize].node == INVALID {
@@ -114,22 +115,22 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             }
             let flux = f64::from(self.in_world(leaf).phi());
             if flux > BRIGHT * usual && usual > 0.0 {
-                self.unsettle_above(self.placed[leaf as usize].node, flux, self.epoch + 1);
+                self.unsettle_above(self.placed[leaf as usize].node, flux);
             }
         }
     }
 
     /// Something below `node` and all above it has another flux, `flux` at most. What it outshines in a node is as good as unbuilt: that share
-    /// of its instances, and no fewer than of the node below, for what is little among all may be much where it is. It happened at the epoch `at`: that of a
-    /// refit that found it, or of the one that comes.
-    pub(super) fn unsettle_above(&mut self, node: u32, flux: f64, at: u64) {
+    /// of its instances, and no fewer than of the node below, for what is little among all may be much where it is. It happened at the
+    /// epoch that is: what was built of what there was before it does not know.
+    pub(super) fn unsettle_above(&mut self, node: u32, flux: f64) {
         let (mut node, mut affected) = (node, LEAST);
         while node != INVALID {
             let number = self.top.number(node) as usize;
             let all = f64::from(self.nodes[node as usize].merged().phi());
             let share = if all > flux { flux / all } else { 1.0 };
             affected = affected.max((share * f64::from(self.top.counts[number])) as u32);
-            self.unsettle_one(number, affected, at);
+            self.unsettle_one(number, affected);
             node = self.parents[node as usize];
         }
     }

@@ -2,11 +2,12 @@
 //!
 //! They are closed before it takes the old one's place, a few in each frame: all at once took 35 us each.
 
+use super::hand_over::HANDED;
 use crate::bvh::opened::parts_below;
 use crate::bvh::{Bvh, Trails};
 use crate::node::Node;
 
-/// Instances that are opened anew as a tree is put in place, or as it is handed over to them.
+/// Instances that are opened anew as a tree is put in place that is handed over at once.
 const AT_ONCE: u32 = 2;
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
@@ -21,7 +22,13 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Whether more instances of a bottom level are opened than are opened anew in one frame.
     pub(in crate::bvh) fn is_much_opened(&self, blas: u32) -> bool {
-        self.blases[blas as usize].opened > AT_ONCE
+        // Of those that are handed over later files do not tell what they would be opened into.
+        let most = if self.leaves_of_mesh(blas) > HANDED {
+            0
+        } else {
+            AT_ONCE
+        };
+        self.blases[blas as usize].opened > most
     }
 
     /// Whether a tree with this root is opened into as many parts as the bottom level is.

@@ -143,10 +143,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.top.stirred[number] = bounded_sum(self.top.stirred[number], count);
     }
 
-    /// So many instances below the node of that number are others than it was built for, since the epoch `at`: it is to be tried, and once more when it rests.
-    pub(in crate::bvh) fn unsettle_one(&mut self, number: usize, count: u32, at: u64) {
+    /// So many instances below the node of that number are others than it was built for, since the epoch that is: it is to be tried, and once more when it rests.
+    pub(in crate::bvh) fn unsettle_one(&mut self, number: usize, count: u32) {
         self.stir_one(number, count);
         self.top.changes[number] = bounded_sum(self.top.changes[number], count);
-        self.top.moved[number] = at;
+        self.top.moved[number] = self.epoch;
     }
 }
