@@ -372,7 +372,8 @@ fn weighted(lights: &[SampledLight], count: f64) -> Weighted {
 /// What several lights leave of one light's variance; nothing where there is none.
 fn gain(row: &Row, error: f64) -> String {
     match row.mean / error {
-        of if of.is_finite() && of > 0.0 => format!("1/{of:.1}"),
+        // Beyond that it is rounding that is left.
+        of if of > 0.0 && of < 1e9 => format!("1/{of:.1}"),
         _ => "-".to_owned(),
     }
 }
@@ -393,7 +394,7 @@ fn print(rows: &[Row]) -> Result<(), HostError> {
             ("of 32", |r| gain(r, r.of_32)),
             ("split 8", |r| gain(r, r.split_8)),
             ("split 32", |r| gain(r, r.split_32)),
-            ("nothing", |r| format!("{:.1} %", 100.0 * r.nothing)),
+            ("nothing", |r| format!("{:.1} %", (100.0 * r.nothing).max(0.0))),
         ],
     )?)
 }

@@ -16,7 +16,7 @@ const MAX_FILE: u64 = 1 << 31;
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
 /// First bytes of what stands for a file that Git LFS keeps elsewhere.
-const POINTER: &[u8] = b"version https://git-lfs";
+pub(super) const POINTER: &[u8] = b"version https://git-lfs";
 
 /// Reads a regular file of bounded size: a pipe or device named by a hostile file could go on for ever.
 pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, SceneError> {

@@ -10,7 +10,7 @@ use base64::Engine;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 
 use super::super::error::SceneError;
-use super::super::read_file::read_file;
+use super::super::read_file::{POINTER, read_file};
 use super::Document;
 
 /// Exporters disagree about padding, so both forms are read.
@@ -70,7 +70,7 @@ fn chunk(bytes: &[u8], at: usize) -> Option<([u8; 4], &[u8], usize)> {
 /// The JSON part, and how many channels of animations are left out of it: those that name no node, as `KHR_animation_pointer` has
 /// them, which the model does not know.
 pub(super) fn parse(path: &str, text: &[u8]) -> Result<(json::Root, usize), SceneError> {
-    if text.starts_with(b"version https://git-lfs") {
+    if text.starts_with(POINTER) {
         return Err(broken(
             path,
             String::from("it is a pointer of Git LFS; run `git lfs pull`"),
@@ -166,7 +166,12 @@ pub(super) fn fetch(document: &Document<'_>, uri: &str, element: &str) -> Result
         let advice = "use a path relative to the file, or embed the data";
         return Err(document.unsupported(element, format!("the URI `{shown}`"), advice));
     };
-    read_file(&folder.join(relative))
+    let bytes = read_file(&folder.join(relative))?;
+    if bytes.starts_with(POINTER) {
+        let problem = format!("`{uri}` is a pointer of Git LFS");
+        return Err(document.malformed(element, problem, "run `git lfs pull`"));
+    }
+    Ok(bytes)
 }
 
 /// A percent-decoded relative path; `None` for absolute paths and other schemes.

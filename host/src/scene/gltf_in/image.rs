@@ -90,7 +90,7 @@ impl Document<'_> {
             Err(problem) => {
                 self.pictures.borrow_mut().failed.insert(index);
                 self.warn(format!(
-                    "images[{index}] counts as white, and where it is what glows as black: {problem}; use PNG, JPEG, WebP or KTX 2 of at most {MAX_SIDE} \
+                    "images[{index}] counts as white, where it is what glows as black, and of normals as none: {problem}; use PNG, JPEG, WebP or KTX 2 of at most {MAX_SIDE} \
                      pixels a side"
                 ));
                 None

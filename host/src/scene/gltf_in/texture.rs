@@ -203,7 +203,7 @@ impl Document<'_> {
         }
         if pictures.is_empty() {
             self.warn(format!(
-                "textures[{}] (used by {element}) names no picture that is read, and counts as white",
+                "textures[{}] (used by {element}) names no picture that is read, and counts as white, of normals as none",
                 index.value()
             ));
         }

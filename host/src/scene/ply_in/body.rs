@@ -81,7 +81,8 @@ pub(super) fn read(path: &str, header: &Header, body: &[u8]) -> Result<PlyMesh, 
         }
         match element.name.as_str() {
             "vertex" => vertices(path, element, &mut numbers, &mut out)?,
-            "face" => faces(path, element, &mut numbers, &mut out)?,
+            "face" => faces(path, element, &mut numbers, &mut out, false)?,
+            "tristrips" => faces(path, element, &mut numbers, &mut out, true)?,
             _ => pass(path, element, &mut numbers)?,
         }
     }
@@ -165,11 +166,13 @@ fn vertices(
     Ok(())
 }
 
+/// Faces as fans, or `strips` of triangles, of which every second one turns the other way and -1 begins another.
 fn faces(
     path: &str,
     element: &Element,
     numbers: &mut Numbers<'_>,
     out: &mut PlyMesh,
+    strips: bool,
 ) -> Result<(), SceneError> {
     for index in 0..element.count {
         let ends = || ends(path, element, index);
@@ -184,15 +187,25 @@ fn faces(
                 continue;
             }
             let count = whole(count).ok_or_else(ends)?;
-            let (mut first, mut before) = (0, 0);
-            for k in 0..count {
-                let vertex = whole(numbers.next(property.number)).ok_or_else(ends)?;
+            let (mut first, mut before, mut k) = (0, 0, 0);
+            for _ in 0..count {
+                let vertex = numbers.next(property.number);
+                if strips && vertex == Some(-1.0) {
+                    k = 0;
+                    continue;
+                }
+                let vertex = whole(vertex).ok_or_else(ends)?;
                 match k {
                     0 => first = vertex,
                     1 => {}
+                    _ if strips && k % 2 == 1 => out.triangles.push([before, first, vertex]),
                     _ => out.triangles.push([first, before, vertex]),
                 }
+                if strips && k > 0 {
+                    first = before;
+                }
                 before = vertex;
+                k += 1;
             }
             if out.triangles.len() as u64 > MAX_TRIANGLES {
                 return Err(SceneError::TooMany {

@@ -77,6 +77,16 @@ fn a_pointer_to_a_file_is_named() {
     assert!(error.to_string().contains("git lfs pull"), "{error}");
 }
 
+/// Every second triangle of a strip turns the other way, so all have the same front; -1 begins another strip.
+#[test]
+fn strips_are_triangles() {
+    let text = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n\
+                element tristrips 1\nproperty list int int vertex_indices\nend_header\n\
+                0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n9 0 1 2 3 4 -1 0 1 2\n";
+    let mesh = PlyMesh::parse("t.ply", text.as_bytes()).expect("valid");
+    assert_eq!(mesh.triangles, [[0, 1, 2], [2, 1, 3], [2, 3, 4], [0, 1, 2]]);
+}
+
 #[test]
 fn what_is_announced_must_be_there() {
     let cases = [
