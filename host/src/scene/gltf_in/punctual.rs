@@ -113,7 +113,7 @@ fn light(value: &Value, node: u32) -> Result<AnalyticLight, String> {
     {
         return Err(String::from("its colour or intensity is negative or not finite"));
     }
-    if range.is_some_and(|range| !(range > 0.0 && range.is_finite())) {
+    if range.is_some_and(|range| range.is_nan() || range <= 0.0) {
         return Err(String::from("its range is not above 0 metres"));
     }
     // The domain of lights, which begins below any room and ends beyond any scene.
