@@ -159,6 +159,19 @@ fn files_tell_it() {
     }
 }
 
+/// What is noted in a frame that computes nothing is of an epoch that has come: files know what is later than what they tell of as no later.
+#[test]
+fn what_is_noted_alone_brings_the_epoch_on() {
+    let (mut bvh, _) = scene(100);
+    let before = bvh.epoch;
+    bvh.note_reopened(&[]);
+    assert_eq!(bvh.epoch, before, "nothing is");
+    bvh.note_reopened(&[3]);
+    bvh.refit();
+    let number = bvh.top.number(bvh.top.root) as usize;
+    assert!(bvh.top.moved[number] > before && bvh.top.moved[number] <= bvh.epoch);
+}
+
 /// And goes on word for word, where another flux was the last thing that changed before the file was written.
 #[test]
 fn files_of_another_flux_go_on() {
