@@ -121,8 +121,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// Something below `node` and all above it has another flux, `flux` at most. What it outshines in a node is as good as unbuilt: that share
-    /// of its instances, and no fewer than of the node below, for what is little among all may be much where it is. It happened at the
-    /// epoch that is: what was built of what there was before it does not know.
+    /// of its instances, and no fewer than of the node below, for what is little among all may be much where it is. It counts as of the
+    /// present epoch, so what is built from before it does not cover it.
     pub(super) fn unsettle_above(&mut self, node: u32, flux: f64) {
         let (mut node, mut affected) = (node, LEAST);
         while node != INVALID {

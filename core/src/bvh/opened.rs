@@ -217,7 +217,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// The tree was built over what these instances were before they were opened or closed. Among few others it has been decided anew.
     pub(crate) fn note_reopened(&mut self, instances: &[u32]) {
-        // A refit that finds nothing else to do does not bring the epoch on.
+        // A refit that computes nothing leaves the epoch as it is.
         self.epoch += u64::from(!instances.is_empty());
         for &index in instances {
             if !self.placed.get(index as usize).is_some_and(|placed| placed.live) {

@@ -340,7 +340,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             let unsettled = self.blases[bottom.blas as usize].unsettled;
             self.place_blas(bottom.blas, topology);
             self.update_root(bottom.blas);
-            // By another tree its centre is about the same, not just the same.
+            // Another tree has the centre within rounding.
             self.note_centers(&[bottom.blas]);
             self.note_unsettled(bottom.blas, unsettled - bottom.unsettled.min(unsettled));
         }

@@ -99,7 +99,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let nothing = BlasRoot::new(INVALID, &N::Summary::EMPTY);
         put(&mut self.roots, new, refit::root(&self.nodes, root), &nothing);
         self.meshes[mesh as usize].blas = new;
-        // By another tree its centre is about the same, not just the same.
+        // Another tree has the centre within rounding.
         self.note_centers(&[new]);
         self.changes.new.roots.insert(new);
         self.changes.forget_lists();

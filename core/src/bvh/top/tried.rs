@@ -143,7 +143,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.top.stirred[number] = bounded_sum(self.top.stirred[number], count);
     }
 
-    /// So many instances below the node of that number are others than it was built for, since the epoch that is: it is to be tried, and once more when it rests.
+    /// So many instances below the node of that number are others than it was built for, as of the present epoch: it is to be tried, and once more when it rests.
     pub(in crate::bvh) fn unsettle_one(&mut self, number: usize, count: u32) {
         self.stir_one(number, count);
         self.top.changes[number] = bounded_sum(self.top.changes[number], count);
