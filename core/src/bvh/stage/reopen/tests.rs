@@ -34,20 +34,25 @@ fn scene(count: u32) -> (LightBvh, MeshId, Vec<EmissiveTriangle>) {
     (bvh, mesh, others)
 }
 
+/// A rebuilder of meshes alone.
+fn of_meshes() -> Rebuilder<MomentNode<8>, 8> {
+    Rebuilder::new(RebuilderParams {
+        swap: Swap::Deterministic,
+        rebuild: RebuildParams {
+            top: f64::INFINITY,
+            ..RebuildParams::default()
+        },
+        ..RebuilderParams::default()
+    })
+}
+
 /// Two instances at most are closed in a frame, and the tree comes in when two are left; a mesh that changes as a whole in each frame, which takes a tree as
 /// it is refitted, waits alike.
 #[test]
 fn instances_are_closed_a_few_in_each_frame() {
     for sways in [false, true] {
         let (mut bvh, mesh, others) = scene(40);
-        let mut own: Rebuilder<MomentNode<8>, 8> = Rebuilder::new(RebuilderParams {
-            swap: Swap::Deterministic,
-            rebuild: RebuildParams {
-                top: f64::INFINITY,
-                ..RebuildParams::default()
-            },
-            ..RebuilderParams::default()
-        });
+        let mut own = of_meshes();
         bvh.set_triangles(mesh, others.clone()).expect("as many");
         bvh.refit();
         own.end_frame(&bvh);
@@ -101,14 +106,7 @@ fn all_are_closed_for_a_tree_that_is_handed_over() {
     bvh.apply(add.collect()).expect("instances");
     bvh.set_triangles(mesh, others).expect("as many");
     bvh.refit();
-    let mut own: Rebuilder<MomentNode<8>, 8> = Rebuilder::new(RebuilderParams {
-        swap: Swap::Deterministic,
-        rebuild: RebuildParams {
-            top: f64::INFINITY,
-            ..RebuildParams::default()
-        },
-        ..RebuilderParams::default()
-    });
+    let mut own = of_meshes();
     let created = bvh.of_mesh(0).created;
     let mut frames = 0;
     loop {
@@ -154,14 +152,7 @@ fn small_meshes_wait_for_their_instances() {
         }
         bvh.set_triangles(mesh, others).expect("as many");
         bvh.refit();
-        let mut own: Rebuilder<MomentNode<8>, 8> = Rebuilder::new(RebuilderParams {
-            swap: Swap::Deterministic,
-            rebuild: RebuildParams {
-                top: f64::INFINITY,
-                ..RebuildParams::default()
-            },
-            ..RebuilderParams::default()
-        });
+        let mut own = of_meshes();
         own.end_frame(&bvh);
         let created = bvh.of_mesh(0).created;
         let (mut before, mut at_once) = (24, None);
