@@ -324,7 +324,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     };
     if context.json {
         let mut report = json!({
-            "scene": scene.name(), "width": args.width, "height": args.height, "spp": samples,
+            "camera_chosen": camera_words(&scene), "scene": scene.name(), "width": args.width, "height": args.height, "spp": samples,
             "sampler": args.sampler, "backend": name,
         });
         if recipe.lights.needs_bvh() {
@@ -359,6 +359,18 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         table::print_json(&report)?;
     }
     Ok(Outcome::Good)
+}
+
+/// The options that stand for the camera that was chosen for a scene without one.
+fn camera_words(scene: &Scene) -> Option<String> {
+    let (from, at, yfov) = scene.chosen_camera()?;
+    let place = |p: [f32; 3]| p.map(|x| x.to_string()).join(",");
+    let fov = yfov.to_degrees().round();
+    Some(format!(
+        "--look-from {} --look-at {} --fov {fov}",
+        place(from),
+        place(at)
+    ))
 }
 
 /// What is to be rendered.
@@ -438,6 +450,12 @@ impl Sequence<'_> {
                     _ => format!("{exposure:e}"),
                 };
                 say!("{}: {ms:.1} ms on {on}, exposure {factor}", output.display())?;
+            }
+            if reports.is_empty()
+                && let Some(words) = camera_words(self.scene)
+                && !context.json
+            {
+                say!("  camera chosen: {words}")?;
             }
             let mut report = json!({
                 "frame": frame, "render_ms": ms, "exposure": exposure, "output": output,

@@ -143,7 +143,7 @@ impl Film {
         if lit == 0.0 {
             return Some(String::from(
                 "the image is black: nothing that emits is seen, and nothing that is seen is lit; lights may be hidden, face away, \
-                 or be outside of the view",
+                 or be outside of the view (`--look-from` and `--look-at` set another one)",
             ));
         }
         if wanted > MAX_AUTO_EXPOSURE {

@@ -74,6 +74,22 @@ pub enum AnalyticKind {
 }
 
 impl AnalyticKind {
+    /// How far the light reaches from its middle, metres; none of lights without size, which scales of their nodes do not change.
+    pub(super) fn extent(&self) -> Option<f64> {
+        let half: &[f32] = match self {
+            Self::Directional | Self::Point | Self::Spot { .. } | Self::Profile { .. } => return None,
+            Self::Sphere { radius } => std::slice::from_ref(radius),
+            Self::Rectangle { half } | Self::Disc { half } => half,
+            Self::Box { half } => half,
+        };
+        Some(
+            half.iter()
+                .map(|&x| f64::from(x) * f64::from(x))
+                .sum::<f64>()
+                .sqrt(),
+        )
+    }
+
     /// Of profile number `index`, which is `profile`.
     pub fn profile(index: u32, profile: &Profile) -> Self {
         Self::Profile {

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+use super::analytic::AnalyticLight;
 use super::deform::MorphChannel;
 use super::model::{Channel, Interpolation, Property, SceneData};
 use super::transform::{Affine, Transform, normalized, slerp};
@@ -11,6 +12,8 @@ use super::transform::{Affine, Transform, normalized, slerp};
 pub(super) struct Pose {
     /// From each node's space to the world.
     pub world: Vec<Affine>,
+    /// From each node's space to its parent's.
+    locals: Vec<Transform>,
     /// Weights of morph targets, of the nodes where they are animated.
     weights: BTreeMap<usize, Vec<f64>>,
 }
@@ -39,7 +42,40 @@ impl Pose {
                 .map_or(Affine::IDENTITY, |parent| world[parent as usize]);
             world.push(parent.then_after(&local.affine()));
         }
-        Self { world, weights }
+        Self {
+            world,
+            locals,
+            weights,
+        }
+    }
+
+    /// The place of a node that carries what has directions and no size: a camera, a sun, a point, a spot. Scales do not change such things
+    /// (glTF 2.0, section 3.10; `KHR_lights_punctual`): where they are so small or so large that directions are lost, the rotations alone count.
+    pub fn unscaled(&self, data: &SceneData, node: u32) -> Affine {
+        let mut world = self.world[node as usize];
+        if world.keeps_directions() {
+            return world;
+        }
+        let mut turned = Affine::IDENTITY;
+        let mut at = Some(node);
+        while let Some(node) = at {
+            turned = self.locals[node as usize]
+                .turn()
+                .then_after(&turned)
+                .of_unit_columns();
+            at = data.nodes[node as usize].parent;
+        }
+        world.columns[..3].copy_from_slice(&turned.columns[..3]);
+        world
+    }
+
+    /// The place of a light by formula.
+    pub fn place_of(&self, data: &SceneData, light: &AnalyticLight) -> Affine {
+        if light.kind.extent().is_some() {
+            self.world[light.node as usize]
+        } else {
+            self.unscaled(data, light.node)
+        }
     }
 
     /// The weights of a node's morph targets.

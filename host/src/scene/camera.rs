@@ -11,6 +11,16 @@ use crate::vector::{cross, sub};
 pub(super) const DEFAULT_YFOV: f32 = 0.872_664_6;
 
 impl Scene {
+    /// Where the frames are seen from of a scene that brings no camera, once a frame has been made: eye, a place that it looks at, both metres, and
+    /// the vertical field of view in radians; what [`seen_from`](Self::seen_from) takes.
+    pub fn chosen_camera(&self) -> Option<([f32; 3], [f32; 3], f32)> {
+        let view = self.default_camera.get()?;
+        // As far away as keeps the direction where the eye is far from the origin.
+        let far = view.eye.iter().fold(1.0_f32, |far, x| far.max(x.abs()));
+        let target = [0, 1, 2].map(|axis| view.eye[axis] + far * view.forward[axis]);
+        Some((view.eye, target, view.yfov))
+    }
+
     /// The scene as a camera at `eye` sees it that looks at `target`, both metres, with a vertical field of view of `yfov` radians; +Y is up. Its own
     /// cameras are gone. Where both are one place it looks along −Z.
     ///

@@ -59,7 +59,7 @@ impl Scene {
         check.skins(&data)?;
         check.animations(&data)?;
         for (index, light) in data.analytic.iter().enumerate() {
-            check.analytic(index, light, data.nodes.len())?;
+            check.analytic(index, light, &data.nodes)?;
         }
         for (index, camera) in data.cameras.iter().enumerate() {
             check.index(
@@ -403,7 +403,10 @@ impl Check<'_> {
         let all = total.triangles.saturating_add(total.clear);
         self.limit("triangles over all instances", all, MAX_TRIANGLES)?;
         if all == 0 {
-            return Err(SceneError::Empty { scene: self.scene() });
+            return Err(SceneError::Empty {
+                scene: self.scene(),
+                left_out: data.warnings.clone(),
+            });
         }
         Ok(total)
     }

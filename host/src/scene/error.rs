@@ -100,10 +100,15 @@ pub enum SceneError {
         limit: u64,
     },
     /// The scene has no triangle at all.
-    #[error("scene `{scene}` has no triangles; it needs at least one node with a triangle mesh")]
+    #[error(
+        "scene `{scene}` has no triangles; it needs at least one mesh of them{}",
+        and_left_out(left_out)
+    )]
     Empty {
         /// The scene.
         scene: String,
+        /// What was left out when it was read, which may be why.
+        left_out: Vec<String>,
     },
     /// The scene has nothing that emits light.
     #[error(
@@ -126,6 +131,16 @@ pub enum SceneError {
         /// What there is, in words.
         lights: String,
     },
+}
+
+/// What was left out, each on a line.
+fn and_left_out(left_out: &[String]) -> String {
+    let mut text = String::new();
+    for (index, what) in left_out.iter().enumerate() {
+        text += if index == 0 { ". What was left out:" } else { "" };
+        text += &format!("\n  - {what}");
+    }
+    text
 }
 
 /// The commands that take lights of every kind.

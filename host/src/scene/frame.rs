@@ -101,7 +101,7 @@ impl Scene {
             }
         }
         out.camera = match data.cameras.first() {
-            Some(camera) => view_of_node(&pose.world[camera.node as usize], camera.yfov),
+            Some(camera) => view_of_node(&pose.unscaled(data, camera.node), camera.yfov),
             // The same in every frame.
             None => match self.default_camera.get() {
                 Some(camera) => *camera,
@@ -166,7 +166,7 @@ fn suns(data: &SceneData, pose: &Pose) -> Vec<DistantLight> {
         .iter()
         .filter(|light| light.kind == AnalyticKind::Directional);
     suns.map(|sun| DistantLight {
-        direction: unit_or(pose.world[sun.node as usize].columns[2], [0.0, 1.0, 0.0]).map(|x| x as f32),
+        direction: unit_or(pose.place_of(data, sun).columns[2], [0.0, 1.0, 0.0]).map(|x| x as f32),
         irradiance: sun.emission(),
     })
     .collect()

@@ -24,10 +24,19 @@ pub struct Instances<L = EmissiveTriangle> {
 /// An instance, and what was last told of it.
 #[derive(Clone, Debug)]
 struct Followed<L> {
-    node: usize,
+    carried: Carried,
     id: InstanceId,
     place: Affine,
     bent: Option<Bent<L>>,
+}
+
+/// What a node carries that is an instance.
+#[derive(Clone, Copy, Debug)]
+enum Carried {
+    /// A primitive of the mesh of this node.
+    Mesh(usize),
+    /// This light by formula.
+    Light(usize),
 }
 
 /// A primitive that bends.
@@ -53,7 +62,7 @@ impl<L: SceneLight> Instances<L> {
         let mut lights = lightbvh::Bvh::new(params);
         let mut meshes: BTreeMap<(u32, usize), MeshId> = BTreeMap::new();
         let mut add = Vec::new();
-        let mut followed: Vec<(usize, Affine, Option<Bent<L>>)> = Vec::new();
+        let mut followed: Vec<(Carried, Affine, Option<Bent<L>>)> = Vec::new();
         for (index, node) in data.nodes.iter().enumerate() {
             let Some(mesh) = node.mesh else { continue };
             for (number, primitive) in data.meshes[mesh as usize].primitives.iter().enumerate() {
@@ -79,7 +88,7 @@ impl<L: SceneLight> Instances<L> {
                     meshes.insert((mesh, number), id);
                 }
                 let place = place(data, &pose, index, primitive);
-                followed.push((index, place, bent));
+                followed.push((Carried::Mesh(index), place, bent));
                 add.push(Edit::AddInstance {
                     mesh: id,
                     transform: transform(&place),
@@ -87,14 +96,14 @@ impl<L: SceneLight> Instances<L> {
                 });
             }
         }
-        for own in &data.analytic {
+        for (number, own) in data.analytic.iter().enumerate() {
             let Some(light) = own.light().and_then(L::of_kind) else {
                 continue;
             };
             let triangles = vec![light];
             let mesh = lights.apply(vec![Edit::AddMesh { triangles }])?.meshes[0];
-            let (node, place) = (own.node as usize, pose.world[own.node as usize]);
-            followed.push((node, place, None));
+            let place = pose.place_of(data, own);
+            followed.push((Carried::Light(number), place, None));
             add.push(Edit::AddInstance {
                 mesh,
                 transform: transform(&place),
@@ -104,8 +113,8 @@ impl<L: SceneLight> Instances<L> {
         let ids = lights.apply(add)?.instances;
         lights.refit();
         let followed = followed.into_iter().zip(ids);
-        let followed = followed.map(|((node, place, bent), id)| Followed {
-            node,
+        let followed = followed.map(|((carried, place, bent), id)| Followed {
+            carried,
             id,
             place,
             bent,
@@ -124,18 +133,22 @@ impl<L: SceneLight> Instances<L> {
         let pose = pose_at(scene, frame);
         let mut edits = Vec::new();
         for followed in &mut self.followed {
-            let mut now = pose.world[followed.node];
-            let mesh = data.nodes[followed.node].mesh;
-            if let (Some(bent), Some(mesh)) = (&mut followed.bent, mesh) {
-                let primitive = &data.meshes[mesh as usize].primitives[bent.primitive];
-                now = place(data, &pose, followed.node, primitive);
-                let triangles = emissive_of(data, &pose, followed.node, primitive);
-                if triangles != bent.triangles {
-                    bent.triangles.clone_from(&triangles);
-                    let mesh = bent.mesh;
-                    edits.push(Edit::SetTriangles { mesh, triangles });
-                }
-            }
+            let now = match followed.carried {
+                Carried::Light(number) => pose.place_of(data, &data.analytic[number]),
+                Carried::Mesh(node) => match (&mut followed.bent, data.nodes[node].mesh) {
+                    (Some(bent), Some(mesh)) => {
+                        let primitive = &data.meshes[mesh as usize].primitives[bent.primitive];
+                        let triangles = emissive_of(data, &pose, node, primitive);
+                        if triangles != bent.triangles {
+                            bent.triangles.clone_from(&triangles);
+                            let mesh = bent.mesh;
+                            edits.push(Edit::SetTriangles { mesh, triangles });
+                        }
+                        place(data, &pose, node, primitive)
+                    }
+                    _ => pose.world[node],
+                },
+            };
             if now != followed.place {
                 followed.place = now;
                 edits.push(Edit::SetTransform {

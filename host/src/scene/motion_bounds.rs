@@ -61,6 +61,37 @@ pub(super) fn check(data: &SceneData) -> Result<(), SceneError> {
                 "within 2^40 metres of the origin in every frame",
             ));
         }
+        // A light BVH takes no such transform, however small what it places.
+        if mesh.is_some() && stretch > f64::from(MAX_COORDINATE) {
+            let element = format!("bound of the scale of node {n} `{}`", node.name);
+            return Err(out_of_range(
+                element,
+                stretch,
+                "at most 2^40; scale the mesh instead",
+            ));
+        }
+    }
+    for (index, light) in data.analytic.iter().enumerate() {
+        let Some(extent) = light.kind.extent() else {
+            continue;
+        };
+        let (offset, stretch) = bounds[light.node as usize];
+        let farthest = [stretch, offset + stretch * extent];
+        if let Some(&value) = farthest
+            .iter()
+            .find(|x| x.is_nan() || **x > f64::from(MAX_COORDINATE))
+        {
+            let node = &data.nodes[light.node as usize].name;
+            let element = format!(
+                "bound of the size of light {index} `{}` on node {} `{node}`",
+                light.name, light.node
+            );
+            return Err(out_of_range(
+                element,
+                value,
+                "at most 2^40 metres, its scale at most 2^40; lower the node's scale",
+            ));
+        }
     }
     if total_flux.is_nan() || total_flux > MAX_FLUX {
         let element = String::from("bound of the total flux in watts");

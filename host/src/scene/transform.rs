@@ -41,6 +41,22 @@ impl Transform {
         }
     }
 
+    /// Its rotation and mirroring alone. Of an axis that a matrix takes to zero nothing is known: it stays.
+    pub(super) fn turn(&self) -> Affine {
+        match *self {
+            Self::Trs { rotation, scale, .. } => Affine::from_trs(
+                [0.0; 3],
+                normalized(rotation.map(f64::from)),
+                scale.map(|factor| if factor < 0.0 { -1.0 } else { 1.0 }),
+            ),
+            Self::Matrix(_) => {
+                let mut turn = self.affine().of_unit_columns();
+                turn.columns[3] = [0.0; 3];
+                turn
+            }
+        }
+    }
+
     /// The same as an affine map.
     pub(super) fn affine(&self) -> Affine {
         match *self {
@@ -113,6 +129,24 @@ impl Affine {
     pub fn point(&self, p: [f64; 3]) -> [f64; 3] {
         let v = self.vector(p);
         [0, 1, 2].map(|row| v[row] + self.columns[3][row])
+    }
+
+    /// Whether the lengths of all columns are such that their directions are exact in `f32`, and within the domain of a light BVH's transforms.
+    pub fn keeps_directions(&self) -> bool {
+        const LARGEST: f64 = (1_u64 << 40) as f64;
+        let lengths = self.columns[..3].iter().map(|&v| dot(v, v).sqrt());
+        lengths
+            .into_iter()
+            .all(|length| (1.0 / LARGEST..=LARGEST).contains(&length))
+    }
+
+    /// The same with columns of length one; those of length zero are the axes'.
+    pub fn of_unit_columns(&self) -> Self {
+        let [a, b, c, translation] = self.columns;
+        let [x, y, z, _] = Self::IDENTITY.columns;
+        Self {
+            columns: [unit_or(a, x), unit_or(b, y), unit_or(c, z), translation],
+        }
     }
 
     /// Whether the map turns left hands into right hands.

@@ -3,7 +3,7 @@
 use super::super::analytic::{AnalyticKind, AnalyticLight};
 use super::super::deform::{MorphChannel, is_skinned};
 use super::super::error::SceneError;
-use super::super::model::{Primitive, SceneData};
+use super::super::model::{Node, Primitive, SceneData};
 use super::Check;
 
 use lightbvh::light::{MAX_COORDINATE, MAX_RADIANCE};
@@ -109,14 +109,17 @@ impl Check<'_> {
         &self,
         index: usize,
         light: &AnalyticLight,
-        nodes: usize,
+        nodes: &[Node],
     ) -> Result<(), SceneError> {
-        let name = |what: &str| format!("{what} of light {index} `{}`", light.name);
-        self.index(|| name("node"), light.node, nodes)?;
+        let of_light = format!("of light {index} `{}`", light.name);
+        self.index(|| format!("node {of_light}"), light.node, nodes.len())?;
+        let node = &nodes[light.node as usize].name;
+        let name = |what: &str| format!("{what} {of_light} on node {} `{node}`", light.node);
         self.color(|| name("colour"), light.color)?;
         self.finite(|| name("intensity"), &[light.intensity])?;
         if !(0.0..=MAX_RADIANCE).contains(&light.intensity) {
-            return Err(self.out_of_range(name("intensity"), light.intensity, "0 to 2^100"));
+            let expected = "0 to 2^100; lower it, or leave the light out";
+            return Err(self.out_of_range(name("intensity"), light.intensity, expected));
         }
         if let Some(range) = light.range
             && !(2.0_f32.powi(-20)..=MAX_COORDINATE).contains(&range)

@@ -29,13 +29,22 @@ const BEYOND: f64 = 1.0 + 1e-5;
 /// What a place counts from which nothing but what stands in the way is seen.
 const ALL_NEAR: f64 = 0.2;
 
-/// How much of all points is seen, from 0 to 1: those within the image, on this side of their surface, nothing before them.
+/// Dark points count as such up to so many times what is seen of lit ones, and then next to nothing: an image of them alone is black.
+const BESIDE_LIGHT: f64 = 8.0;
+const IN_THE_DARK: f64 = 1e-3;
+
+/// How much of all points is seen, from 0 to 1: those within the image, on this side of their surface, nothing before them. Dark ones
+/// count beside lit ones.
 pub(super) fn seen(points: &[Point], room: &Room, view: &View) -> f64 {
     let [eye, right, up, forward] = [view.eye, view.right, view.up, view.forward].map(|v| v.map(f64::from));
     let tangent = libm::tan(0.5 * f64::from(view.yfov));
-    let mut sum = 0.0;
+    let (mut lit, mut dark) = (0.0, 0.0);
     for Point {
-        p, n, weight, size, ..
+        p,
+        n,
+        weight,
+        size,
+        is_lit,
     } in points
     {
         let d = sub(*p, eye);
@@ -49,10 +58,16 @@ pub(super) fn seen(points: &[Point], room: &Room, view: &View) -> f64 {
             let large = (size / (half * LARGE)).min(1.0);
             // What is one point has no size.
             let large = if *size > 0.0 { large } else { 1.0 };
-            sum += weight * large * (faces / STEEP).min(1.0);
+            let counts = weight * large * (faces / STEEP).min(1.0);
+            if *is_lit {
+                lit += counts;
+            } else {
+                dark += counts;
+            }
         }
     }
-    sum
+    let shown = dark.min(BESIDE_LIGHT * lit);
+    lit + shown + IN_THE_DARK * (dark - shown)
 }
 
 /// What the image counts, from 0 to 1: less where it shows backs of surfaces, as within a crate or behind a wall, or something close before the eye.

@@ -4,6 +4,7 @@
 //! points.rs   what there is to see: where light lands, lamps, a little of all surfaces
 //! places.rs   where a camera may stand: around it, as near as fit.rs says, and between surfaces
 //! judge.rs    how much is seen from there, and whether the image shows backs or what stands in the way
+//! lamps.rs    the lamps: points on them, and those whose light does not leave their bulbs
 //! room.rs     the frame's triangles under rays; spread.rs: directions and places, the same in every run
 //! ```
 //!
@@ -12,6 +13,7 @@
 
 mod fit;
 mod judge;
+mod lamps;
 mod places;
 mod points;
 mod room;

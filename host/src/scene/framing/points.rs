@@ -7,15 +7,13 @@
 //! What a triangle counts is the cube root of the light that it reflects: a plain of two triangles is a large thing, but there is no more to see in
 //! it than in a few of the hundreds that a house has.
 
-use lightbvh::light::{AnyLight, Light, SpotLight};
 use lightbvh_kernels::shading::trace::SurfaceTriangle;
 
 use super::super::frame::Frame;
-use super::super::scene_light::SceneLight;
+use super::lamps;
 use super::room::Room;
 use super::spread::{along, anywhere, area, cosine, inside, sequence, spread, unit};
 use crate::vector::{dot, normal, sub};
-use glam::Vec3;
 
 /// Rays that light is sent out on, at least and at most, and how many for each triangle.
 const SENT: (usize, usize, usize) = (64, 384, 4);
@@ -29,17 +27,11 @@ const CORNERS: usize = 1024;
 /// Directions that stand for an environment map.
 const SKY: usize = 12;
 
-/// Points on lamps, at most.
-const LIGHTS: usize = 64;
-
 /// What all lamps count against all places that they light: enough to be in the image, not so much that nothing else need be.
 const LIGHTS_COUNT: f64 = 0.15;
 
 /// What all surfaces count, dark ones too, against all that is lit.
 const SURFACE_COUNTS: f64 = 0.3;
-
-/// What the back of a two-sided lamp counts against its front.
-const BACK_COUNTS: f64 = 0.2;
 
 /// A point's own size is its distance from so many of the others, one of so many: of what fills an image it is a tenth of the image's height.
 const NEIGHBOURS: usize = 24;
@@ -60,17 +52,22 @@ pub(super) struct Point {
 /// What there is to see; nothing where there is neither light nor surface.
 pub(super) fn points(frame: &Frame, room: &Room, size: f64) -> Vec<Point> {
     let step = 1e-6 * size;
-    let (sent, flux) = sent(frame, room, step);
+    let fluxes = lamps::fluxes(frame, room, size, !suns(frame).is_empty());
+    let (sent, flux) = sent(frame, room, &fluxes, step);
     let surface = on_surfaces(frame);
     let (sky, of_sky) = under_sky(frame, room, &surface, step);
     let mut all = Vec::new();
     // As everywhere, by the cube root of their light.
-    let (lamps, heaven) = (libm::cbrt(flux), libm::cbrt(of_sky));
-    add(&mut all, sent, lamps);
+    let (landed, heaven) = (libm::cbrt(flux), libm::cbrt(of_sky));
+    add(&mut all, sent, landed);
     add(&mut all, sky, heaven);
     let lit: f64 = all.iter().map(|point| point.weight).sum();
-    let lamps = on_lamps(frame);
-    add(&mut all, lamps, if lit > 0.0 { LIGHTS_COUNT * lit } else { 1.0 });
+    let on_lamps = lamps::points(frame, &fluxes);
+    add(
+        &mut all,
+        on_lamps,
+        if lit > 0.0 { LIGHTS_COUNT * lit } else { 1.0 },
+    );
     let lit: f64 = all.iter().map(|point| point.weight).sum();
     let surface = surface.into_iter().map(|(_, _, point)| point).collect();
     add(
@@ -106,7 +103,7 @@ fn add(all: &mut Vec<Point>, mut more: Vec<Point>, sum: f64) {
     }));
 }
 
-fn luminance(rgb: [f32; 3]) -> f64 {
+pub(super) fn luminance(rgb: [f32; 3]) -> f64 {
     rgb.iter().map(|&channel| f64::from(channel)).sum::<f64>() / 3.0
 }
 
@@ -117,28 +114,14 @@ fn reflects(frame: &Frame, material: u32) -> f64 {
     })
 }
 
-/// What each lamp sends out, W but for a factor of π.
-fn fluxes(frame: &Frame) -> Vec<f64> {
-    let triangles = frame
-        .emissive
-        .iter()
-        .map(|light| area(&light.p) * luminance(light.radiance));
-    let others = frame
-        .others
-        .iter()
-        .map(|light| light.flux() / std::f64::consts::PI);
-    triangles.chain(others).collect()
-}
-
 /// Where the light of lamps lands, and how much is reflected there.
-fn sent(frame: &Frame, room: &Room, step: f64) -> (Vec<Point>, f64) {
-    let flux = fluxes(frame);
+fn sent(frame: &Frame, room: &Room, flux: &[f64], step: f64) -> (Vec<Point>, f64) {
     let count = (SENT.2 * frame.triangles.len()).clamp(SENT.0, SENT.1);
     let each = flux.iter().sum::<f64>() / count as f64;
     let mut landed: Vec<(usize, Point)> = Vec::new();
-    for (index, i) in spread(&flux, count) {
-        let (start, n) = point_on(frame, index, i);
-        let (n, of_side) = side(frame, index, i, n);
+    for (index, i) in spread(flux, count) {
+        let (start, n) = lamps::point_on(frame, index, i);
+        let (n, of_side) = lamps::side(frame, index, i, n);
         let d = if n == [0.0; 3] { anywhere(i) } else { cosine(n, i) };
         let start = along(start, step, d);
         let Some(met) = room.meet(start, d) else {
@@ -263,64 +246,4 @@ fn suns(frame: &Frame) -> Vec<([f64; 3], f64)> {
         }));
     }
     all
-}
-
-/// Points on the lamps themselves.
-fn on_lamps(frame: &Frame) -> Vec<Point> {
-    let roots: Vec<f64> = fluxes(frame).into_iter().map(libm::cbrt).collect();
-    let count = LIGHTS.min(4 * roots.len());
-    let points = spread(&roots, count).map(|(index, i)| {
-        let (p, n) = point_on(frame, index, i);
-        let (n, weight) = side(frame, index, i, n);
-        Point {
-            p,
-            n,
-            weight,
-            size: 0.0,
-            is_lit: true,
-        }
-    });
-    points.collect()
-}
-
-/// The `i`-th of points of a lamp, and its normal there: none of what has no surface, but the axis of a spot.
-fn point_on(frame: &Frame, index: usize, i: usize) -> ([f64; 3], [f64; 3]) {
-    match frame.emissive.get(index) {
-        Some(light) => (inside(&light.p, i), unit(normal(light.p))),
-        None => {
-            let light = &frame.others[index - frame.emissive.len()];
-            let [u, v, w, _] = sequence(i);
-            // Of a sphere, the side that a receiver in this direction would see.
-            let towards = anywhere(i).map(|x| x as f32);
-            let center = light.centroid();
-            let reach = light.bounds().max - light.bounds().min;
-            let far = 4.0 * (reach.x + reach.y + reach.z) + 1.0;
-            let from = Vec3::from(center) + Vec3::from(towards) * far;
-            let at = light.point_for(
-                from,
-                [u as f32, if light.kind() == AnyLight::BOX { w } else { v } as f32],
-            );
-            let n = match SpotLight::try_from(*light) {
-                Ok(spot) => spot.axis,
-                Err(_) => at.normal,
-            };
-            (at.p.map(f64::from), n.map(f64::from))
-        }
-    }
-}
-
-/// The side of a lamp that its `i`-th point lies on, and what that counts: of two sides every other one is the back.
-fn side(frame: &Frame, index: usize, i: usize, n: [f64; 3]) -> ([f64; 3], f64) {
-    if is_two_sided(frame, index) && i % 2 == 1 {
-        (n.map(|x| -x), BACK_COUNTS)
-    } else {
-        (n, 1.0)
-    }
-}
-
-fn is_two_sided(frame: &Frame, index: usize) -> bool {
-    match frame.emissive.get(index) {
-        Some(light) => light.is_two_sided(),
-        None => frame.others[index - frame.emissive.len()].is_two_sided(),
-    }
 }

@@ -50,10 +50,11 @@ pub(super) fn cosine(n: [f64; 3], i: usize) -> [f64; 3] {
     [0, 1, 2].map(|axis| x * beside[axis] + y * above[axis] + z * n[axis])
 }
 
-/// The `i`-th of points spread over a triangle.
+/// The `i`-th of points spread over a triangle, none on its edges: what lies there may be seen from both sides of a corner.
 pub(super) fn inside(p: &[[f32; 3]; 3], i: usize) -> [f64; 3] {
     let [u, v, ..] = sequence(i);
     let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
+    let [u, v] = [u, v].map(|x| 0.01 + 0.97 * x);
     let [a, b, c] = p.map(|vertex| vertex.map(f64::from));
     [0, 1, 2].map(|axis| a[axis] + u * (b[axis] - a[axis]) + v * (c[axis] - a[axis]))
 }

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use lightbvh::light::infinite::Environment;
 
+use super::super::analytic::{AnalyticKind, AnalyticLight};
 use super::super::model::{Material, Mesh, Node, Primitive, Scene, SceneData};
+use super::super::transform::Transform;
 use super::*;
 
 /// Materials of the scenes.
@@ -81,20 +83,39 @@ fn globe(centre: [f32; 3], radius: f32, material: u32) -> Primitive {
 }
 
 fn scene(primitives: Vec<Primitive>, is_under_sky: bool) -> Scene {
+    scene_with(primitives, &[], is_under_sky)
+}
+
+/// With points, each where it stands.
+fn scene_with(primitives: Vec<Primitive>, lamps: &[[f32; 3]], is_under_sky: bool) -> Scene {
     let material = |radiance, double_sided| Material {
         base_color: [0.5; 3],
         radiance,
         double_sided,
         ..Material::default()
     };
+    let point = |node| AnalyticLight {
+        name: String::from("point"),
+        node,
+        kind: AnalyticKind::Point,
+        color: [1.0; 3],
+        intensity: 100.0,
+        range: None,
+    };
     let sky =
         || Environment::from_fn(4, |[_, y, _]| if y > 0.0 { [1.0; 3] } else { [0.1; 3] }).expect("a sky");
     Scene::new(SceneData {
         name: String::from("test"),
-        nodes: vec![Node {
+        nodes: std::iter::once(Node {
             mesh: Some(0),
             ..Node::default()
-        }],
+        })
+        .chain(lamps.iter().map(|&p| Node {
+            transform: Transform::at(p),
+            ..Node::default()
+        }))
+        .collect(),
+        analytic: (1..=lamps.len() as u32).map(point).collect(),
         meshes: vec![Mesh {
             name: String::new(),
             primitives,
@@ -188,6 +209,50 @@ fn a_crate_is_seen_from_outside() {
             }
             is_upright(&view);
         }
+    }
+}
+
+/// The camera of one stood in the plane of its top, from where the dark inside filled half of the image.
+#[test]
+fn a_closed_cube_of_backs_is_seen_from_where_it_is_lit() {
+    for at in [[0.0; 3], [5.0, 3.0, -8.0]] {
+        let (low, high) = (at.map(|x| x - 1.0), at.map(|x| x + 1.0));
+        let walls = solid(low, high, GREY, true);
+        let corners = walls.positions.clone();
+        let view = scene(vec![walls], true).frame(0).camera;
+        assert!(!is_within(&view, low, high), "{view:?}");
+        fills(&view, &corners);
+        is_upright(&view);
+    }
+}
+
+#[test]
+fn a_crate_with_a_lamp_shut_in_is_seen_from_inside() {
+    let (low, high) = ([-0.5; 3], [0.5; 3]);
+    let floor = sheet([-5.0, -0.6, 5.0], [10.0, 0.0, 0.0], [0.0, 0.0, -10.0], GREY);
+    for parts in [
+        vec![cube(low, high, GREY)],
+        vec![cube(low, high, GREY), floor.clone()],
+    ] {
+        let view = scene_with(parts, &[[0.0; 3]], false).frame(0).camera;
+        assert!(is_within(&view, low, high), "{view:?}");
+    }
+}
+
+/// The camera stood within the bulb, whose inside the point makes far brighter than all else.
+#[test]
+fn a_lamp_in_its_bulb_does_not_hide_what_the_bulb_lights() {
+    let bulb = globe([0.0, 2.0, 0.0], 0.1, LAMP);
+    let floor = sheet([-3.0, 0.0, 3.0], [6.0, 0.0, 0.0], [0.0, 0.0, -6.0], GREY);
+    let table = cube([0.5, 0.0, -0.5], [1.5, 0.8, 0.5], GREY);
+    let view = scene_with(vec![bulb, floor, table], &[[0.0, 2.0, 0.0]], false)
+        .frame(0)
+        .camera;
+    let far: f32 = (0..3).map(|i| (view.eye[i] - [0.0, 2.0, 0.0][i]).powi(2)).sum();
+    assert!(far > 1.0, "{view:?}");
+    for p in [[0.0, 2.0, 0.0], [1.0, 0.8, 0.0]] {
+        let [x, y] = place(&view, p).expect("before the eye");
+        assert!(x.abs() < 16.0 / 9.0 && y.abs() < 1.0, "{p:?}: {view:?}");
     }
 }
 

@@ -85,14 +85,18 @@ impl Document<'_> {
         // An accessor without a view holds zeros: nothing else bounds its count.
         let all_bytes: u64 = self.buffers.iter().map(|buffer| buffer.len() as u64).sum();
         let elements = self.elements.get().saturating_add(accessor.count.0);
-        if elements > MAX_ELEMENTS || (accessor.buffer_view.is_none() && accessor.count.0 > all_bytes) {
-            let count = accessor.count.0;
-            let what = "accessor elements in all";
-            let found = elements.max(count);
+        if accessor.buffer_view.is_none() && accessor.count.0 > all_bytes {
+            let problem = format!(
+                "is {} zeros without a bufferView, more than the {all_bytes} bytes of all buffers",
+                accessor.count.0
+            );
+            return Err(self.malformed(name, problem, "give it a bufferView, or fewer elements"));
+        }
+        if elements > MAX_ELEMENTS {
             return Err(SceneError::TooMany {
                 scene: self.path.to_owned(),
-                what,
-                count: found,
+                what: "accessor elements in all",
+                count: elements,
                 limit: MAX_ELEMENTS,
             });
         }

@@ -4,7 +4,12 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 
+use lightbvh::BuildParams;
+use lightbvh::light::{AnyLight, SpotLight};
+use lightbvh_kernels::bvh::AnyNode;
+
 use super::*;
+use crate::scene::Instances;
 
 fn data_uri(bytes: &[u8]) -> String {
     format!("data:application/octet-stream;base64,{}", STANDARD.encode(bytes))
@@ -12,11 +17,16 @@ fn data_uri(bytes: &[u8]) -> String {
 
 /// A triangle with a white picture, which lies by these coordinates.
 fn painted(uv: [[f32; 2]; 3]) -> Value {
+    painted_of(1.0, uv)
+}
+
+/// The same with sides of that length, metres.
+fn painted_of(side: f32, uv: [[f32; 2]; 3]) -> Value {
     let mut bytes = std::io::Cursor::new(Vec::new());
     ::image::RgbaImage::from_pixel(1, 1, ::image::Rgba([255; 4]))
         .write_to(&mut bytes, ::image::ImageFormat::Png)
         .expect("memory");
-    let positions = [[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let positions = [[0.0; 3], [side, 0.0, 0.0], [0.0, side, 0.0]];
     let numbers = positions.as_flattened().iter().chain(uv.as_flattened());
     let buffer: Vec<u8> = numbers.flat_map(|x| x.to_le_bytes()).collect();
     json!({
@@ -26,7 +36,7 @@ fn painted(uv: [[f32; 2]; 3]) -> Value {
         "textures": [{ "source": 0 }],
         "images": [{ "uri": format!("data:image/png;base64,{}", STANDARD.encode(bytes.into_inner())) }],
         "accessors": [
-            { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0] },
+            { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [side, side, 0] },
             { "bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2" }
         ],
         "bufferViews": [
@@ -87,6 +97,106 @@ fn lights_have_their_ranges() {
     let found: Vec<Option<f32>> = scene.data().analytic.iter().map(|light| light.range).collect();
     assert_eq!(found, [Some(3.0), Some(7.5), None, Some(2.0_f32.powi(-20))]);
     assert!(scene.warnings().is_empty(), "{:?}", scene.warnings());
+}
+
+/// A spot, a sun and a triangle, the first two under a node that is turned by a right angle about x and has this scale.
+fn lit_under(scale: [f32; 3]) -> Value {
+    let mut root = painted([[0.0; 2]; 3]);
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    root["extensions"] =
+        json!({ "KHR_lights_punctual": { "lights": [{ "type": "spot" }, { "type": "directional" }] } });
+    let lamp = |light: u32| json!({ "extensions": { "KHR_lights_punctual": { "light": light } } });
+    root["nodes"] = json!([
+        { "mesh": 0 },
+        { "name": "hand", "translation": [1, 2, 3], "rotation": [-half, 0.0, 0.0, half], "scale": scale, "children": [2, 3] },
+        lamp(0),
+        lamp(1)
+    ]);
+    root["scenes"][0]["nodes"] = json!([0, 1]);
+    root
+}
+
+/// A spot below a node of scale 0 shone along its own axis, and a sun from above, whatever their rotation.
+#[test]
+fn scales_do_not_turn_lights() {
+    for scale in [
+        [1.0; 3],
+        [0.0; 3],
+        [1e-30; 3],
+        [1e30; 3],
+        [0.5, 0.0, 2.0],
+        [2.0, 3.0, 0.0],
+    ] {
+        let scene = read(&lit_under(scale));
+        for frame in [0, 30] {
+            let lit = scene.frame(frame);
+            let spot = SpotLight::try_from(lit.others[0]).expect("a spot");
+            let towards = lit.sky.suns()[1].direction;
+            for (found, expected) in [
+                (spot.axis, [0.0, -1.0, 0.0]),
+                (towards, [0.0, 1.0, 0.0]),
+                (spot.p, [1.0, 2.0, 3.0]),
+            ] {
+                let error: f32 = (0..3).map(|i| (found[i] - expected[i]).abs()).sum();
+                assert!(error < 1e-5, "{scale:?}: {found:?}, expected {expected:?}");
+            }
+        }
+        let followed = Instances::<AnyLight>::new::<AnyNode, (), 8>(&scene, 0, BuildParams::default());
+        let (lights, mut instances) = followed.unwrap_or_else(|error| panic!("{scale:?}: {error}"));
+        let spot = SpotLight::try_from(lights.world_lights()[0]).expect("a spot");
+        assert!((spot.axis[1] + 1.0).abs() < 1e-5, "{scale:?}: {:?}", spot.axis);
+        assert!(instances.edits(&scene, 9).is_empty());
+    }
+}
+
+/// What would be refused when it is rendered is refused when it is read, by name.
+#[test]
+fn scales_that_no_tree_takes_are_refused_by_name() {
+    let mut root = painted_of(1e-20, [[0.0; 2]; 3]);
+    root["nodes"][0] = json!({ "mesh": 0, "name": "dust", "scale": [1e20, 1e20, 1.0] });
+    let text = root.to_string();
+    let error = Scene::read_gltf_slice("x.gltf", text.as_bytes(), None).expect_err("too large");
+    let error = error.to_string();
+    assert!(error.contains("node 0 `dust`"), "{error}");
+}
+
+#[test]
+fn a_light_that_is_too_bright_is_named_with_its_node() {
+    let mut root = lit_under([1.0; 3]);
+    root["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = json!(1e38);
+    root["nodes"][2]["name"] = json!("lamp");
+    let text = root.to_string();
+    let error = Scene::read_gltf_slice("x.gltf", text.as_bytes(), None).expect_err("too bright");
+    let error = error.to_string();
+    assert!(error.contains("`lamp`") && error.contains("lower it"), "{error}");
+}
+
+/// The message told of another limit: "3000000 elements, more than the 134217728 that fit".
+#[test]
+fn zeros_without_a_view_are_bounded_by_what_the_file_has() {
+    let mut root = painted([[0.0; 2]; 3]);
+    root["accessors"][0] = json!({ "componentType": 5126, "count": 3_000_000, "type": "VEC3" });
+    let text = root.to_string();
+    let error = Scene::read_gltf_slice("x.gltf", text.as_bytes(), None).expect_err("too many");
+    let error = error.to_string();
+    assert!(
+        error.contains("3000000 zeros without a bufferView, more than the 60 bytes"),
+        "{error}"
+    );
+}
+
+/// What was left out is most likely why.
+#[test]
+fn a_scene_without_triangles_says_what_was_left_out() {
+    let mut root = painted([[0.0; 2]; 3]);
+    root["meshes"][0]["primitives"][0]["mode"] = json!(0);
+    let text = root.to_string();
+    let error = Scene::read_gltf_slice("x.gltf", text.as_bytes(), None).expect_err("points alone");
+    let error = error.to_string();
+    assert!(
+        error.contains("no triangles") && error.contains("\n  - meshes[0].primitives[0]"),
+        "{error}"
+    );
 }
 
 /// Every extension that is read stands in the documentation.

@@ -5,15 +5,27 @@ use super::params::Params;
 use super::state::Loader;
 use super::{matrix, shown};
 
+/// How many times as far away as half the image is high a camera stands that stands in for an orthographic one: lines that are parallel meet at
+/// less than 2 degrees.
+const FAR: f64 = 32.0;
+
+/// What a camera shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Lens {
+    /// Of the image's shorter side, radians.
+    Perspective(f64),
+    /// Parallel lines stay so. Another one stands in for it, far behind it.
+    Orthographic,
+    /// Nothing that we have: only its handedness counts.
+    Unknown,
+}
+
 /// Where frames are seen from.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Camera {
     /// From the camera, which looks along its +z, +x right and +y up, to the world.
     pub to_world: Affine,
-    /// Whether it shows things as we do; else only its handedness counts.
-    pub is_perspective: bool,
-    /// Of the picture's shorter side, radians.
-    pub fov: f64,
+    pub lens: Lens,
     /// Least and greatest x, then y, in the plane where the shorter side goes from −1 to 1.
     pub window: Option<[f64; 4]>,
     /// Columns over rows, where the file says so.
@@ -21,15 +33,20 @@ pub(super) struct Camera {
 }
 
 impl Camera {
-    /// Vertical field of view, radians, for a picture of that many columns and rows.
-    pub fn yfov(&self, [columns, rows]: [f64; 2]) -> f64 {
+    /// Vertical field of view, radians, and how far behind it the camera stands, in its own space, for a picture of that many columns and rows. None
+    /// of a camera that is left out.
+    pub fn field(&self, [columns, rows]: [f64; 2]) -> Option<(f64, f64)> {
         let aspect = self.aspect.unwrap_or(columns / rows);
         let half = match self.window {
             Some([_, _, low, high]) => 0.5 * (high - low).abs(),
             None if aspect < 1.0 => 1.0 / aspect,
             None => 1.0,
         };
-        2.0 * libm::atan(half * libm::tan(0.5 * self.fov))
+        match self.lens {
+            Lens::Perspective(fov) => Some((2.0 * libm::atan(half * libm::tan(0.5 * fov)), 0.0)),
+            Lens::Orthographic => Some((2.0 * libm::atan(1.0 / FAR), FAR * half)),
+            Lens::Unknown => None,
+        }
     }
 }
 
@@ -49,7 +66,7 @@ impl Loader<'_> {
             "perspective" => {}
             "orthographic" => self.note(
                 &params.place,
-                "an orthographic camera is left out; the scene is seen from elsewhere",
+                "an orthographic camera is replaced by one in perspective, 32 times as far behind it as half the image is high",
             ),
             _ => {
                 if kind == "realistic" {
@@ -70,19 +87,22 @@ impl Loader<'_> {
             degrees = 2.0 * half;
         }
         let is_angle = degrees > 0.0 && degrees < 180.0;
-        if !is_angle {
+        let lens = match (kind, is_angle) {
+            ("orthographic", _) => Lens::Orthographic,
+            (_, true) => Lens::Perspective(degrees.to_radians()),
+            (_, false) => Lens::Unknown,
+        };
+        if lens == Lens::Unknown {
             self.note(
                 &params.place,
                 format!("a camera whose `fov` is {degrees}, not between 0 and 180 degrees, is left out; the scene is seen from elsewhere"),
             );
         }
-        let is_perspective = is_angle && kind != "orthographic";
         let window = params.numbers("screenwindow").first_chunk().copied();
         let is_window = |[left, right, low, high]: &[f64; 4]| left != right && low != high;
         self.camera = Some(Camera {
             to_world,
-            is_perspective,
-            fov: degrees.to_radians(),
+            lens,
             window: window.filter(is_window),
             aspect: params.number("frameaspectratio").filter(|&aspect| aspect > 0.0),
         });

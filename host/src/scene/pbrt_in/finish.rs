@@ -65,9 +65,13 @@ impl Loader<'_> {
         }
         // A mirror is its own inverse.
         self.data.environment = self.environment(&to_scene);
-        if let Some(camera) = self.camera.take().filter(|camera| camera.is_perspective) {
-            let yfov = camera.yfov(self.film) as f32;
-            let [right, up, forward, eye] = to_scene.then_after(&camera.to_world).columns;
+        let camera = self.camera.take();
+        let field = camera.as_ref().and_then(|camera| camera.field(self.film));
+        if let (Some(camera), Some((yfov, behind))) = (camera, field) {
+            let yfov = yfov as f32;
+            let to_scene = to_scene.then_after(&camera.to_world);
+            let [right, up, forward, _] = to_scene.columns;
+            let eye = to_scene.point([0.0, 0.0, -behind]);
             let unit = |v: [f64; 3]| unit_or(v, [0.0; 3]);
             let view = Affine {
                 columns: [unit(right), unit(up), unit(forward).map(|x| -x), eye],

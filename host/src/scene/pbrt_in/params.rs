@@ -54,6 +54,14 @@ impl Params {
                 let problem = format!("`{}` has a number that is not finite", shown(&declared));
                 return Err(wrong(&place, problem, REPAIR));
             }
+            if !param.numbers.is_empty() && !param.words.is_empty() {
+                let problem = format!(
+                    "`{}` mixes numbers with `{}`",
+                    shown(&declared),
+                    shown(&param.words[0])
+                );
+                return Err(wrong(&place, problem, REPAIR));
+            }
             list.push(Rc::new(param));
         }
         let own = list.len();

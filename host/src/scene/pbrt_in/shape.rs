@@ -98,6 +98,9 @@ impl Loader<'_> {
 
     fn triangle_mesh(&mut self, params: &Params, name: &str) -> Result<(), SceneError> {
         let positions = params.points("P")?;
+        if params.find("P").is_none() {
+            return Err(wrong(&params.place, "the mesh has no `P`", REPAIR));
+        }
         let indices = if params.find("indices").is_some() {
             params.indices("indices", positions.len())?
         } else if positions.len() == 3 {
@@ -131,6 +134,9 @@ impl Loader<'_> {
 
     fn bilinear_mesh(&mut self, params: &Params) -> Result<(), SceneError> {
         let positions = params.points("P")?;
+        if params.find("P").is_none() {
+            return Err(wrong(&params.place, "the mesh has no `P`", REPAIR));
+        }
         let indices = if params.find("indices").is_some() {
             params.indices("indices", positions.len())?
         } else if positions.len() == 4 {

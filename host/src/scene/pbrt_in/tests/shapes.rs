@@ -134,4 +134,10 @@ fn meshes_that_contradict_themselves_are_refused_by_line() {
         );
     }
     assert!(refused("WorldBegin").contains("no triangles"));
+    // The mesh that is missing is why.
+    let error = refused("WorldBegin\nShape \"plymesh\" \"string filename\" \"missing.ply\"");
+    assert!(
+        error.contains("no triangles") && error.contains("meshes in files are left out"),
+        "{error}"
+    );
 }

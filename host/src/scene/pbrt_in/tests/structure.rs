@@ -88,6 +88,45 @@ fn the_shorter_side_has_the_angle() {
     assert!((yfov(upright, "\"float frameaspectratio\" 1") - std::f64::consts::FRAC_PI_2).abs() < 1e-6);
 }
 
+/// Its up was forgotten, and the floor stood on its edge.
+#[test]
+fn an_orthographic_camera_is_seen_from_far_behind_it() {
+    let scene = read(&format!(
+        "Scale 0.5 0.5 0.5 LookAt 3 1 8  3 1 0  1 0 0\nCamera \"orthographic\" \"float screenwindow\" [-4 4 -3 3]\nWorldBegin\n{TRIANGLE}"
+    ));
+    let camera = &scene.frame(0).camera;
+    near(camera.up, [1.0, 0.0, 0.0], ROUNDED);
+    // Half of the image is 3 of the camera's units high, 6 m.
+    let behind = 32.0 * 6.0;
+    let away = f64::from(camera.eye[2]).abs();
+    assert!((away - (8.0 + behind)).abs() < 1e-3, "{camera:?}");
+    let half = behind * (0.5 * f64::from(camera.yfov)).tan();
+    assert!((half - 6.0).abs() < 1e-4, "{half}");
+    assert!(
+        scene.warnings()[0].contains("an orthographic camera is replaced"),
+        "{:?}",
+        scene.warnings()
+    );
+}
+
+/// A word among numbers was dropped without a word.
+#[test]
+fn lists_are_of_numbers_or_of_words() {
+    for (text, expected) in [
+        (
+            "Shape \"trianglemesh\" \"point3 P\" [0 \"a\" 0 0 1 0 0 0 1 0]",
+            "`point3 P` mixes numbers with `a`",
+        ),
+        (
+            "Shape \"trianglemesh\" \"point3 Q\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2]",
+            "the mesh has no `P`",
+        ),
+    ] {
+        let error = refused(&format!("WorldBegin\n{text}"));
+        assert!(error.contains(expected), "{error}");
+    }
+}
+
 #[test]
 fn attributes_hold_until_they_end() {
     let scene = read(&format!(

@@ -1,0 +1,135 @@
+//! The lamps of a frame, as what there is to see and as what it is seen by.
+//!
+//! A point within a small closed mesh lights the inside of that mesh alone: programs place lamps so that let them shine through their own bulbs.
+//! Such ones are shut in, and count where there is no other light.
+
+use glam::Vec3;
+use lightbvh::light::{AnyLight, Light, SpotLight};
+
+use super::super::frame::Frame;
+use super::super::scene_light::SceneLight;
+use super::points::{Point, luminance};
+use super::room::Room;
+use super::spread::{along, anywhere, area, inside, sequence, spread, unit};
+use crate::vector::normal;
+
+/// Points on lamps, at most.
+const LIGHTS: usize = 64;
+
+/// What the back of a two-sided lamp counts against its front.
+const BACK_COUNTS: f64 = 0.2;
+
+/// Lamps that may be found to be shut in, at most: those with the brightest share.
+const ASKED: usize = 64;
+
+/// Rays that tell so of each.
+const RAYS: usize = 8;
+
+/// What lies farther away than this part of the scene's size is no bulb.
+const BULB: f64 = 0.05;
+
+/// What each lamp sends out, W but for a factor of π; zero where it is shut in and there is other light.
+pub(super) fn fluxes(frame: &Frame, room: &Room, size: f64, is_under_sky: bool) -> Vec<f64> {
+    let all = all_fluxes(frame);
+    let mut asked: Vec<usize> = spread(&all, ASKED).map(|(index, _)| index).collect();
+    asked.dedup();
+    let mut open = all.clone();
+    for index in asked {
+        if is_shut_in(frame, room, size, index) {
+            open[index] = 0.0;
+        }
+    }
+    if is_under_sky || open.iter().any(|&flux| flux > 0.0) {
+        open
+    } else {
+        all
+    }
+}
+
+/// Whether a lamp is a point that sends every ray to the back of something close by.
+fn is_shut_in(frame: &Frame, room: &Room, size: f64, index: usize) -> bool {
+    let own = index.checked_sub(frame.emissive.len());
+    let Some(light) = own.and_then(|own| frame.others.get(own)) else {
+        return false;
+    };
+    let bounds = light.bounds();
+    bounds.min == bounds.max
+        && (0..RAYS).all(|i| {
+            let (p, d) = (light.centroid().map(f64::from), anywhere(i));
+            let met = room.meet(along(p, 1e-9 * size, d), d);
+            met.is_some_and(|met| met.is_back(d) && met.t < BULB * size)
+        })
+}
+
+/// What each lamp sends out, W but for a factor of π.
+fn all_fluxes(frame: &Frame) -> Vec<f64> {
+    let triangles = frame
+        .emissive
+        .iter()
+        .map(|light| area(&light.p) * luminance(light.radiance));
+    let others = frame
+        .others
+        .iter()
+        .map(|light| light.flux() / std::f64::consts::PI);
+    triangles.chain(others).collect()
+}
+
+/// Points on the lamps themselves.
+pub(super) fn points(frame: &Frame, fluxes: &[f64]) -> Vec<Point> {
+    let roots: Vec<f64> = fluxes.iter().copied().map(libm::cbrt).collect();
+    let count = LIGHTS.min(4 * roots.len());
+    let points = spread(&roots, count).map(|(index, i)| {
+        let (p, n) = point_on(frame, index, i);
+        let (n, weight) = side(frame, index, i, n);
+        Point {
+            p,
+            n,
+            weight,
+            size: 0.0,
+            is_lit: true,
+        }
+    });
+    points.collect()
+}
+
+/// The `i`-th of points of a lamp, and its normal there: none of what has no surface, but the axis of a spot.
+pub(super) fn point_on(frame: &Frame, index: usize, i: usize) -> ([f64; 3], [f64; 3]) {
+    match frame.emissive.get(index) {
+        Some(light) => (inside(&light.p, i), unit(normal(light.p))),
+        None => {
+            let light = &frame.others[index - frame.emissive.len()];
+            let [u, v, w, _] = sequence(i);
+            // Of a sphere, the side that a receiver in this direction would see.
+            let towards = anywhere(i).map(|x| x as f32);
+            let center = light.centroid();
+            let reach = light.bounds().max - light.bounds().min;
+            let far = 4.0 * (reach.x + reach.y + reach.z) + 1.0;
+            let from = Vec3::from(center) + Vec3::from(towards) * far;
+            let at = light.point_for(
+                from,
+                [u as f32, if light.kind() == AnyLight::BOX { w } else { v } as f32],
+            );
+            let n = match SpotLight::try_from(*light) {
+                Ok(spot) => spot.axis,
+                Err(_) => at.normal,
+            };
+            (at.p.map(f64::from), n.map(f64::from))
+        }
+    }
+}
+
+/// The side of a lamp that its `i`-th point lies on, and what that counts: of two sides every other one is the back.
+pub(super) fn side(frame: &Frame, index: usize, i: usize, n: [f64; 3]) -> ([f64; 3], f64) {
+    if is_two_sided(frame, index) && i % 2 == 1 {
+        (n.map(|x| -x), BACK_COUNTS)
+    } else {
+        (n, 1.0)
+    }
+}
+
+fn is_two_sided(frame: &Frame, index: usize) -> bool {
+    match frame.emissive.get(index) {
+        Some(light) => light.is_two_sided(),
+        None => frame.others[index - frame.emissive.len()].is_two_sided(),
+    }
+}
