@@ -75,7 +75,7 @@ impl Changes {
 /// Most entries of lists that an edit sorts.
 const SHORT: usize = 4096;
 /// Entries of a list that are never too many.
-const LEAST: usize = 256;
+const LEAST: usize = 8192;
 
 /// Changes of one kind of lists.
 #[derive(Clone, Debug, Default)]

@@ -85,8 +85,8 @@ fn installed_rebuilds_take_bounded_room() {
         bvh.install(rebuild.run()).expect("its own");
         most = most.max(bvh.changes.new.len());
     }
-    // What one writes, and what is not worth sorting.
-    assert!((1000..8192 + 3000).contains(&most), "{most}");
+    // Three times the instances and what is never too many, and what one writes beyond.
+    assert!((1000..3 * 1000 + 8192 + 1500).contains(&most), "{most}");
 }
 
 /// The list of instances is in another order once one has gone.
