@@ -36,6 +36,11 @@ const LEAST_SQUARE: f32 = pow2(-60);
 const LONGER: f32 = 1.001;
 /// Rounding of coordinates as a part of them, with that of a map.
 const ROUNDING: f32 = pow2(-21);
+/// Of a place that a map brings back from so far away that its own rounding is not that of where it is: times [`ROUNDING`], for the three products
+/// of each coordinate may be larger than their sum.
+const BROUGHT_BACK: f32 = 4.0;
+/// From twice as far away on.
+const TWICE_BROUGHT_BACK: f32 = 8.0;
 /// Rounding of lengths in units.
 const LEAST_RADIUS: f32 = pow2(-18);
 /// How far from a similarity a map may be and count as one, in squared lengths of about 1.
@@ -118,16 +123,25 @@ impl Beam {
     }
 
     /// The beam in the world of a set that `instance` puts there. Where its map is no similarity light may go anywhere: angles between axes
-    /// change.
+    /// change. The walk allows for the rounding of places, but not where the map brings back what is far from its own origin: the sum of two places as
+    /// far away is then more precise than they are.
     #[inline(always)]
     pub(crate) fn to_world(self, instance: &Instance) -> Self {
         if self.is_narrow() & instance.is_even() {
             let c = instance.vertex([self.c.x, self.c.y, self.c.z]);
+            let c = Vec3::new(c[0], c[1], c[2]);
+            let off = rounding_at(instance.origin()) * BROUGHT_BACK;
+            let off = if off > rounding_at(c) * TWICE_BROUGHT_BACK {
+                off
+            } else {
+                0.0
+            };
+            let radius = self.radius * (instance.scale() * LONGER) + off;
             Self {
                 axis: instance.direction_to_world(self.axis),
                 cos_theta_e: self.cos_theta_e,
-                c: Vec3::new(c[0], c[1], c[2]),
-                radius: exact::flush(self.radius * (instance.scale() * LONGER), pow2(-100)),
+                c,
+                radius: exact::flush(radius, pow2(-100)),
             }
         } else {
             Self::ANYWHERE
@@ -235,3 +249,6 @@ impl Instance {
         if is_even { slack } else { -1.0 }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::record::{Each, Light, checked_emission, checked_place, of_mesh_at_place, shining, towards, unit};
-use super::{INVALID, LightError, LightPoint, MAX_COORDINATE};
+use super::{INVALID, LightError, LightPoint, MAX_COORDINATE, MIN_RADIANCE};
 use crate::beam::Beam;
 use crate::bounds::LightBounds;
 use crate::cone::Cone;
@@ -340,6 +340,8 @@ impl Light for SpotLight {
         let left = window(&self.p, self.range, from);
         let falloff = exact::flush(self.falloff(direction) * left, pow2(-60));
         let [r, g, b] = self.intensity;
-        at(&self.p, [r * falloff, g * falloff, b * falloff])
+        // Devices flush subnormal products of the least intensities and the least parts of them.
+        let least = |x: f32| exact::flush(x * falloff, MIN_RADIANCE);
+        at(&self.p, [least(r), least(g), least(b)])
     }
 }

@@ -80,3 +80,40 @@ fn ranges_are_a_window() {
     let zero = PointLight { range: -0.0, ..point }.checked().expect("none");
     assert_eq!(zero.range.to_bits(), 0);
 }
+
+/// Near the edge of a cone a spot of the least intensity sent subnormal light, which devices flush and the CPU does not.
+#[test]
+fn no_spot_sends_subnormal_light() {
+    let mut least_seen = f32::MAX;
+    for intensity in [MIN_RADIANCE, 3.0 * MIN_RADIANCE, 1.0] {
+        for range in [0.0, 4.0] {
+            let spot = SpotLight {
+                p: [0.0; 3],
+                axis: [0.0, 0.0, -1.0],
+                intensity: [intensity, 0.0, 2.0 * intensity],
+                range,
+                ..spot(0.9, 0.5)
+            }
+            .checked()
+            .expect("a spot");
+            for k in 0..4000 {
+                // cos 60 degrees is the edge; distances up to the range and beyond.
+                let cos = 0.5 + 0.4 * (k as f32 / 4000.0).powi(4);
+                let d = 1.0 + 3.0 * (k % 7) as f32 / 6.0;
+                let sin = (1.0 - cos * cos).sqrt();
+                let sent = spot
+                    .point_for(Vec3::new(d * sin, 0.0, -d * cos), [0.5; 2])
+                    .radiance;
+                for channel in sent {
+                    assert!(channel == 0.0 || channel >= MIN_RADIANCE, "{channel:e} at {cos}");
+                    least_seen = if channel > 0.0 {
+                        least_seen.min(channel)
+                    } else {
+                        least_seen
+                    };
+                }
+            }
+        }
+    }
+    assert!(least_seen < 2.0 * MIN_RADIANCE, "{least_seen:e}");
+}

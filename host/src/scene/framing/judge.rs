@@ -23,6 +23,9 @@ const LARGE: f64 = 0.065;
 /// What is nearer than this part of the distance of what is to be seen stands in the way.
 const NEAR: f64 = 0.12;
 
+/// How far above its surface a point is looked at, as a part of the distance.
+const ABOVE: f64 = 1e-5;
+
 /// A ray goes on behind a surface from so many times its distance.
 const BEYOND: f64 = 1.0 + 1e-5;
 
@@ -30,7 +33,7 @@ const BEYOND: f64 = 1.0 + 1e-5;
 const ALL_NEAR: f64 = 0.2;
 
 /// Dark points count as such up to so many times what is seen of lit ones, and then next to nothing: an image of them alone is black.
-const BESIDE_LIGHT: f64 = 8.0;
+const BESIDE_LIGHT: f64 = 4.0;
 const IN_THE_DARK: f64 = 1e-3;
 
 /// How much of all points is seen, from 0 to 1: those within the image, on this side of their surface, nothing before them. Dark ones
@@ -54,7 +57,9 @@ pub(super) fn seen(points: &[Point], room: &Room, view: &View) -> f64 {
             continue;
         }
         let faces = if *n == [0.0; 3] { 1.0 } else { -dot(unit(d), *n) };
-        if faces > 0.0 && room.is_clear(eye, *p) {
+        // From above its surface: beside an edge the other side of it would not be told from its own.
+        let above = along(*p, ABOVE * dot(d, d).sqrt(), *n);
+        if faces > 0.0 && room.is_clear(eye, above) {
             let large = (size / (half * LARGE)).min(1.0);
             // What is one point has no size.
             let large = if *size > 0.0 { large } else { 1.0 };

@@ -72,7 +72,7 @@ impl Room {
 
     /// Whether nothing lies between two points.
     pub fn is_clear(&self, from: [f64; 3], to: [f64; 3]) -> bool {
-        let ray = Ray::new(narrowed(from), narrowed(sub(to, from)), 0.999);
+        let ray = Ray::new(narrowed(from), narrowed(sub(to, from)), 1.0 - 1e-6);
         !any_hit(&self.rays.surfaces(), &ray, NONE)
     }
 

@@ -234,8 +234,10 @@ fn a_crate_with_a_lamp_shut_in_is_seen_from_inside() {
         vec![cube(low, high, GREY)],
         vec![cube(low, high, GREY), floor.clone()],
     ] {
-        let view = scene_with(parts, &[[0.0; 3]], false).frame(0).camera;
-        assert!(is_within(&view, low, high), "{view:?}");
+        for lamp in [[0.0; 3], [0.15, 0.25, 0.1], [-0.4, 0.1, 0.45]] {
+            let view = scene_with(parts.clone(), &[lamp], false).frame(0).camera;
+            assert!(is_within(&view, low, high), "{lamp:?}: {view:?}");
+        }
     }
 }
 
