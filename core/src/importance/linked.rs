@@ -28,6 +28,18 @@ use crate::point::LinkedPoint;
 /// # let receiver = LinkedPoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, mask: 1 };
 /// let sampled = Bvh::<Layout, Linked<Leveled<Moments, 9>>, 8>::default().sample_for(&receiver, 1_u32);
 /// ```
+/// Receivers of other kinds have masks as well: a leaf of two sides, say.
+/// ```
+/// # use lightbvh::importance::{Leveled, Linked, LinkedPoint, Transmissive, TransmissivePoint};
+/// # use lightbvh::light::LinkedTriangle;
+/// # use lightbvh::node::{LinkedMomentNode, Lit};
+/// # use lightbvh::{Bvh, Moments, ShadingPoint};
+/// # type Layout = Lit<LinkedMomentNode<8>, LinkedTriangle>;
+/// # let leaf = TransmissivePoint { point: ShadingPoint { p: [0.0; 3], n: [0.0; 3] }, front: 0.5, back: 0.5 };
+/// let receiver = LinkedPoint { point: leaf, mask: 1 };
+/// let lights = Bvh::<Layout, Linked<Leveled<Transmissive<Moments>, 9>>, 8>::default();
+/// let sampled = lights.sample_for(&receiver, 1_u32);
+/// ```
 /// ```compile_fail
 /// # use lightbvh::importance::{Defensive, Linked, LinkedPoint};
 /// # use lightbvh::light::LinkedTriangle;
