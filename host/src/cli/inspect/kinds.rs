@@ -78,17 +78,20 @@ pub(super) fn run(context: &Context, args: &Args, scene: &Scene) -> Result<Outco
     let count = args.points.min((most as u32).max(1));
     let points = points::on_surfaces(scene, moved, count);
     let kinds = LightKinds::of(lights.triangles());
-    let checked = match kinds.narrow {
-        0 => check::<Plain>(scene, [args.frame, moved], &lights, &points)?,
-        _ => check::<AnyNode>(scene, [args.frame, moved], &lights, &points)?,
+    let checked = match (lights.triangles().len(), kinds.narrow) {
+        // Suns and maps alone: there is nothing that a tree would choose among.
+        (0, _) => None,
+        (_, 0) => Some(check::<Plain>(scene, [args.frame, moved], &lights, &points)?),
+        _ => Some(check::<AnyNode>(scene, [args.frame, moved], &lights, &points)?),
     };
+    let holds = checked.as_ref().is_none_or(Checked::holds);
     let tree = format!("Bvh<{}, Defensive<Moments, 6>, {WIDTH}>", kinds.node_type(WIDTH));
     if context.json {
         table::print_json(&json!({
             "scene": args.scene, "frame": args.frame, "checked_frame": moved, "lights": lights.triangles().len(),
             "kinds": { "said": kinds.said(), "narrow": kinds.narrow, "light": kinds.light_type(), "node": kinds.node_type(WIDTH) },
             "suns": scene.sun_count(), "environment": scene.data().environment.is_some(),
-            "motion": motion, "surfaces": surfaces, "tree": tree, "checked": checked, "holds": checked.holds(),
+            "motion": motion, "surfaces": surfaces, "tree": checked.as_ref().map(|_| tree), "checked": checked, "holds": holds,
         }))?;
     } else {
         let about = About {
@@ -99,9 +102,13 @@ pub(super) fn run(context: &Context, args: &Args, scene: &Scene) -> Result<Outco
             surfaces,
             kinds,
         };
-        table::print_text(&about.said(lights.triangles().len(), &tree, moved, &checked))?;
+        let mut text = about.required(lights.triangles().len());
+        if let Some(checked) = &checked {
+            text += &about.found(&tree, moved, checked);
+        }
+        table::print_text(&text)?;
     }
-    Ok(Outcome::good_if(checked.holds()))
+    Ok(Outcome::good_if(holds))
 }
 
 /// What the text is about.
@@ -115,7 +122,8 @@ struct About<'a> {
 }
 
 impl About<'_> {
-    fn said(&self, lights: usize, tree: &str, moved: u32, checked: &Checked) -> String {
+    /// What the scene requires.
+    fn required(&self, lights: usize) -> String {
         let Self { scene, kinds, .. } = self;
         let [gloss, masks] = self.surfaces.said();
         let mut text = format!(
@@ -145,7 +153,12 @@ impl About<'_> {
         text += &line("pmf of given lights", &table::yes(pmf));
         text += &line("masks", &masks);
         text += &line("animation", &self.motion.said());
-        text += &format!("\na tree over its lights: {tree}, two levels\n");
+        text
+    }
+
+    /// What was found of the tree over its lights.
+    fn found(&self, tree: &str, moved: u32, checked: &Checked) -> String {
+        let mut text = format!("\na tree over its lights: {tree}, two levels\n");
         let refitted = match moved == self.args.frame {
             true => String::new(),
             false => format!(" in frame {moved}, after a refit"),
