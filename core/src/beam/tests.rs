@@ -80,3 +80,102 @@ fn a_beam_holds_what_a_map_brings_back() {
     let instance = Transform::at([1000.0, 20.0, -3.0]).instance(1.0);
     assert_eq!(still.to_world(&instance).radius, 0.0);
 }
+
+/// Columns of lengths `lengths` times `scale`, turned, with `by` of the first axis added to the second, of the second to the third, of the third to the first.
+fn map(random: &mut Random, scale: f64, lengths: [f64; 3], by: [f64; 3]) -> Transform {
+    let turn = rotation(random);
+    let columns: [[f64; 3]; 3] = core::array::from_fn(|j| {
+        let (k, share) = match j {
+            1 => (0, by[0]),
+            2 => (1, by[1]),
+            _ => (2, by[2]),
+        };
+        core::array::from_fn(|i| scale * lengths[j] * (turn[i][j] + share * turn[i][k]))
+    });
+    Transform::from_rows(core::array::from_fn(|i| {
+        [
+            columns[0][i] as f32,
+            columns[1][i] as f32,
+            columns[2][i] as f32,
+            [0.5, -8.0, 3.0][i],
+        ]
+    }))
+}
+
+/// Maps that change angles are told from those that do not, whichever axes they change.
+#[test]
+fn maps_that_are_uneven_are_known() {
+    let mut random = Random(11);
+    for _ in 0..200 {
+        for scale in [1e-6, 0.01, 1.0, 37.0, 1e6] {
+            let even = map(&mut random, scale, [1.0; 3], [0.0; 3]).instance(1.0);
+            assert!(even.is_even(), "{scale}");
+            // 2^-21 of the origin's greatest coordinate, in the mesh's lengths.
+            let expected = 8.0 * 2.0_f64.powi(-21) / scale;
+            let found = f64::from(even.slack());
+            assert!(
+                (found / expected - 1.0).abs() < 1e-4,
+                "{scale}: {found}, expected {expected}"
+            );
+            let off = 2.0_f64.powi(-10);
+            for axis in 0..3 {
+                let mut lengths = [1.0; 3];
+                lengths[axis] += off;
+                let mut by = [0.0; 3];
+                by[axis] = off;
+                for (lengths, by) in [(lengths, [0.0; 3]), ([1.0; 3], by)] {
+                    let uneven = map(&mut random, scale, lengths, by).instance(1.0);
+                    assert!(!uneven.is_even(), "{scale}: {lengths:?} {by:?}");
+                    assert_eq!(uneven.slack(), -1.0);
+                }
+            }
+            // The third is as long as the first, the second is not, and both of the others are as the second.
+            for lengths in [[1.0, 1.0 + off, 1.0], [1.0 + off, 1.0, 1.0]] {
+                assert!(!map(&mut random, scale, lengths, [0.0; 3]).instance(1.0).is_even());
+            }
+        }
+    }
+}
+
+/// The cosine of the cone about another axis is that of the sum of both angles, rounded down, and none from 90 degrees on.
+#[test]
+fn cones_about_another_axis_hold_the_beam() {
+    let mut random = Random(23);
+    let (mut told, mut none) = (0, 0);
+    for _ in 0..20_000 {
+        let rows = rotation(&mut random);
+        let axis = Vec3::from(rows[0].map(|x| x as f32));
+        let half = 1.6 * f64::from(random.unit());
+        let tilt = 1.6 * f64::from(random.unit()).powi(3);
+        let tilted: [f64; 3] = core::array::from_fn(|i| tilt.cos() * rows[0][i] + tilt.sin() * rows[1][i]);
+        let length = 0.05 + 0.95 * f64::from(random.unit());
+        let beam = Beam {
+            axis,
+            cos_theta_e: half.cos() as f32,
+            c: Vec3::ZERO,
+            radius: 0.0,
+        };
+        let about = Vec3::from(tilted.map(|x| (x * length) as f32));
+        let found = f64::from(beam.cosine_about(about));
+        let exact = (half + tilt).cos();
+        if half + tilt < 1.55 {
+            assert!(found <= exact + 1e-7, "{half} {tilt}: {found}, {exact}");
+            // Not by much: 2^-11 rad and a little.
+            let widened = (half + tilt + 8e-4).cos() - 4e-6;
+            assert!(found >= widened, "{half} {tilt}: {found}, {widened}");
+            told += 1;
+        } else if half + tilt > core::f64::consts::FRAC_PI_2 {
+            assert_eq!(found, -1.0, "{half} {tilt}");
+            none += 1;
+        }
+    }
+    assert!(told > 5_000 && none > 5_000, "{told} {none}");
+    // An axis without direction is about nothing.
+    let beam = Beam {
+        axis: Vec3::Z,
+        cos_theta_e: 0.9,
+        c: Vec3::ZERO,
+        radius: 0.0,
+    };
+    assert_eq!(beam.cosine_about(Vec3::new(0.0, 0.0, 0.01)), -1.0);
+}

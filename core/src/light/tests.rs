@@ -944,4 +944,5 @@ fn extremes_stay_finite() {
     }
 }
 
+mod punctual;
 mod ranges;
