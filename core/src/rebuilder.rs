@@ -22,7 +22,7 @@ use self::clock::Clock;
 use self::meshes::Meshes;
 use self::queue::Queue;
 use self::worker::{Built, Job, Product, Worker, build};
-use crate::bvh::{Bvh, RebuildParams, Search, Taken, Trails};
+use crate::bvh::{Bvh, Looked, RebuildParams, Search, Taken, Trails};
 use crate::node::{DefaultNode, Holds, Node};
 
 /// When results are swapped in.
@@ -162,6 +162,8 @@ pub struct Rebuilder<N: Holds = DefaultNode, const W: usize = 8> {
     reopens: Option<Taken>,
     /// Frames since there was time for any.
     held: u32,
+    /// Which instances that moved away were looked at.
+    looked: Looked,
     /// Whether small meshes that are many had the last turn.
     is_tops_turn: bool,
     /// How a worker is started.
@@ -206,6 +208,7 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
             reopened: Vec::new(),
             reopens: None,
             held: 0,
+            looked: Looked::default(),
             is_tops_turn: false,
             start: Worker::start,
         }
@@ -255,7 +258,7 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
             true => 1,
         };
         self.held = if most == 0 { self.held + 1 } else { 0 };
-        scene.put_strayed_elsewhere(STRAYED);
+        scene.put_strayed_elsewhere(STRAYED, &mut self.looked);
         let closed = scene.close_for_stages(most);
         self.reopen_some(scene, most - closed);
         flight?;

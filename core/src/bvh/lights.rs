@@ -21,10 +21,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.live(instance).map(|placed| placed.lights.clone())
     }
 
-    /// One more than the greatest number of a light.
+    /// One more than the greatest number of a light that is in use, or that waits until removed lights are taken.
     #[must_use]
     pub fn light_end(&self) -> u32 {
-        self.lights.end()
+        self.lights.used_end()
     }
 
     /// Light `light` of the instance of index `instance` in the world, as a [`SampledLight`](crate::SampledLight) names them; `None` where there is
@@ -77,12 +77,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         })
     }
 
-    /// All lights in the world by number. Their `mesh` is the index of the instance; numbers not in use get triangles without radiance of
+    /// All lights in the world by number, up to the greatest in use. Their `mesh` is the index of the instance; numbers not in use get triangles without radiance of
     /// mesh `u32::MAX`. [`to_lights`](Self::to_lights) has those in use alone.
     #[must_use]
     pub fn world_lights(&self) -> Vec<N::Light> {
         let dark = N::Light::DARK;
-        let mut out = alloc::vec![dark; self.lights.end() as usize];
+        let mut out = alloc::vec![dark; self.lights.used_end() as usize];
         for (index, placed) in self.placed.iter().enumerate().filter(|(_, placed)| placed.live) {
             let own = &self.instances[index];
             let range = self.blas_of(placed).triangles.clone();
@@ -181,8 +181,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             .light_count
             .min(MAX_LIGHTS.saturating_sub(self.light_count) / 2);
         if self.waiting_lights > LEAST_WAITING.max(most) {
+            // Those that wait are in use until they are taken.
+            let end = self.lights.used_end();
             self.take_removed_lights();
-            self.removed_lights.push(0..self.lights.end());
+            self.removed_lights.push(0..end);
             self.forgotten = true;
         }
     }

@@ -72,7 +72,7 @@ pub(crate) use stage::{Builder, HANDED, MeshJob, MeshTree, StageId};
 pub use static_bvh::StaticBvh;
 pub use static_mesh::StaticMeshBvh;
 #[cfg(feature = "std")]
-pub(crate) use top::Search;
+pub(crate) use top::{Looked, Search};
 pub use trails::{NoTrails, Trails, WithTrails};
 pub use validate::Stats;
 

@@ -48,6 +48,14 @@ impl Ranges {
         self.end
     }
 
+    /// One more than the greatest index in use.
+    pub fn used_end(&self) -> u32 {
+        match self.free.before(self.end) {
+            Some((start, length)) if start + length == self.end => start,
+            _ => self.end,
+        }
+    }
+
     /// Takes `count` indices without a gap: the first that fit, so that equal edits get equal indices.
     pub fn take(&mut self, count: u32) -> Range<u32> {
         if count == 0 {
@@ -57,13 +65,10 @@ impl Ranges {
             return start..start + count;
         }
         // What is free at the end is part of the new range.
-        let start = match self.free.before(self.end) {
-            Some((start, length)) if start + length == self.end => {
-                self.free.remove(start);
-                start
-            }
-            _ => self.end,
-        };
+        let start = self.used_end();
+        if start < self.end {
+            self.free.remove(start);
+        }
         self.end = start + count;
         start..self.end
     }

@@ -29,6 +29,8 @@ pub(super) use self::rebuild::TopTree;
 #[cfg(feature = "std")]
 pub(crate) use self::search::Search;
 pub(super) use self::settle::MOST as MOST_EDITS;
+#[cfg(feature = "std")]
+pub(crate) use self::strayed::Looked;
 use super::ranges::Ranges;
 use super::{Bvh, Trails};
 use crate::build::{BuildParams, Topology, build_top};
@@ -175,8 +177,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.top.changes.clear();
         self.top.counted.clear();
         // Records that are not in use are of no account: there may be many more of them.
-        for &index in &self.live {
-            self.placed[index as usize].settle();
+        for entry in 0..self.live.len() {
+            let index = self.live[entry];
+            self.settle_placed(index);
             for part in self.placed[index as usize].parts.clone() {
                 self.placed[part as usize].settle();
             }

@@ -105,10 +105,14 @@ pub(super) fn phi_per_intensity(flux: f32) -> f32 {
     exact::max(flux, exact::sqrt(flux * core::f32::consts::PI))
 }
 
+/// A cone of this cosine or less is all directions.
+const WHOLE: f32 = -1.0 + pow2(-16);
+
 /// Whether a direction, of length 1 up to 2^-16, lies within a cone.
 #[inline(always)]
 pub(super) fn within_cone(axis: Vec3, cosine: f32, direction: Vec3) -> bool {
-    0.5 * apart_squared(axis, direction) <= 1.0 - cosine
+    // Straight behind a direction that is a little longer than 1 would be beyond all.
+    (0.5 * apart_squared(axis, direction) <= 1.0 - cosine) | (cosine <= WHOLE)
 }
 
 /// Twice 1 less the cosine of two directions: cosines of a narrow cone have no digits for it, nor lengths that are nearly 1.

@@ -59,10 +59,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let above = (root != self.top.root).then(|| (self.parents[root as usize], self.slot_above(root)));
         for &name in &tree.names {
             if self.is_marked(name, found.mark) {
-                let placed = &mut self.placed[name as usize];
                 if above.is_none() {
-                    placed.settle();
+                    self.settle_placed(name);
                 }
+                let placed = &mut self.placed[name as usize];
                 placed.hung_radiance = placed.radiance;
             }
         }

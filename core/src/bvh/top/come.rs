@@ -60,9 +60,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.epoch += u64::from(!instances.is_empty());
         let mut changed = Vec::new();
         for &index in instances {
-            let placed = &mut self.placed[index as usize];
-            placed.hung = self.epoch;
-            placed.settle();
+            self.placed[index as usize].hung = self.epoch;
+            self.settle_placed(index);
             self.insert_one(index, &mut changed);
         }
         self.insert_subtrees(subtrees, &mut changed);

@@ -50,9 +50,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         self.epoch += 1;
         for &index in added {
-            let placed = &mut self.placed[index as usize];
-            placed.hung = self.epoch;
-            placed.settle();
+            self.placed[index as usize].hung = self.epoch;
+            self.settle_placed(index);
         }
         if added.len() >= there {
             self.build_top();

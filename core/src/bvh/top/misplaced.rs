@@ -86,6 +86,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 if excess > 0.0 {
                     misplaced.push((excess, leaf));
                 } else if leaf == self.leaves_of(index).start {
+                    if self.placed[index as usize].parts.is_empty() {
+                        self.note_moved(index);
+                    }
                     // An opened instance's first part stands for all: they move together.
                     break;
                 }
@@ -143,11 +146,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 }
             }
             if jumped.len() > before {
+                // The next refit notes those that stay: each step may have been short for them.
                 self.sweep_now(blas);
-                // Those that stay are where they belong.
-                if self.blases[blas as usize].opened == 0 {
-                    self.blases[blas as usize].center = self.root_of(blas).center().to_array();
-                }
             }
         }
         jumped.sort_unstable();

@@ -19,6 +19,21 @@ const DIM: f64 = 2.0;
 #[cfg(feature = "std")]
 const LOOKED_AT: usize = 16;
 
+/// Instances that are noted because they were moved, at most: beside more of them parts are tried in any case.
+const MOVED: usize = 1024;
+/// Where an instance is said to have been put that had no flux, metres along each axis: farther off than any light.
+const NOWHERE: f32 = 1e18;
+
+/// Where a rebuilder goes on.
+#[cfg(feature = "std")]
+#[derive(Debug, Default)]
+pub(crate) struct Looked {
+    /// From this index on.
+    next: u32,
+    /// The epoch when the last frame began.
+    epoch: Option<u64>,
+}
+
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// After a refit of these roots: notes the instances of meshes whose centre left what the mesh's own extent was where they were put. In time in
     /// proportion to their instances, and to nothing where there are none.
@@ -33,8 +48,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 continue;
             };
             let root = self.root_of(blas);
-            // Without flux it is nowhere, and one that blinks is where it is bright.
-            if root.phi() <= 0.0 || self.was_brighter(blas) > DIM {
+            // Without flux it is nowhere.
+            if root.phi() <= 0.0 {
                 continue;
             }
             let (was, center) = (own.center, root.center().to_array());
@@ -45,12 +60,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             }
             let mesh = own.mesh as usize;
             self.blases[blas as usize].center = center;
-            if !is_known {
-                continue;
-            }
             let few = self.meshes[mesh].users.len() <= FEW;
             for user in 0..self.meshes[mesh].users.len() {
                 let index = self.meshes[mesh].users[user];
+                if !is_known && self.placed[index as usize].hung_center[0] != NOWHERE {
+                    continue;
+                }
                 if few {
                     self.note_strayed(index, was);
                 } else {
@@ -59,6 +74,29 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                     }
                 }
             }
+        }
+    }
+
+    /// An instance was put where it is in the top level as it is now. One without flux was put anywhere: it is looked at once its mesh shines.
+    pub(in crate::bvh) fn settle_placed(&mut self, index: u32) {
+        let placed = &mut self.placed[index as usize];
+        placed.settle();
+        // A part is looked at with the whole.
+        if placed.part_of != INVALID {
+            return;
+        }
+        let blas = self.meshes[placed.mesh as usize].blas;
+        if self.root_of(blas).phi() <= 0.0 {
+            self.placed[index as usize].hung_center = [NOWHERE; 3];
+            self.blases[blas as usize].center = [f32::NAN; 3];
+        }
+    }
+
+    /// An instance that was moved, and that lies no farther from what is beside it by a single step, is looked at as a frame begins: one that walks through a
+    /// scene is never far from where it was a step before.
+    pub(super) fn note_moved(&mut self, index: u32) {
+        if self.placed[index as usize].node != INVALID && self.top.strayed.len() < MOVED {
+            self.top.strayed.insert(index);
         }
     }
 
@@ -74,22 +112,37 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Puts noted instances in elsewhere that went farther than what lies beside them is spread, about `most` leaves of them.
     #[cfg(feature = "std")]
-    pub(crate) fn put_strayed_elsewhere(&mut self, most: usize) {
+    pub(crate) fn put_strayed_elsewhere(&mut self, most: usize, looked: &mut Looked) {
         let mut out = Vec::new();
+        let mut later = Vec::new();
         for _ in 0..LOOKED_AT {
             if out.len() >= most {
                 break;
             }
-            let Some(index) = self.top.strayed.pop_first() else {
+            // After the last one: those that stray in every frame keep nobody waiting.
+            let strayed = &self.top.strayed;
+            let next = strayed.range(looked.next..).next().or(strayed.first());
+            let Some(&index) = next else {
                 break;
             };
-            let leaves: Vec<u32> = self.leaves_of(index).collect();
-            let is_opened = !self.placed[index as usize].parts.is_empty();
-            if is_opened || self.lies_elsewhere(index) {
-                let hung = leaves.into_iter();
-                out.extend(hung.filter(|&leaf| self.placed[leaf as usize].node != INVALID));
+            self.top.strayed.remove(&index);
+            looked.next = index + 1;
+            // One that blinks is where it is bright, unless it rests where it is dim.
+            let blas = self.blas_index(&self.placed[index as usize]);
+            let changed = self.blases[blas as usize].changed;
+            if self.was_brighter(blas) > DIM && looked.epoch.is_none_or(|since| changed > since) {
+                later.push(index);
+                continue;
+            }
+            if self.lies_elsewhere(index) {
+                let leaves = self.leaves_of(index);
+                out.extend(leaves.filter(|&leaf| self.placed[leaf as usize].node != INVALID));
+                // Where it is opened that is not said of its parts alone.
+                self.settle_placed(index);
             }
         }
+        self.top.strayed.extend(later);
+        looked.epoch = Some(self.epoch);
         if out.is_empty() {
             return;
         }
@@ -102,22 +155,29 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.settle_some(crate::bvh::rebuild::ADOPTED);
     }
 
-    /// Whether an instance is farther from where it was put than its node was wide then: the others in it, and it where it was.
+    /// Whether an instance is farther from where it was put than its node was wide then, the others in it, and it where it was; and farther from the others
+    /// than it was: those that move together stay together. An opened one, of which each part has a node, where it is out of its own extent.
     #[cfg(feature = "std")]
     fn lies_elsewhere(&self, index: u32) -> bool {
         let placed = &self.placed[index as usize];
+        let own = self.in_world(index);
+        let (was, is) = (
+            placed.hung_center.map(f64::from),
+            own.center().to_array().map(f64::from),
+        );
+        if !placed.parts.is_empty() {
+            return distance(is, was) * SWAYS > f64::from(own.spread());
+        }
         if placed.node == INVALID
             || self.parents[placed.node as usize] == INVALID
             || placed.hung_center[0].is_nan()
         {
             return false;
         }
+        if placed.hung_center[0] == NOWHERE {
+            return true;
+        }
         let node = &self.nodes[placed.node as usize];
-        let own = self.in_world(index);
-        let (was, is) = (
-            placed.hung_center.map(f64::from),
-            own.center().to_array().map(f64::from),
-        );
         // Flux, flux times centre, and flux times squared distance from where it was.
         let mut phi = f64::from(own.phi());
         let (mut first, mut second) = ([0.0; 3], phi * f64::from(own.spread()));
@@ -132,7 +192,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         // Of all about their mean; the instance itself is at zero.
         let mean = first.map(|x| x / phi);
         let spread = second / phi - distance(mean, [0.0; 3]);
-        distance(is, was) > spread
+        let others = phi - f64::from(own.phi());
+        let middle = first.map(|x| if others > 0.0 { x / others } else { 0.0 });
+        let now = [0, 1, 2].map(|k| is[k] - was[k]);
+        distance(is, was) > spread && distance(now, middle) > distance([0.0; 3], middle)
     }
 }
 

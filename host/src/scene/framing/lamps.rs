@@ -4,14 +4,14 @@
 //! Such ones are shut in, and count where there is no other light.
 
 use glam::Vec3;
-use lightbvh::light::{AnyLight, Light, SpotLight};
+use lightbvh::light::{AnyLight, Light, ProfileLight, SpotLight};
 
 use super::super::frame::Frame;
 use super::super::scene_light::SceneLight;
 use super::points::{Point, luminance};
 use super::room::Room;
 use super::spread::{along, anywhere, area, inside, sequence, spread, unit};
-use crate::vector::normal;
+use crate::vector::{dot, normal, sub};
 
 /// Points on lamps, at most.
 const LIGHTS: usize = 64;
@@ -21,6 +21,9 @@ const BACK_COUNTS: f64 = 0.2;
 
 /// Lamps that may be found to be shut in, at most: those with the brightest share.
 const ASKED: usize = 64;
+
+/// Lamps that stand off, at most: those with the brightest share.
+const FAR: usize = 16;
 
 /// Rays that tell so of each.
 const RAYS: usize = 8;
@@ -44,6 +47,46 @@ pub(super) fn fluxes(frame: &Frame, room: &Room, size: f64, is_under_sky: bool) 
     } else {
         all
     }
+}
+
+/// Lamps without size that stand beyond all that there is to see, which light it as suns do: they need not be in the image. Their flux is taken out of
+/// `fluxes`; those with the brightest share.
+pub(super) fn take_far(frame: &Frame, fluxes: &mut [f64]) -> Vec<AnyLight> {
+    let triangles = frame.triangles.iter().chain(&frame.clear);
+    let Some((low, high)) = super::bounds(triangles.flat_map(|triangle| triangle.p)) else {
+        return Vec::new();
+    };
+    let middle = [0, 1, 2].map(|axis| 0.5 * (low[axis] + high[axis]));
+    let reach = squared(sub(high, middle));
+    let first = frame.emissive.len();
+    let is_far = |light: &AnyLight| {
+        let bounds = light.bounds();
+        bounds.min == bounds.max && squared(sub(light.centroid().map(f64::from), middle)) > reach
+    };
+    let others: Vec<f64> = (0..)
+        .zip(&frame.others)
+        .map(|(own, light)| if is_far(light) { fluxes[first + own] } else { 0.0 })
+        .collect();
+    let mut chosen: Vec<usize> = spread(&others, FAR).map(|(own, _)| own).collect();
+    chosen.dedup();
+    for (own, flux) in others.iter().enumerate() {
+        if *flux > 0.0 {
+            fluxes[first + own] = 0.0;
+        }
+    }
+    chosen.into_iter().map(|own| frame.others[own]).collect()
+}
+
+fn squared(v: [f64; 3]) -> f64 {
+    dot(v, v)
+}
+
+/// The cosine of the cone about its axis that a lamp shines in, where it does.
+pub(super) fn cone(frame: &Frame, index: usize) -> Option<f64> {
+    let light = frame.others.get(index.checked_sub(frame.emissive.len())?)?;
+    let spot = SpotLight::try_from(*light).map(|spot| spot.cos_outer);
+    let cosine = spot.or_else(|_| ProfileLight::try_from(*light).map(|profile| profile.cos_outer));
+    cosine.ok().map(f64::from)
 }
 
 /// Whether a lamp is a point that sends every ray to the back of something close by.
@@ -109,10 +152,9 @@ pub(super) fn point_on(frame: &Frame, index: usize, i: usize) -> ([f64; 3], [f64
                 from,
                 [u as f32, if light.kind() == AnyLight::BOX { w } else { v } as f32],
             );
-            let n = match SpotLight::try_from(*light) {
-                Ok(spot) => spot.axis,
-                Err(_) => at.normal,
-            };
+            let axis = SpotLight::try_from(*light).map(|spot| spot.axis);
+            let axis = axis.or_else(|_| ProfileLight::try_from(*light).map(|profile| profile.axis));
+            let n = axis.unwrap_or(at.normal);
             (at.p.map(f64::from), n.map(f64::from))
         }
     }

@@ -7,12 +7,14 @@
 //! What a triangle counts is the cube root of the light that it reflects: a plain of two triangles is a large thing, but there is no more to see in
 //! it than in a few of the hundreds that a house has.
 
+use lightbvh::ShadingPoint;
+use lightbvh::light::{AnyLight, Light};
 use lightbvh_kernels::shading::trace::SurfaceTriangle;
 
 use super::super::frame::Frame;
 use super::lamps;
 use super::room::Room;
-use super::spread::{along, anywhere, area, cosine, inside, sequence, spread, unit};
+use super::spread::{along, anywhere, area, cosine, inside, sequence, spread, unit, within};
 use crate::vector::{dot, normal, sub};
 
 /// Rays that light is sent out on, at least and at most, and how many for each triangle.
@@ -52,10 +54,12 @@ pub(super) struct Point {
 /// What there is to see; nothing where there is neither light nor surface.
 pub(super) fn points(frame: &Frame, room: &Room, size: f64) -> Vec<Point> {
     let step = 1e-6 * size;
-    let fluxes = lamps::fluxes(frame, room, size, !suns(frame).is_empty());
+    let suns = suns(frame);
+    let mut fluxes = lamps::fluxes(frame, room, size, !suns.is_empty());
+    let far = lamps::take_far(frame, &mut fluxes);
     let (sent, flux) = sent(frame, room, &fluxes, step);
     let surface = on_surfaces(frame);
-    let (sky, of_sky) = under_sky(frame, room, &surface, step);
+    let (sky, of_sky) = under_sky(room, &surface, &suns, &far, step);
     let mut all = Vec::new();
     // As everywhere, by the cube root of their light.
     let (landed, heaven) = (libm::cbrt(flux), libm::cbrt(of_sky));
@@ -122,7 +126,11 @@ fn sent(frame: &Frame, room: &Room, flux: &[f64], step: f64) -> (Vec<Point>, f64
     for (index, i) in spread(flux, count) {
         let (start, n) = lamps::point_on(frame, index, i);
         let (n, of_side) = lamps::side(frame, index, i, n);
-        let d = if n == [0.0; 3] { anywhere(i) } else { cosine(n, i) };
+        let d = match lamps::cone(frame, index) {
+            Some(cosine) => within(n, cosine, i),
+            None if n == [0.0; 3] => anywhere(i),
+            None => cosine(n, i),
+        };
         let start = along(start, step, d);
         let Some(met) = room.meet(start, d) else {
             continue;
@@ -203,19 +211,37 @@ fn on_surfaces(frame: &Frame) -> Vec<(f64, u32, Point)> {
     points.collect()
 }
 
-/// Which of the points on surfaces, or of those on their backs, see the sky or a sun, and how much they reflect.
-fn under_sky(frame: &Frame, room: &Room, surface: &[(f64, u32, Point)], step: f64) -> (Vec<Point>, f64) {
-    let suns = suns(frame);
+/// Which of the points on surfaces, or of those on their backs, see the sky, a sun, or a lamp that stands off, and how much they reflect.
+fn under_sky(
+    room: &Room,
+    surface: &[(f64, u32, Point)],
+    suns: &[([f64; 3], f64)],
+    far: &[AnyLight],
+    step: f64,
+) -> (Vec<Point>, f64) {
     let (mut points, mut sum) = (Vec::new(), 0.0);
-    for (area, material, point) in if suns.is_empty() { &[] } else { surface } {
+    let has_none = suns.is_empty() && far.is_empty();
+    for (area, material, point) in if has_none { &[] } else { surface } {
         for (n, counts) in [(point.n, 1.0), (point.n.map(|x| -x), room.back(*material))] {
             let start = along(point.p, step, n);
-            let irradiance: f64 = suns
+            let of_suns: f64 = suns
                 .iter()
                 .map(|(towards, irradiance)| (towards, irradiance * dot(n, *towards)))
                 .filter(|&(towards, irradiance)| irradiance > 0.0 && room.is_open(start, *towards))
                 .map(|(_, irradiance)| irradiance)
                 .sum();
+            let receiver = ShadingPoint {
+                p: start.map(|x| x as f32),
+                n: n.map(|x| x as f32),
+            };
+            let of_lamps: f64 = far
+                .iter()
+                .map(|lamp| lamp.point_for(receiver.position(), [0.5; 2]))
+                .map(|at| (at.p.map(f64::from), luminance(at.irradiance(&receiver))))
+                .filter(|&(at, irradiance)| irradiance > 0.0 && room.is_clear(start, at))
+                .map(|(_, irradiance)| irradiance)
+                .sum();
+            let irradiance = of_suns + of_lamps;
             sum += irradiance * area * counts / std::f64::consts::PI;
             points.push(Point {
                 p: point.p,

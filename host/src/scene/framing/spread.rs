@@ -36,6 +36,17 @@ pub(super) fn anywhere(i: usize) -> [f64; 3] {
 /// The `i`-th of directions about `n`, as often as a diffuse light sends light there.
 pub(super) fn cosine(n: [f64; 3], i: usize) -> [f64; 3] {
     let [_, _, u, v] = sequence(i);
+    about(n, u, (1.0 - v).sqrt())
+}
+
+/// The `i`-th of directions in a cone about `n`, all alike.
+pub(super) fn within(n: [f64; 3], cosine: f64, i: usize) -> [f64; 3] {
+    let [_, _, u, v] = sequence(i);
+    about(n, u, 1.0 - v * (1.0 - cosine))
+}
+
+/// The direction of that cosine to `n`, so much of a turn around it.
+fn about(n: [f64; 3], turn: f64, z: f64) -> [f64; 3] {
     let beside = unit(cross(
         n,
         if n[0].abs() < 0.5 {
@@ -45,8 +56,8 @@ pub(super) fn cosine(n: [f64; 3], i: usize) -> [f64; 3] {
         },
     ));
     let above = cross(n, beside);
-    let (angle, flat) = (std::f64::consts::TAU * u, v.sqrt());
-    let (x, y, z) = (libm::cos(angle) * flat, libm::sin(angle) * flat, (1.0 - v).sqrt());
+    let (angle, flat) = (std::f64::consts::TAU * turn, (1.0 - z * z).max(0.0).sqrt());
+    let (x, y) = (libm::cos(angle) * flat, libm::sin(angle) * flat);
     [0, 1, 2].map(|axis| x * beside[axis] + y * above[axis] + z * n[axis])
 }
 

@@ -258,6 +258,55 @@ fn a_lamp_in_its_bulb_does_not_hide_what_the_bulb_lights() {
     }
 }
 
+/// What stands off lights as a sun does: it was brought into the image, and what it lit was a speck.
+#[test]
+fn what_a_lamp_far_off_lights_fills_the_image() {
+    let (low, high) = ([-1.0; 3], [1.0; 3]);
+    let corners = cube(low, high, GREY).positions;
+    for far in [3.0, 30.0, 1000.0] {
+        let view = scene_with(vec![cube(low, high, GREY)], &[[far, far, 0.0]], false)
+            .frame(0)
+            .camera;
+        fills(&view, &corners);
+        // One of the two sides that are lit is before the eye.
+        assert!(view.eye[0] > 1.0 || view.eye[1] > 1.0, "{far}: {view:?}");
+    }
+    // A room whose walls' backs are lit is seen from where they are.
+    let view = scene_with(vec![solid(low, high, GREY, true)], &[[4.0, 5.0, 3.0]], false)
+        .frame(0)
+        .camera;
+    assert!(!is_within(&view, low, high), "{view:?}");
+}
+
+/// Light of a narrow spot was looked for in all directions, and not found.
+#[test]
+fn what_a_narrow_spot_lights_is_seen() {
+    let floor = sheet([-50.0, 0.0, 50.0], [100.0, 0.0, 0.0], [0.0, 0.0, -100.0], GREY);
+    let table = cube([10.0, 0.0, -4.0], [12.0, 1.0, -2.0], GREY);
+    let spot = AnalyticKind::Spot {
+        inner: 0.05,
+        outer: 0.1,
+    };
+    // From high above onto the table.
+    let lamp = Transform::Trs {
+        translation: [11.0, 12.0, -3.0],
+        rotation: [
+            -std::f32::consts::FRAC_1_SQRT_2,
+            0.0,
+            0.0,
+            std::f32::consts::FRAC_1_SQRT_2,
+        ],
+        scale: [1.0; 3],
+    };
+    let mut data = scene_with(vec![floor, table], &[[0.0; 3]], false).into_data();
+    data.nodes[1].transform = lamp;
+    data.analytic[0].kind = spot;
+    let view = Scene::new(data).expect("a sound scene").frame(0).camera;
+    let [x, y] = filled(&view, &cube([10.0, 0.0, -4.0], [12.0, 1.0, -2.0], GREY).positions);
+    assert!(x.max(y) > 0.06, "{x} by {y}: {view:?}");
+    is_upright(&view);
+}
+
 #[test]
 fn a_sign_is_seen_from_its_front_and_whole() {
     // Towards each side of the horizon; the first choice is +Z.

@@ -190,3 +190,31 @@ fn nodes_in_another_order_are_refused() {
     }
     assert!(refused > 0);
 }
+
+/// One word said that there are numbers up to 2^30, and asking for all lights by number then asked for 60 GB.
+#[test]
+fn numbers_that_nobody_has_are_refused() {
+    type Small = Bvh<MomentNode<8>, Moments, 8>;
+    let mut bvh: Small = small();
+    assert!(bvh.take_removed_lights().iter().len() > 0);
+    let mut words = bvh.to_words();
+    assert!(words[14] >= bvh.light_count() as u32);
+    words[14] = 1 << 30;
+    let error = Small::from_words(&words).expect_err("too many");
+    assert!(
+        super::std::format!("{error}").contains("the lights' numbers"),
+        "{error}"
+    );
+    // Free numbers at the end are as good as new ones.
+    let last = (0..bvh.instances().len() as u32)
+        .filter_map(|k| bvh.instance_id(k))
+        .max_by_key(|&id| bvh.lights_of(id).map(|lights| lights.end))
+        .expect("an instance");
+    bvh.remove_instance(last).expect("there");
+    bvh.refit();
+    bvh.take_removed_lights();
+    let read = Small::from_words(&bvh.to_words()).expect("its own");
+    assert!(bvh.light_end() < bvh.lights.end());
+    assert_eq!(read.light_end(), bvh.light_end());
+    assert_eq!(read.world_lights(), bvh.world_lights());
+}

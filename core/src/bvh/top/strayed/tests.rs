@@ -4,11 +4,13 @@ extern crate std;
 
 use std::vec::Vec;
 
-use super::FEW;
+use super::{FEW, Looked};
 use crate::bvh::{RebuilderParams, Swap};
 use crate::kit::{Random, cross, dot, minus};
 use crate::rebuilder::Rebuilder;
 use crate::{Edit, EmissiveTriangle, LightBvh, MeshId, MomentNode, ShadingPoint, Transform};
+
+mod paths;
 
 type Own = Rebuilder<MomentNode<8>, 8>;
 
@@ -86,7 +88,7 @@ fn over_new(bvh: &LightBvh, at: [f32; 3]) -> f64 {
                 columns: record.columns,
                 translation: record.translation,
             },
-            radiance: 1.0,
+            radiance: record.radiance,
         });
     }
     let others = new.apply(add).expect("instances").instances;
@@ -175,7 +177,7 @@ fn what_stays_where_it_belongs_stays() {
     bvh.refit();
     assert!(bvh.top.strayed.contains(&500), "beyond its extent");
     let stamp = bvh.epoch;
-    bvh.put_strayed_elsewhere(2);
+    bvh.put_strayed_elsewhere(2, &mut Looked::default());
     assert!(
         bvh.top.strayed.is_empty() && bvh.placed[500].hung <= stamp,
         "as near as before"
@@ -185,7 +187,7 @@ fn what_stays_where_it_belongs_stays() {
     bvh.refit();
     assert!(bvh.top.strayed.contains(&500));
     let mut other = bvh.clone();
-    other.put_strayed_elsewhere(2);
+    other.put_strayed_elsewhere(2, &mut Looked::default());
     assert!(other.placed[500].hung > stamp, "far off");
     bvh.remove_instance(id).expect("there");
     assert!(bvh.top.strayed.is_empty());
@@ -217,7 +219,7 @@ fn each_frame_puts_in_a_few() {
         assert_eq!(stirred(&bvh) > before, noted == 0);
         while !bvh.top.strayed.is_empty() {
             let (left, stamp) = (bvh.top.strayed.len(), bvh.epoch);
-            bvh.put_strayed_elsewhere(2);
+            bvh.put_strayed_elsewhere(2, &mut Looked::default());
             assert!(left - bvh.top.strayed.len() <= 16);
             let hung = bvh
                 .placed
@@ -242,7 +244,7 @@ fn opened_ones_go_with_their_parts() {
     bvh.refit();
     assert!(bvh.top.strayed.contains(&500));
     let stamp = bvh.epoch;
-    bvh.put_strayed_elsewhere(2);
+    bvh.put_strayed_elsewhere(2, &mut Looked::default());
     assert!(parts.clone().all(|part| bvh.placed[part as usize].hung > stamp));
     bvh.refit();
     bvh.validate().expect("valid");
