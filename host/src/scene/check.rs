@@ -18,8 +18,8 @@ use super::transform::Transform;
 /// Most triangles of a frame, over all instances: 2^26, some 3 GiB of records, well inside 32-bit indices.
 pub const MAX_TRIANGLES: u64 = 1 << 26;
 
-/// Greatest magnitude of a texture coordinate: 2^20.
-const MAX_TEXTURE_COORDINATE: f32 = 1_048_576.0;
+/// Greatest magnitude of a texture coordinate, and of a number of a texture's transform: 2^20.
+pub(super) const MAX_TEXTURE_COORDINATE: f32 = 1_048_576.0;
 
 /// Greatest factor on how far normals bend.
 const MAX_BUMP: f32 = 1024.0;
@@ -226,7 +226,7 @@ impl Check<'_> {
                 texture.picture,
                 pictures,
             )?;
-            let element = || name(&format!("place of the {what} texture"));
+            let element = || name(&format!("scale or offset of the {what} texture"));
             self.finite(element, texture.transform.as_flattened())?;
             if let Some(&value) = texture
                 .transform
@@ -234,7 +234,11 @@ impl Check<'_> {
                 .iter()
                 .find(|x| x.abs() > MAX_TEXTURE_COORDINATE)
             {
-                return Err(self.out_of_range(element(), value, "at most 2^20 in magnitude"));
+                return Err(self.out_of_range(
+                    element(),
+                    value,
+                    "at most 2^20 in magnitude; give its transform a smaller scale or offset",
+                ));
             }
         }
         Ok(())
@@ -279,7 +283,11 @@ impl Check<'_> {
                 self.finite(|| format!("texture coordinate {v} of {name}"), uv)?;
                 if let Some(&value) = uv.iter().find(|x| x.abs() > MAX_TEXTURE_COORDINATE) {
                     let element = format!("texture coordinate {v} of {name}");
-                    return Err(self.out_of_range(element, value, "at most 2^20 in magnitude"));
+                    return Err(self.out_of_range(
+                        element,
+                        value,
+                        "at most 2^20 in magnitude; move the coordinates nearer to 0",
+                    ));
                 }
             }
         }

@@ -142,6 +142,8 @@ fn grouped(warnings: Vec<String>) -> Vec<String> {
             .iter_mut()
             .find(|(of, known)| !of.is_empty() && !elements.is_empty() && *known == what)
         {
+            // Several textures of an element say the same.
+            Some((of, _)) if of.last() == elements.last() => {}
             Some((of, _)) => of.extend(elements),
             None => groups.push((elements, what)),
         }

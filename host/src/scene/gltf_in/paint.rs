@@ -9,7 +9,6 @@ use serde_json::{Map, Value};
 use super::super::error::SceneError;
 use super::super::paint::{Opacity, Paint, Texture};
 use super::Document;
-use super::texture::Transform;
 
 /// What a material is painted with, and by which set of coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -102,11 +101,7 @@ impl Document<'_> {
             return Ok(None);
         };
         let (wrap, is_nearest) = self.sampler(index, element)?;
-        let transform: Option<Transform> = match others {
-            Some(others) => self.extension(others, "KHR_texture_transform", element)?,
-            None => None,
-        };
-        let transform = transform.unwrap_or_default();
+        let transform = self.transform(others, element)?;
         let set = transform.tex_coord.unwrap_or(set);
         Ok(Some((
             Texture {

@@ -76,6 +76,58 @@ fn texture_coordinates_that_are_none_are_named() {
     assert!(scene.warnings()[0].contains("TEXCOORD_0 has fewer entries than POSITION"));
 }
 
+/// A scale of 1e30 refused the whole scene.
+#[test]
+fn texture_transforms_that_no_scene_takes_are_bounded_and_named() {
+    let far = (1 << 20) as f32;
+    for (given, expected) in [
+        (
+            json!({ "scale": [1e30, 1] }),
+            [[far, 0.0], [0.0, 1.0], [0.0, 0.0]],
+        ),
+        (
+            json!({ "scale": [1, 1e40] }),
+            [[1.0, 0.0], [0.0, far], [0.0, 0.0]],
+        ),
+        (
+            json!({ "offset": [0, -1e30] }),
+            [[1.0, 0.0], [0.0, 1.0], [0.0, -far]],
+        ),
+        (json!({ "rotation": 1e40 }), [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]]),
+    ] {
+        let mut root = painted([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+        root["extensionsUsed"] = json!(["KHR_texture_transform"]);
+        let material = &mut root["materials"][0];
+        let texture = json!({ "index": 0, "extensions": { "KHR_texture_transform": given.clone() } });
+        material["pbrMetallicRoughness"]["baseColorTexture"] = texture.clone();
+        material["emissiveTexture"] = texture;
+        material["emissiveFactor"] = json!([1, 1, 1]);
+        let scene = read(&root);
+        let paint = scene.data().materials[0].paint.expect("a picture");
+        for texture in [paint.base_texture, paint.glow_texture] {
+            let found = texture.expect("a picture").transform;
+            assert!(
+                found
+                    .as_flattened()
+                    .iter()
+                    .zip(expected.as_flattened())
+                    .all(|(x, y)| x == y),
+                "{given}: {found:?}"
+            );
+        }
+        let warnings = scene.warnings();
+        assert!(
+            !warnings.is_empty()
+                && warnings
+                    .iter()
+                    .all(|warning| warning.contains("KHR_texture_transform beyond 2^20")),
+            "{given}: {warnings:?}"
+        );
+        assert!(warnings[0].starts_with("materials[0], meshes[0].primitives[0]: scales"), "{warnings:?}");
+        assert_eq!(scene.frame(0).emissive.len(), 1, "{given}");
+    }
+}
+
 /// What exporters write for none is none.
 #[test]
 fn lights_have_their_ranges() {

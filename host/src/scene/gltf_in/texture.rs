@@ -7,7 +7,9 @@ use gltf::json::texture::{Info, MagFilter, WrappingMode};
 use gltf::json::validation::Checked::Valid;
 use image::RgbaImage;
 use serde::Deserialize;
+use serde_json::{Map, Value};
 
+use super::super::check::MAX_TEXTURE_COORDINATE;
 use super::super::error::SceneError;
 use super::super::glow::Glow;
 use super::super::paint::Wrap;
@@ -32,6 +34,25 @@ pub(super) struct Transform {
 }
 
 impl Transform {
+    /// With numbers that a scene takes: scale and offset within 2^20, what is no number as none. Whether that changed any.
+    fn bounded(self) -> (Self, bool) {
+        let offset = self.offset.map(|x| within(x, 0.0));
+        let scale = self.scale.map(|x| within(x, 1.0));
+        let rotation = if self.rotation.is_finite() {
+            self.rotation
+        } else {
+            0.0
+        };
+        let changed = offset != self.offset || scale != self.scale || rotation != self.rotation;
+        let bounded = Self {
+            offset,
+            rotation,
+            scale,
+            ..self
+        };
+        (bounded, changed)
+    }
+
     /// What each coordinate adds, and where the origin goes. Against the clock as seen: the second axis points down.
     pub(super) fn columns(&self) -> [[f32; 2]; 3] {
         let (sine, cosine) = (
@@ -54,6 +75,15 @@ impl Default for Transform {
     }
 }
 
+/// In ±2^20; `none` for what is no number.
+fn within(x: f32, none: f32) -> f32 {
+    if x.is_nan() {
+        none
+    } else {
+        x.clamp(-MAX_TEXTURE_COORDINATE, MAX_TEXTURE_COORDINATE)
+    }
+}
+
 /// Which textures there are, of which extension: only their pictures' places differ.
 #[derive(Deserialize)]
 struct Source {
@@ -70,11 +100,8 @@ impl Document<'_> {
             return Ok(None);
         };
         let (wrap, is_nearest) = self.sampler(info.index, element)?;
-        let transform: Option<Transform> = match &info.extensions {
-            Some(extensions) => self.extension(&extensions.others, "KHR_texture_transform", element)?,
-            None => None,
-        };
-        let transform = transform.unwrap_or_default();
+        let others = info.extensions.as_ref().map(|extensions| &extensions.others);
+        let transform = self.transform(others, element)?;
         Ok(Some(Placed {
             glow: Glow::new(
                 pixels,
@@ -85,6 +112,25 @@ impl Document<'_> {
             ),
             set: transform.tex_coord.unwrap_or(info.tex_coord),
         }))
+    }
+
+    /// Where a texture lies on the coordinates. Numbers that a scene does not take are bounded, with a note.
+    pub(super) fn transform(
+        &self,
+        others: Option<&Map<String, Value>>,
+        element: &str,
+    ) -> Result<Transform, SceneError> {
+        let given: Option<Transform> = match others {
+            Some(others) => self.extension(others, "KHR_texture_transform", element)?,
+            None => None,
+        };
+        let (transform, is_changed) = given.unwrap_or_default().bounded();
+        if is_changed {
+            self.warn(format!(
+                "{element}: scales and offsets of its KHR_texture_transform beyond 2^20 count as 2^20, a rotation that is no number as none"
+            ));
+        }
+        Ok(transform)
     }
 
     /// How a texture goes on beyond its edges, and whether the nearest texel shows.
