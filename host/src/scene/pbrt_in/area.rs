@@ -80,10 +80,14 @@ impl Loader<'_> {
 
     /// `scale`, which in version 3 is a colour.
     pub fn scale(&mut self, params: &Params) -> [f64; 3] {
-        match *params.numbers("scale") {
-            [x] => [x.max(0.0); 3],
-            [r, g, b] => [r, g, b].map(|x| x.max(0.0)),
+        let scale = match *params.numbers("scale") {
+            [x] => [x; 3],
+            [r, g, b] => [r, g, b],
             _ => [1.0; 3],
+        };
+        if scale.iter().any(|&x| x < 0.0) {
+            self.note(&params.place, "a negative `scale` of a light counts as 0");
         }
+        scale.map(|x| x.max(0.0))
     }
 }

@@ -1,5 +1,7 @@
 //! Spectra as linear sRGB.
 
+use std::ops::RangeInclusive;
+
 /// Wavelengths that sums go over, nanometres.
 const FIRST: u32 = 360;
 const LAST: u32 = 830;
@@ -44,34 +46,37 @@ pub(super) fn rgb_of_xyz([x, y, z]: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// Light of luminance 1 with the colour of tristimulus values; white where they are none.
-pub(super) fn light_of_xyz(xyz: [f64; 3]) -> [f64; 3] {
+/// Light of luminance 1 with the colour of tristimulus values; `None` where they are those of no light.
+fn light_of_xyz(xyz: [f64; 3]) -> Option<[f64; 3]> {
     let [_, y, _] = xyz;
     if !(y > 0.0 && y.is_finite()) {
-        return [1.0; 3];
+        return None;
     }
     let rgb = rgb_of_xyz(xyz.map(|x| x / y)).map(|x| x.max(0.0));
     // What lies outside sRGB is cut, and its luminance kept.
     let luminance = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-    rgb.map(|x| x / luminance)
+    Some(rgb.map(|x| x / luminance))
 }
 
 /// Light of luminance 1 with the chromaticity `x`, `y`.
 pub(super) fn light_of_chromaticity(x: f64, y: f64) -> [f64; 3] {
-    light_of_xyz([x / y, 1.0, (1.0 - x - y) / y])
+    light_of_xyz([x / y, 1.0, (1.0 - x - y) / y]).unwrap_or([1.0; 3])
 }
 
-/// Light of luminance 1 of a black body of that many kelvin.
+/// Black bodies whose colours are worked out, kelvin.
+pub(super) const BODIES: RangeInclusive<f64> = 500.0..=1e6;
+
+/// Light of luminance 1 of a black body of that many kelvin, within [`BODIES`].
 pub(super) fn blackbody(kelvin: f64) -> [f64; 3] {
     // The second radiation constant, nanometres times kelvin. Taken relative to 560 nm, so that nothing overflows.
     const C2: f64 = 1.438_776_877e7;
-    let kelvin = kelvin.clamp(500.0, 1e6);
+    let kelvin = kelvin.clamp(*BODIES.start(), *BODIES.end());
     let at = |nm: f64| {
         let x = C2 / (nm * kelvin);
         libm::pow(nm / 560.0, -5.0) * libm::exp(-x) / (1.0 - libm::exp(-x))
     };
     let middle = at(560.0);
-    light_of_xyz(xyz_of(|nm| at(nm) / middle))
+    light_of_xyz(xyz_of(|nm| at(nm) / middle)).unwrap_or([1.0; 3])
 }
 
 /// Between samples by straight lines, 0 outside; wavelengths ascend.
@@ -91,7 +96,7 @@ pub(super) fn reflectance(samples: &[(f64, f64)]) -> [f64; 3] {
     [0, 1, 2].map(|i| (rgb[i] / white[i]).clamp(0.0, 1.0))
 }
 
-/// Light of luminance 1 with the colour of samples.
-pub(super) fn light(samples: &[(f64, f64)]) -> [f64; 3] {
+/// Light of luminance 1 with the colour of samples; `None` where they have nothing that is visible.
+pub(super) fn light(samples: &[(f64, f64)]) -> Option<[f64; 3]> {
     light_of_xyz(xyz_of(|nm| interpolated(samples, nm)))
 }

@@ -162,11 +162,11 @@ impl Loader<'_> {
             }
             "Texture" => {
                 let name = lexer.string()?;
-                let _kind = lexer.string()?;
+                let kind = lexer.string()?;
                 let class = lexer.string()?;
                 let params = self.params(lexer, "texture")?;
                 self.note_unknown("Texture", &class, &params);
-                self.texture(name, &class, &params);
+                self.texture(name, &kind, &class, &params);
             }
             "Option" => {
                 Params::read(lexer, std::iter::empty())?;

@@ -1,6 +1,7 @@
 //! Lights without area: points, spots, distant lights.
 
 use super::super::analytic::AnalyticKind;
+use super::super::transform::unit_or;
 use super::params::Params;
 use super::shown;
 use super::state::Loader;
@@ -90,11 +91,12 @@ impl Loader<'_> {
         if outer > std::f64::consts::FRAC_PI_2 {
             self.note(&params.place, "spots wider than a right angle are cut there");
         }
+        let Some(towards) = self.towards(params) else {
+            return;
+        };
         let emission = self.intensity(params, whole);
         let outer = outer.min(std::f64::consts::FRAC_PI_2);
         let from = params.point("from").unwrap_or([0.0; 3]);
-        let to = params.point("to").unwrap_or([0.0, 0.0, 1.0]);
-        let ctm = self.graphics.ctm;
         self.small.push(Small {
             name: "spot",
             kind: AnalyticKind::Spot {
@@ -102,25 +104,41 @@ impl Loader<'_> {
                 // Rounded to no more than a right angle.
                 outer: (outer as f32).min(std::f32::consts::FRAC_PI_2),
             },
-            at: ctm.point(from),
-            towards: ctm.vector(sub(to, from)),
+            at: self.graphics.ctm.point(from),
+            towards,
             across: [0.0; 3],
             emission,
         });
     }
 
+    /// Where a light shines to in the world; `None` where that is nowhere.
+    fn towards(&mut self, params: &Params) -> Option<[f64; 3]> {
+        let from = params.point("from").unwrap_or([0.0; 3]);
+        let to = params.point("to").unwrap_or([0.0, 0.0, 1.0]);
+        let towards = self.graphics.ctm.vector(sub(to, from));
+        if unit_or(towards, [0.0; 3]) == [0.0; 3] {
+            self.note(
+                &params.place,
+                "spots and distant lights whose `from` is at their `to` shine nowhere, and are left out; move one of the two",
+            );
+            return None;
+        }
+        Some(towards)
+    }
+
     fn distant(&mut self, params: &Params) {
+        let Some(towards) = self.towards(params) else {
+            return;
+        };
         let color = self.light_color(params, &["L"]);
         let scale = self.scale(params);
         let given = self.positive(params, "illuminance");
         let by = given.unwrap_or(1.0);
-        let from = params.point("from").unwrap_or([0.0; 3]);
-        let to = params.point("to").unwrap_or([0.0, 0.0, 1.0]);
         self.small.push(Small {
             name: "distant",
             kind: AnalyticKind::Directional,
             at: [0.0; 3],
-            towards: self.graphics.ctm.vector(sub(to, from)),
+            towards,
             across: [0.0; 3],
             emission: [0, 1, 2].map(|i| color[i] * scale[i] * by),
         });

@@ -13,6 +13,7 @@
 //!
 //! What is not read is named in [`super::SceneData::warnings`], once for each kind; so are parameters that no directive has.
 
+mod alpha;
 mod area;
 mod camera;
 mod cie;

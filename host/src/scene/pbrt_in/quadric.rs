@@ -86,24 +86,50 @@ impl Loader<'_> {
         area.is_some_and(|area| area.radiance.iter().any(|&x| x > 0.0)) && self.object.is_none()
     }
 
-    fn sweep(params: &Params) -> f64 {
-        params
-            .number("phimax")
-            .unwrap_or(360.0)
-            .to_radians()
-            .clamp(0.0, TAU)
+    /// How far around a shape goes, radians.
+    fn sweep(&mut self, params: &Params) -> f64 {
+        let degrees = params.number("phimax").unwrap_or(360.0);
+        if !(0.0..=360.0).contains(&degrees) {
+            self.note(
+                &params.place,
+                "`phimax` outside of 0 to 360 degrees is taken as the nearer of the two, as in pbrt",
+            );
+        }
+        degrees.to_radians().clamp(0.0, TAU)
+    }
+
+    /// The lower and the upper of two ends along z.
+    fn ends(&mut self, params: &Params, [low, high]: [f64; 2]) -> (f64, f64) {
+        if low > high {
+            self.note(
+                &params.place,
+                "a `zmin` above its `zmax` is exchanged with it, as in pbrt",
+            );
+        }
+        (low.min(high), low.max(high))
+    }
+
+    /// Whether a shape has an area; what has none is left out.
+    fn has_area(&mut self, params: &Params, has: bool) -> bool {
+        if !has {
+            self.note(&params.place, "shapes without area are left out");
+        }
+        has
     }
 
     pub fn sphere(&mut self, params: &Params) -> Result<(), SceneError> {
         let radius = params.number("radius").unwrap_or(1.0);
-        if radius <= 0.0 {
-            self.note(&params.place, "shapes without area are left out");
+        if !self.has_area(params, radius > 0.0) {
             return Ok(());
         }
-        let [a, b] = [("zmin", -radius), ("zmax", radius)]
-            .map(|(name, default)| params.number(name).unwrap_or(default).clamp(-radius, radius));
-        let (low, high) = (a.min(b), a.max(b));
-        let sweep = Self::sweep(params);
+        let ends = [("zmin", -radius), ("zmax", radius)]
+            .map(|(name, default)| params.number(name).unwrap_or(default));
+        let (low, high) = self.ends(params, ends);
+        let [low, high] = [low, high].map(|z| z.clamp(-radius, radius));
+        let sweep = self.sweep(params);
+        if !self.has_area(params, high > low && sweep > 0.0) {
+            return Ok(());
+        }
         let is_whole = low == -radius && high == radius && sweep >= TAU - 1e-6;
         let size = matrix::uniform_scale(&self.graphics.ctm).map(|scale| scale * radius);
         if let (Some(size), Some(area)) = (size, self.graphics.area.clone())
@@ -136,12 +162,14 @@ impl Loader<'_> {
     pub fn disk(&mut self, params: &Params) -> Result<(), SceneError> {
         let [height, radius, inner] = [("height", 0.0), ("radius", 1.0), ("innerradius", 0.0)]
             .map(|(name, default)| params.number(name).unwrap_or(default));
-        if radius <= 0.0 {
-            self.note(&params.place, "shapes without area are left out");
+        if !self.has_area(params, radius > 0.0) {
             return Ok(());
         }
         let inner = inner.clamp(0.0, radius);
-        let sweep = Self::sweep(params);
+        let sweep = self.sweep(params);
+        if !self.has_area(params, inner < radius && sweep > 0.0) {
+            return Ok(());
+        }
         if inner == 0.0 && sweep >= TAU - 1e-6 && self.shines() && self.disc_light(height, radius) {
             return Ok(());
         }
@@ -182,12 +210,11 @@ impl Loader<'_> {
     pub fn cylinder(&mut self, params: &Params) -> Result<(), SceneError> {
         let [radius, a, b] = [("radius", 1.0), ("zmin", -1.0), ("zmax", 1.0)]
             .map(|(name, default)| params.number(name).unwrap_or(default));
-        let (low, high) = (a.min(b), a.max(b));
-        if !(radius > 0.0 && high > low) {
-            self.note(&params.place, "shapes without area are left out");
+        let (low, high) = self.ends(params, [a, b]);
+        let sweep = self.sweep(params);
+        if !self.has_area(params, radius > 0.0 && high > low && sweep > 0.0) {
             return Ok(());
         }
-        let sweep = Self::sweep(params);
         let around = self.facets()[0];
         let profile = |t: f64| [radius, high + (low - high) * t];
         let key = format!("cylinder {radius} {low} {high} {sweep} {around}");

@@ -59,19 +59,16 @@ impl Surface {
 impl Loader<'_> {
     /// `Shape "kind"`.
     pub fn shape(&mut self, kind: &str, params: &Params) -> Result<(), SceneError> {
-        if let Some(alpha) = params.find("alpha") {
-            match alpha.numbers[..] {
-                [alpha] if alpha <= 0.0 && self.graphics.area.is_none() => {
-                    self.note(&params.place, "shapes whose alpha is 0 are left out");
-                    return Ok(());
-                }
-                [_] => {}
-                _ => self.note(
-                    &params.place,
-                    "textures of alpha are left out, the surfaces taken as opaque",
-                ),
-            }
-        }
+        let Some(material) = self.material_with_alpha(params) else {
+            return Ok(());
+        };
+        let before = std::mem::replace(&mut self.graphics.material, material);
+        self.shape_of(kind, params)?;
+        self.graphics.material = before;
+        Ok(())
+    }
+
+    fn shape_of(&mut self, kind: &str, params: &Params) -> Result<(), SceneError> {
         match kind {
             "trianglemesh" => self.triangle_mesh(params, "trianglemesh"),
             "loopsubdiv" => {
@@ -167,6 +164,19 @@ impl Loader<'_> {
         let Some(param) = params.find_any(&["uv", "st"]) else {
             return Vec::new();
         };
+        // Version 3 has them as floats.
+        if !matches!(
+            param.kind.as_str(),
+            "point2" | "point" | "vector2" | "vector" | "float"
+        ) {
+            let kind = format!(
+                "`{} {}` is read as `point2 {}`",
+                shown(&param.kind),
+                param.name,
+                param.name
+            );
+            self.note(&params.place, kind);
+        }
         let (pairs, rest) = param.numbers.as_chunks::<2>();
         if pairs.len() != vertices || !rest.is_empty() {
             self.note(
@@ -243,7 +253,8 @@ impl Loader<'_> {
             return Ok(());
         }
         self.count(surface.triangles.len())?;
-        let is_painted = self.data.materials[graphics.material as usize].paint.is_some();
+        let paint = self.data.materials[graphics.material as usize].paint;
+        let is_painted = paint.is_some_and(|paint| paint.textures().next().is_some());
         let shows_picture = is_painted && graphics.area.is_none();
         if shows_picture && surface.coordinates.is_empty() {
             surface.lie_by_default();

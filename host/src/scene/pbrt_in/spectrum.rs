@@ -4,10 +4,14 @@ use super::super::notes::Place;
 use super::super::read_file::read_file;
 use super::params::{Param, Params};
 use super::state::Loader;
+use super::texture::Texture;
 use super::{cie, resolve, shown};
 
 /// Most samples of a spectrum.
 const MAX_SAMPLES: usize = 1 << 16;
+
+/// By how much colours that are rounded may leave what they are.
+const ROUNDED: f64 = 1e-3;
 
 /// Named illuminants by CIE chromaticity (CIE 15:2004, tables T.3 and 10.1; SMPTE ST 2065-1 for ACES).
 const ILLUMINANTS: [(&str, f64, f64); 17] = [
@@ -39,9 +43,9 @@ impl Loader<'_> {
         let rgb = match (param.kind.as_str(), &param.numbers[..]) {
             ("rgb" | "color", &[r, g, b]) => [r, g, b],
             ("xyz", &[x, y, z]) => cie::rgb_of_xyz([x, y, z]),
-            ("blackbody", &[kelvin]) => cie::blackbody(kelvin),
+            ("blackbody", &[kelvin]) => self.blackbody(kelvin, &params.place),
             // Version 3 has a scale after it.
-            ("blackbody", &[kelvin, scale]) => cie::blackbody(kelvin).map(|x| x * scale),
+            ("blackbody", &[kelvin, scale]) => self.blackbody(kelvin, &params.place).map(|x| x * scale),
             ("spectrum", _) => self.light_spectrum(param, &params.place),
             (_, &[x]) => [x; 3],
             _ => {
@@ -54,14 +58,31 @@ impl Loader<'_> {
                 [1.0; 3]
             }
         };
+        if rgb.iter().any(|&x| x < -ROUNDED) {
+            self.note(
+                &params.place,
+                format!("negative numbers of light by `{}` count as 0", shown(&param.name)),
+            );
+        }
         rgb.map(|x| x.max(0.0))
+    }
+
+    fn blackbody(&mut self, kelvin: f64, place: &Place) -> [f64; 3] {
+        if !cie::BODIES.contains(&kelvin) {
+            self.note(
+                place,
+                "blackbodies outside of 500 to 1000000 K have the colour of the nearer of the two",
+            );
+        }
+        cie::blackbody(kelvin)
     }
 
     fn light_spectrum(&mut self, param: &Param, place: &Place) -> [f64; 3] {
         let Some(name) = param.words.first() else {
-            return match &samples(&param.numbers)[..] {
+            let samples = self.samples(&param.numbers, "white", place);
+            return match &samples[..] {
                 [] => [1.0; 3],
-                samples => cie::light(samples),
+                samples => self.light_of(samples, place),
             };
         };
         if name == "stdillum-D65" {
@@ -71,7 +92,7 @@ impl Loader<'_> {
             return cie::light_of_chromaticity(x, y);
         }
         match self.spectrum_file(name) {
-            Some(samples) => cie::light(&samples),
+            Some(samples) => self.light_of(&samples, place),
             None => {
                 self.note(
                     place,
@@ -80,6 +101,36 @@ impl Loader<'_> {
                 [1.0; 3]
             }
         }
+    }
+
+    fn light_of(&mut self, samples: &[(f64, f64)], place: &Place) -> [f64; 3] {
+        cie::light(samples).unwrap_or_else(|| {
+            self.note(
+                place,
+                "light by spectra that are nothing where it is visible, 360 to 830 nm, is taken as white",
+            );
+            [1.0; 3]
+        })
+    }
+
+    /// Pairs of wavelengths, which ascend, and values; none where the numbers are no such pairs, for which the colour `instead` is taken.
+    fn samples(&mut self, numbers: &[f64], instead: &str, place: &Place) -> Vec<(f64, f64)> {
+        if numbers.len() % 2 == 1 {
+            self.note(
+                place,
+                "a spectrum with an odd count of numbers is taken without the last one; write pairs of wavelength and value",
+            );
+        }
+        let pairs = samples(numbers);
+        if pairs.is_empty() {
+            self.note(
+                place,
+                format!(
+                    "a spectrum that is no list of pairs of wavelength and value, at most {MAX_SAMPLES} with wavelengths that ascend, is taken as {instead}"
+                ),
+            );
+        }
+        pairs
     }
 
     /// Samples of a file of wavelengths and values.
@@ -100,12 +151,27 @@ impl Loader<'_> {
 
     /// What a surface reflects, or lets through: each channel in [0, 1]. `None` where the parameter is not there.
     pub fn surface_color(&mut self, params: &Params, names: &[&str]) -> Option<[f64; 3]> {
+        self.surface(params, names, "spectrum")
+    }
+
+    /// The same, where textures are to be of a kind, `spectrum` or `float`.
+    fn surface(&mut self, params: &Params, names: &[&str], kind: &str) -> Option<[f64; 3]> {
         let param = params.find_any(names)?;
         let rgb = match (param.kind.as_str(), &param.numbers[..]) {
             ("texture", _) => {
                 let name = param.words.first()?;
                 match self.textures.get(name) {
-                    Some(texture) => texture.mean,
+                    Some(&Texture { mean, is_number, .. }) => {
+                        if is_number != (kind == "float") {
+                            let found = if is_number { "float" } else { "spectrum" };
+                            let problem = format!(
+                                "`{}` names a texture of kind `{found}`, which is read as one of kind `{kind}`",
+                                shown(&param.name)
+                            );
+                            self.note(&params.place, problem);
+                        }
+                        mean
+                    }
                     None => {
                         self.note(
                             &params.place,
@@ -117,10 +183,12 @@ impl Loader<'_> {
             }
             ("rgb" | "color", &[r, g, b]) => [r, g, b],
             ("xyz", &[x, y, z]) => cie::rgb_of_xyz([x, y, z]),
-            ("spectrum", numbers) if param.words.is_empty() => match &samples(numbers)[..] {
-                [] => [0.5; 3],
-                samples => cie::reflectance(samples),
-            },
+            ("spectrum", numbers) if param.words.is_empty() => {
+                match &self.samples(numbers, "grey", &params.place)[..] {
+                    [] => [0.5; 3],
+                    samples => cie::reflectance(samples),
+                }
+            }
             (_, &[x]) => [x; 3],
             _ => {
                 let file = param.words.first().and_then(|name| self.spectrum_file(name));
@@ -138,12 +206,21 @@ impl Loader<'_> {
                 }
             }
         };
+        if rgb.iter().any(|&x| !(-ROUNDED..=1.0 + ROUNDED).contains(&x)) {
+            self.note(
+                &params.place,
+                format!(
+                    "`{}` of a surface outside of 0 to 1 is taken as the nearer of the two",
+                    shown(&param.name)
+                ),
+            );
+        }
         Some(rgb.map(|x| x.clamp(0.0, 1.0)))
     }
 
     /// A number by itself or by a texture.
     pub fn surface_number(&mut self, params: &Params, names: &[&str]) -> Option<f64> {
-        let rgb = self.surface_color(params, names)?;
+        let rgb = self.surface(params, names, "float")?;
         // What a texture says of a number is its red.
         Some(rgb[0])
     }
@@ -152,8 +229,11 @@ impl Loader<'_> {
 /// Pairs of wavelengths, which ascend, and values.
 fn samples(numbers: &[f64]) -> Vec<(f64, f64)> {
     let (pairs, _) = numbers.as_chunks::<2>();
-    let mut out: Vec<(f64, f64)> = pairs.iter().map(|&[at, value]| (at, value)).collect();
-    out.truncate(MAX_SAMPLES);
+    let out: Vec<(f64, f64)> = pairs.iter().map(|&[at, value]| (at, value)).collect();
     let ascends = out.windows(2).all(|pair| pair[0].0 < pair[1].0);
-    if ascends { out } else { Vec::new() }
+    if ascends && out.len() <= MAX_SAMPLES {
+        out
+    } else {
+        Vec::new()
+    }
 }

@@ -61,6 +61,8 @@ pub(super) struct Loader<'a> {
     pub materials: HashMap<String, u32>,
     /// Materials that emit, by what they are without, radiance and whether both sides emit.
     pub emitting: HashMap<(u32, [u32; 3], bool), u32>,
+    /// Materials that cover a part of what is behind them, by what they are without and that part.
+    pub blended: HashMap<(u32, u32), u32>,
     pub pictures: Pictures,
     pub meshes: HashMap<Rc<Path>, Rc<PlyMesh>>,
     /// Meshes that may stand in several places, by what they are made of.
@@ -107,6 +109,7 @@ impl<'a> Loader<'a> {
             textures: HashMap::new(),
             materials: HashMap::new(),
             emitting: HashMap::new(),
+            blended: HashMap::new(),
             pictures: Pictures::default(),
             meshes: HashMap::new(),
             shared: HashMap::new(),

@@ -7,6 +7,7 @@ use crate::vector::{cross, dot, normal};
 
 mod colors;
 mod lights;
+mod notes;
 mod pictures;
 mod shapes;
 mod structure;

@@ -1,5 +1,6 @@
 //! Textures: their mean colours, and pictures that the renderer shows.
 
+use super::super::check::MAX_TEXTURE_COORDINATE;
 use super::super::paint::{Texture as Shown, Wrap};
 use super::super::picture_file::Encoding;
 use super::params::Params;
@@ -11,20 +12,27 @@ use super::{resolve, shown};
 pub(super) struct Texture {
     /// Linear RGB; all three the same of numbers.
     pub mean: [f64; 3],
+    /// Whether it is of numbers, and not of colours.
+    pub is_number: bool,
     /// A picture and a factor on it, of which that is the mean.
     pub shown: Option<(Shown, [f64; 3])>,
 }
 
 impl Loader<'_> {
     /// `Texture "name" "kind" "class"`.
-    pub fn texture(&mut self, name: String, class: &str, params: &Params) {
+    pub fn texture(&mut self, name: String, kind: &str, class: &str, params: &Params) {
         let mean = self.mean_of(class, params);
         let shown = match class {
             "imagemap" => self.shown_picture(params),
             "scale" => self.scaled_picture(params),
             _ => None,
         };
-        self.textures.insert(name, Texture { mean, shown });
+        let texture = Texture {
+            mean,
+            is_number: kind == "float",
+            shown,
+        };
+        self.textures.insert(name, texture);
     }
 
     /// A picture times a number or a colour, either of them named first.
@@ -85,17 +93,23 @@ impl Loader<'_> {
             }
             _ => Wrap::Repeat,
         };
+        // The second coordinate grows upward, rows go down.
+        let given = [us, 0.0, 0.0, -vs, ud, 1.0 - vd];
+        let most = f64::from(MAX_TEXTURE_COORDINATE);
+        let bounded = given.map(|x| x.clamp(-most, most) as f32);
+        if given.iter().any(|x| x.abs() > most) {
+            self.note(
+                &params.place,
+                "scales and deltas of textures beyond 2^20 count as 2^20",
+            );
+        }
+        let [a, b, c, d, e, f] = bounded;
         let shown = Shown {
             picture: kept.picture,
             is_color: encoding(params) == Encoding::Srgb,
             is_nearest: false,
             wrap: [wrap; 2],
-            // The second coordinate grows upward, rows go down.
-            transform: [
-                [us as f32, 0.0],
-                [0.0, -vs as f32],
-                [ud as f32, (1.0 - vd) as f32],
-            ],
+            transform: [[a, b], [c, d], [e, f]],
         };
         Some((shown, [number("scale", 1.0); 3]))
     }
