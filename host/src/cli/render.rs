@@ -280,7 +280,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     }
     if let Some(path) = &args.environment {
         let mut data = scene.into_data();
-        data.environment = Some(Arc::new(read_environment(path, args.environment_scale)?));
+        let map = read_environment(path, args.environment_scale, &mut data.warnings)?;
+        data.environment = Some(Arc::new(map));
         scene = Scene::new(data)?;
     }
     for warning in scene.warnings() {

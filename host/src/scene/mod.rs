@@ -44,6 +44,7 @@ mod pfm;
 mod picture_file;
 mod ply_in;
 mod profile;
+mod radiance_hdr;
 mod random;
 mod read_file;
 mod scene_light;

@@ -10,6 +10,7 @@ use image::{DynamicImage, ImageReader, Limits, RgbaImage};
 
 use super::paint::Picture;
 use super::pfm;
+use super::radiance_hdr;
 use super::read_file::read_file;
 
 /// Most memory of one decoder.
@@ -194,7 +195,13 @@ impl Pictures {
         limits.max_alloc = Some(MAX_ALLOCATION);
         let mut reader = reader()?;
         reader.limits(limits);
-        reader.decode().map_err(unread)
+        let mut picture = reader.decode().map_err(unread)?;
+        if let (Some(header), DynamicImage::ImageRgb32F(pixels)) = (radiance_hdr::read(&bytes), &mut picture)
+        {
+            let header = header.map_err(|problem| format!("cannot decode {}: {problem}", path.display()))?;
+            header.apply(pixels);
+        }
+        Ok(picture)
     }
 }
 

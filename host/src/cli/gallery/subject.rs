@@ -47,7 +47,8 @@ pub(super) fn open(entry: &Entry) -> Result<Opened, HostError> {
     if let Some(path) = &entry.environment {
         let path = Path::new(path);
         let mut data = scene.into_data();
-        data.environment = Some(Arc::new(read_environment(path, entry.environment_scale)?));
+        let map = read_environment(path, entry.environment_scale, &mut data.warnings)?;
+        data.environment = Some(Arc::new(map));
         scene = Scene::new(data)?;
         // It has just been read.
         environment = fingerprint(&fs::read(path).unwrap_or_default());

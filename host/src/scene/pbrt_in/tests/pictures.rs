@@ -238,3 +238,28 @@ fn misspelt_parameters_and_missing_files_are_named() {
     );
     assert_eq!(warnings.matches("ignored").count(), 5, "{warnings}");
 }
+
+#[test]
+fn pictures_of_light_are_divided_by_their_exposure() {
+    let picture = super::super::super::radiance_hdr::tests::picture("EXPOSURE=4\n", &[[128, 128, 128, 129]]);
+    let text = format!("AreaLightSource \"diffuse\" \"string filename\" \"x.hdr\"\n{TRIANGLE}");
+    let folder = Folder::new("exposure", &[("x.pbrt", text.as_bytes()), ("x.hdr", &picture)]);
+    let frame = folder.read("x.pbrt").expect("valid").frame(0);
+    assert_eq!(frame.emissive[0].radiance, [0.25; 3]);
+}
+
+#[test]
+fn scales_of_textures_that_no_scene_takes_are_named() {
+    let scene = scene(
+        "scales",
+        &format!(
+            "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"bricks.png\" \"float uscale\" 1e30
+             Material \"diffuse\" \"texture reflectance\" \"t\"\n{QUAD}"
+        ),
+    );
+    let data = scene.data();
+    let paint = data.materials[data.meshes[0].primitives[0].material as usize].paint;
+    let texture = paint.expect("a picture").base_texture.expect("a picture");
+    assert_eq!(texture.transform[0][0], (1 << 20) as f32);
+    assert!(scene.warnings()[0].contains("beyond 2^20 count as 2^20"));
+}
