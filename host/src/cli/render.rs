@@ -262,20 +262,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         given("--scattered", args.scattered, 0..=MAX_SCATTERED.into()),
     ])?;
     let mut scene = args.up.turn(Scene::open(&args.scene)?)?;
-    let cameras = scene.data().cameras.len();
-    if args.camera > 0 {
-        if args.camera >= cameras {
-            return Err(HostError::Range {
-                option: "--camera",
-                value: args.camera as u64,
-                expected: format!("0 to {}: the scene has {cameras}", cameras.saturating_sub(1)),
-            });
-        }
-        let mut data = scene.into_data();
-        data.cameras.swap(0, args.camera);
-        scene = Scene::new(data)?;
-    }
+    scene = seen_by(scene, args.camera)?;
     if let (Some(from), Some(at)) = (args.look_from, args.look_at) {
+        check_places(from, at)?;
         scene = scene.seen_from(from, at, (args.fov as f32).to_radians())?;
     }
     if let Some(path) = &args.environment {
@@ -360,6 +349,40 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         table::print_json(&report)?;
     }
     Ok(Outcome::Good)
+}
+
+/// The scene as its camera of that number sees it.
+fn seen_by(scene: Scene, camera: usize) -> Result<Scene, HostError> {
+    let cameras = scene.data().cameras.len();
+    if camera == 0 {
+        return Ok(scene);
+    }
+    if camera >= cameras {
+        return Err(HostError::Range {
+            option: "--camera",
+            value: camera as u64,
+            expected: match cameras {
+                0 => String::from(
+                    "a scene with cameras, and it has none; leave the option out, or give --look-from and --look-at",
+                ),
+                _ => format!("0 to {}: the scene has {cameras}", cameras - 1),
+            },
+        });
+    }
+    let mut data = scene.into_data();
+    data.cameras.swap(0, camera);
+    Ok(Scene::new(data)?)
+}
+
+/// Refuses a view of the place that the eye is at.
+fn check_places(from: [f32; 3], at: [f32; 3]) -> Result<(), HostError> {
+    if from == at {
+        return Err(HostError::Usage {
+            option: "--look-at",
+            needs: "another place than --look-from",
+        });
+    }
+    Ok(())
 }
 
 /// The options that stand for the camera that was chosen for a scene without one.
@@ -501,5 +524,37 @@ mod tests {
         );
         let same = Up::Y.turn(street()).expect("as it is");
         assert_eq!(same.data(), street().data());
+    }
+
+    #[test]
+    fn cameras_that_are_not_there_are_named() {
+        let street = || Scene::open("street").expect("built in");
+        let of = |scene: Scene, camera| {
+            seen_by(scene, camera)
+                .map(|_| ())
+                .map_err(|error| error.to_string())
+        };
+        let cameras = street().data().cameras.len();
+        assert!(cameras > 0 && of(street(), cameras - 1).is_ok());
+        let error = of(street(), cameras).expect_err("one too many");
+        assert!(error.contains(&format!("the scene has {cameras}")), "{error}");
+        let mut data = street().into_data();
+        data.cameras.clear();
+        let blind = Scene::new(data).expect("a scene");
+        assert!(of(blind.clone(), 0).is_ok());
+        let error = of(blind, 3).expect_err("there is none");
+        assert!(
+            error.contains("--camera 3") && error.contains("it has none"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn a_view_of_the_eye_is_refused() {
+        assert!(check_places([1.0; 3], [1.0, 1.0, 1.5]).is_ok());
+        let error = check_places([1.0; 3], [1.0; 3])
+            .expect_err("no direction")
+            .to_string();
+        assert!(error.contains("--look-at needs another place"), "{error}");
     }
 }

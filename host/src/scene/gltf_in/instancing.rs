@@ -27,6 +27,15 @@ pub(super) fn places(
     let Some(Instancing { attributes }) = found else {
         return Ok(None);
     };
+    let stands_once = ["KHR_lights_punctual", super::IES]
+        .iter()
+        .any(|name| others.contains_key(*name))
+        || node.camera.is_some();
+    if stands_once {
+        document.warn(format!(
+            "{element}: EXT_mesh_gpu_instancing repeats its mesh alone; its light or camera stands once, at the node"
+        ));
+    }
     let element = format!("{element}.extensions.EXT_mesh_gpu_instancing");
     let index = |name: &str| attributes.get(name).map(|&index| json::Index::new(index));
     let vectors = |name: &str| -> Result<Option<Vec<[f32; 3]>>, SceneError> {
@@ -82,13 +91,17 @@ mod tests {
 
     /// A lamp of one triangle, at a node that has it three times; `counts` are those of translations and rotations.
     fn read(counts: [usize; 2]) -> Result<Scene, SceneError> {
+        Scene::read_gltf_slice("instances.gltf", text(counts).as_bytes(), None)
+    }
+
+    fn text(counts: [usize; 2]) -> String {
         let triangle = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
         let places = [1.0_f32, 0.0, 0.0, 2.0, 0.0, 0.0, 3.0, 0.0, 0.0];
         let half = std::f32::consts::FRAC_1_SQRT_2;
         let turns = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, half, half, 0.0, 0.0, 1.0, 0.0_f32];
         let numbers: Vec<f32> = [&triangle[..], &places, &turns].concat();
         let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
-        let json = format!(
+        format!(
             r#"{{"asset": {{"version": "2.0"}}, "extensionsUsed": ["EXT_mesh_gpu_instancing"],
             "extensionsRequired": ["EXT_mesh_gpu_instancing"],
             "buffers": [{{"byteLength": {}, "uri": "data:application/octet-stream;base64,{}"}}],
@@ -107,8 +120,27 @@ mod tests {
             bytes.len(),
             counts[0],
             counts[1]
+        )
+    }
+
+    /// The extension is of the mesh.
+    #[test]
+    fn a_light_of_a_node_with_instances_is_named() {
+        let lit = text([3, 3]).replace(
+            r#""_ID": 0}}"#,
+            r#""_ID": 0}}, "KHR_lights_punctual": {"light": 0}"#,
         );
-        Scene::read_gltf_slice("instances.gltf", json.as_bytes(), None)
+        let lit = lit.replace(
+            r#""extensionsUsed""#,
+            r#""extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}}, "extensionsUsed""#,
+        );
+        let scene = Scene::read_gltf_slice("instances.gltf", lit.as_bytes(), None).expect("valid");
+        assert_eq!((scene.data().analytic.len(), scene.emissive_count()), (1, 3));
+        let warnings = scene.warnings();
+        assert!(
+            warnings.len() == 1 && warnings[0].contains("nodes[0]") && warnings[0].contains("stands once"),
+            "{warnings:?}"
+        );
     }
 
     #[test]

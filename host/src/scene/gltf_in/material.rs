@@ -3,7 +3,7 @@
 use gltf::json;
 use gltf::json::material::AlphaMode;
 use gltf::json::texture::Info;
-use gltf::json::validation::Checked::Valid;
+use gltf::json::validation::Checked::{Invalid, Valid};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
@@ -115,7 +115,10 @@ fn look<'a>(
             // NaN stays, to be reported with the material.
             out.transmission = if opacity > 1.0 { 0.0 } else { 1.0 - opacity };
         }
-        _ => out.masked = true,
+        Valid(AlphaMode::Mask) => out.masked = true,
+        Invalid => document.warn(format!(
+            "{element}: its alphaMode is none of OPAQUE, MASK and BLEND, and is taken as OPAQUE"
+        )),
     }
     if unlit {
         // It shows its colour whatever light falls on it: what glows so, and reflects nothing.

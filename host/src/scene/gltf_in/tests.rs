@@ -123,8 +123,25 @@ fn texture_transforms_that_no_scene_takes_are_bounded_and_named() {
                     .all(|warning| warning.contains("KHR_texture_transform beyond 2^20")),
             "{given}: {warnings:?}"
         );
-        assert!(warnings[0].starts_with("materials[0], meshes[0].primitives[0]: scales"), "{warnings:?}");
+        assert!(
+            warnings[0].starts_with("materials[0], meshes[0].primitives[0]: scales"),
+            "{warnings:?}"
+        );
         assert_eq!(scene.frame(0).emissive.len(), 1, "{given}");
+    }
+}
+
+/// It was taken for a mask where textures are not shown.
+#[test]
+fn alpha_modes_that_are_none_are_named() {
+    for (mode, is_known) in [("OPAQUE", true), ("MASK", true), ("FOO", false), ("mask", false)] {
+        let mut root = painted([[0.0; 2]; 3]);
+        root["materials"][0]["alphaMode"] = json!(mode);
+        let scene = read(&root);
+        let warnings = scene.warnings();
+        assert_eq!(warnings.is_empty(), is_known, "{mode}: {warnings:?}");
+        assert!(is_known || warnings[0].starts_with("materials[0]: its alphaMode is none of"));
+        assert_eq!(scene.data().materials[0].masked, mode == "MASK");
     }
 }
 

@@ -12,6 +12,7 @@
 mod faces;
 mod lines;
 mod mtl;
+mod ranges;
 #[cfg(test)]
 mod tests;
 

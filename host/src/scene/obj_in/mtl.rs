@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
+use super::super::check::MAX_TEXTURE_COORDINATE;
 use super::super::error::SceneError;
 use super::super::glow::{Glow, Glows};
 use super::super::model::Material;
@@ -12,6 +13,7 @@ use super::super::paint::{Opacity, Paint, Picture, Texture, Wrap};
 use super::super::picture_file::{Encoding, Kept, Mean, Pictures};
 use super::beside;
 use super::lines::{Lines, numbers, split};
+use super::ranges::{note_index, note_outside};
 
 /// A picture, its mean, and where it lies.
 #[derive(Clone, Debug)]
@@ -46,8 +48,18 @@ impl Placing {
 
     /// The second coordinate of the format grows upward, rows go down.
     fn transform(&self) -> [[f32; 2]; 3] {
+        self.unbounded()
+            .map(|column| column.map(|x| x.clamp(-MAX_TEXTURE_COORDINATE, MAX_TEXTURE_COORDINATE)))
+    }
+
+    fn unbounded(&self) -> [[f32; 2]; 3] {
         let ([sx, sy], [ox, oy]) = (self.scale, self.offset);
         [[sx, 0.0], [0.0, -sy], [ox, 1.0 - oy]]
+    }
+
+    /// Whether a scene takes its numbers as they are.
+    fn is_near(&self) -> bool {
+        self.transform() == self.unbounded()
     }
 }
 
@@ -111,19 +123,30 @@ impl Library {
                 continue;
             }
             let Some((_, entry)) = &mut open else { continue };
+            let number = |rest: &str, notes: &mut Notes| {
+                let [value] = numbers(file, line, rest)?;
+                note_outside(word, &[value], &place, notes);
+                Ok::<f32, SceneError>(value)
+            };
             match word {
-                "Kd" => entry.diffuse = color(file, line, rest, &place, notes)?,
-                "Ks" => entry.specular = color(file, line, rest, &place, notes)?.unwrap_or_default(),
-                "Ke" => entry.emission = color(file, line, rest, &place, notes)?,
-                "Ns" => entry.exponent = Some(numbers::<1>(file, line, rest)?[0]),
-                "Pr" => entry.roughness = Some(numbers::<1>(file, line, rest)?[0]),
-                "Pm" => entry.metallic = numbers::<1>(file, line, rest)?[0],
+                "Kd" => entry.diffuse = color(file, (line, word), rest, &place, notes)?,
+                "Ks" => {
+                    entry.specular = color(file, (line, word), rest, &place, notes)?.unwrap_or_default();
+                }
+                "Ke" => entry.emission = color(file, (line, word), rest, &place, notes)?,
+                "Ns" => entry.exponent = Some(number(rest, notes)?),
+                "Pr" => entry.roughness = Some(number(rest, notes)?),
+                "Pm" => entry.metallic = number(rest, notes)?,
                 "d" => {
                     let rest = rest.strip_prefix("-halo").unwrap_or(rest);
-                    entry.dissolve = Some(numbers::<1>(file, line, rest)?[0]);
+                    entry.dissolve = Some(number(rest, notes)?);
                 }
-                "Tr" => entry.transparency = Some(numbers::<1>(file, line, rest)?[0]),
-                "illum" => entry.illumination = numbers::<1>(file, line, rest)?[0] as i32,
+                "Tr" => entry.transparency = Some(number(rest, notes)?),
+                "illum" => {
+                    let model = number(rest, notes)?;
+                    entry.illumination = if model.fract() == 0.0 { model as i32 } else { 0 };
+                }
+                "Ni" => note_index(rest, &place, notes),
                 "map_Kd" => entry.diffuse_map = self.picture(rest, folder, &place, notes),
                 "map_Ke" | "map_ke" => {
                     entry.emission_map = self.picture(rest, folder, &place, notes);
@@ -241,6 +264,12 @@ impl Library {
         notes: &mut Notes,
     ) -> Option<Map> {
         let (placing, name) = map_options(rest);
+        if !placing.is_near() {
+            notes.add(
+                place,
+                "numbers of `-s` and `-o` of maps beyond 2^20 count as 2^20",
+            );
+        }
         let name = name.replace('\\', "/");
         let Some(folder) = folder else {
             notes.add(place, "pictures are left out, as there is no folder to look in");
@@ -263,7 +292,7 @@ impl Library {
 /// A color; spectral curves and CIEXYZ are left out.
 fn color(
     file: &str,
-    line: u32,
+    (line, word): (u32, &str),
     rest: &str,
     place: &Place,
     notes: &mut Notes,
@@ -282,6 +311,7 @@ fn color(
     } else {
         numbers::<3>(file, line, rest)?
     };
+    note_outside(word, &rgb, place, notes);
     Ok(Some(rgb))
 }
 

@@ -185,6 +185,48 @@ fn errors_name_the_line() {
     assert!(error.to_string().contains("light cannot be negative"), "{error}");
 }
 
+#[test]
+fn numbers_of_materials_that_are_replaced_are_named() {
+    let said = |line: &str| {
+        let library = LIBRARY.replace("newmtl glow", &format!("{line}\nnewmtl glow"));
+        let scene = read("ranges", ROOM, &library).expect("valid");
+        scene.warnings().join("\n")
+    };
+    for (line, what) in [
+        ("Kd 2 2 2", "`Kd` outside of 0 to 1"),
+        ("Kd -1 0 0", "`Kd` outside of 0 to 1"),
+        ("Ks 0 0 3", "`Ks` outside of 0 to 1"),
+        ("d 5", "`d` outside of 0 to 1"),
+        ("d -halo -1", "`d` outside of 0 to 1"),
+        ("Tr 1.5", "`Tr` outside of 0 to 1"),
+        ("Pr 7", "`Pr` outside of 0 to 1"),
+        ("Pm -0.5", "`Pm` outside of 0 to 1"),
+        ("Ns -5", "`Ns` below 0"),
+        ("illum 99", "`illum` that is no whole number from 0 to 10"),
+        ("illum 3.5", "`illum` that is no whole number from 0 to 10"),
+        ("Ni abc", "`Ni` that is no number above 0"),
+        ("map_Kd -s 1e30 1 no.png", "`-s` and `-o` of maps beyond 2^20"),
+    ] {
+        let found = said(line);
+        assert!(
+            found.contains(what) && found.contains("room.mtl, line 5"),
+            "{line}: {found}"
+        );
+    }
+    for line in [
+        "Kd 1.0000001 0 0",
+        "d 1",
+        "Tr 0",
+        "Pr 0.5",
+        "Ns 1000",
+        "illum 2",
+        "illum 10",
+        "Ni 1.45",
+    ] {
+        assert_eq!(said(line), "", "{line}");
+    }
+}
+
 /// Files of some exporters name normals that they leave out. Of a face with some of them none counts: which side emits is its front.
 #[test]
 fn faces_that_name_missing_normals_are_read_without() {

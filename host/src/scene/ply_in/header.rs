@@ -115,7 +115,10 @@ pub(super) fn read<'a>(path: &str, bytes: &'a [u8]) -> Result<(Header, &'a [u8])
             return Err(broken(String::from("it does not begin with `ply`")));
         }
         match words[..] {
-            ["format", name, _] => {
+            ["format", name, version] => {
+                if version != "1.0" {
+                    return Err(broken(format!("version `{version}` is not known")));
+                }
                 format = Some(match name {
                     "ascii" => Format::Text,
                     "binary_little_endian" => Format::LittleEndian,

@@ -130,3 +130,14 @@ fn damage_is_an_error_or_a_mesh() {
         }
     });
 }
+
+#[test]
+fn other_versions_are_refused_by_name() {
+    let newer = TEXT.replace("ascii 1.0", "ascii 2.0");
+    let error = PlyMesh::parse("new.ply", newer.as_bytes()).expect_err("another version");
+    let error = error.to_string();
+    assert!(
+        error.contains("line 2") && error.contains("version `2.0`") && error.contains("PLY 1.0"),
+        "{error}"
+    );
+}
