@@ -39,6 +39,11 @@ pub(super) fn yes(value: bool) -> String {
     if value { "yes" } else { "no" }.to_owned()
 }
 
+/// A number in a cell; a stroke where there is none.
+pub(super) fn known(value: Option<f64>, digits: usize) -> String {
+    value.map_or_else(|| "-".to_owned(), |value| format!("{value:.digits$}"))
+}
+
 /// Threads in a cell; a device has none.
 pub(super) fn threads(count: usize) -> String {
     if count == 0 {

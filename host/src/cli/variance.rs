@@ -67,24 +67,26 @@ struct Row {
     layout: &'static str,
     importance: &'static str,
     width: usize,
+    /// How many points any light of the tree reaches: all figures are over those, and there are none without one.
+    points: usize,
     /// Mean over the points of variance / mean².
-    mean: f64,
-    median: f64,
-    p95: f64,
+    mean: Option<f64>,
+    median: Option<f64>,
+    p95: Option<f64>,
     /// Mean over the points of the squared error of the mean of 8 candidates ([`LightTree::sample_many`]), over mean².
     ///
     /// [`LightTree::sample_many`]: lightbvh::LightTree::sample_many
-    of_8: f64,
+    of_8: Option<f64>,
     /// Of 32.
-    of_32: f64,
+    of_32: Option<f64>,
     /// Of up to 8 lights by adaptive splitting ([`LightTree::sample_split`]).
     ///
     /// [`LightTree::sample_split`]: lightbvh::LightTree::sample_split
-    split_8: f64,
+    split_8: Option<f64>,
     /// Of up to 32.
-    split_32: f64,
+    split_32: Option<f64>,
     /// Share of samples that contribute nothing: no light, or one that sends nothing to the point.
-    nothing: f64,
+    nothing: Option<f64>,
 }
 
 /// A scene's lights, and the points that they are chosen for.
@@ -112,6 +114,10 @@ impl<L: SceneLight> Subject<L> {
     }
 }
 
+/// Where no figure is known.
+pub(super) const NOT_MEASURED: &str =
+    "no point receives light of a light that a tree would hold, and nothing is measured";
+
 /// The scene that is no scene: lights anywhere.
 const RANDOM: &str = "random";
 
@@ -127,11 +133,15 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     let mut rows = Vec::new();
     for name in named {
         let start = Instant::now();
-        rows.extend(match opened(&name)? {
+        let own = match opened(&name)? {
             None => measure(&Subject::random(args), args.all),
             Some(scene) if scene.needs_any_light() => measure_kinds(&Subject::of(&scene, args)?, args.all),
             Some(scene) => measure(&Subject::of(&scene, args)?, args.all),
-        });
+        };
+        if own.iter().all(|row| row.points == 0) {
+            news!("{name}: {NOT_MEASURED}");
+        }
+        rows.extend(own);
         news!("{name}: {:.1} s", start.elapsed().as_secs_f64());
     }
     if context.json {
@@ -169,7 +179,11 @@ fn glossy(context: &Context, args: &Args, named: &[String]) -> Result<Outcome, H
                 (Subject::of(&scene, args)?, Some(eye))
             }
         };
-        rows.extend(gloss::measure(&subject, eye));
+        let own = gloss::measure(&subject, eye);
+        if own.iter().all(gloss::Row::is_empty) {
+            news!("{name}: {NOT_MEASURED}");
+        }
+        rows.extend(own);
         news!(
             "{}: {:.1} s",
             rows.last().map_or("", gloss::Row::scene),
@@ -269,10 +283,9 @@ impl<L: SceneLight> Measured<'_, L> {
         [Sampler::SingleLevel, Sampler::TwoLevel].map(|structure| {
             let bvh = build::<N, I, W>(lights, structure, params);
             let (variances, nothing) = variances(&bvh, self.subject, self.light);
-            let count = variances.len().max(1) as f64;
             let part = |share: f64| {
-                let at = (share * (count - 1.0)) as usize;
-                variances.get(at).copied().unwrap_or(0.0)
+                let at = share * (variances.len().max(1) - 1) as f64;
+                variances.get(at as usize).copied()
             };
             Row {
                 scene: self.subject.name.clone(),
@@ -280,7 +293,8 @@ impl<L: SceneLight> Measured<'_, L> {
                 layout: N::NAME,
                 importance,
                 width: W,
-                mean: mean(&variances),
+                points: variances.len(),
+                mean: mean_of(&variances),
                 median: part(0.5),
                 p95: part(0.95),
                 of_8: self.error(|point, number| spaced::<N, I, W, 8>(&bvh, point, number)),
@@ -292,8 +306,8 @@ impl<L: SceneLight> Measured<'_, L> {
         })
     }
 
-    /// The squared error of an estimate relative to the squared mean, over trials and points that any light reaches.
-    fn error(&self, estimate: impl Fn(&ShadingPoint, u32) -> Weighted) -> f64 {
+    /// The squared error of an estimate relative to the squared mean, over trials and points that any light reaches; `None` where none does.
+    fn error(&self, estimate: impl Fn(&ShadingPoint, u32) -> Weighted) -> Option<f64> {
         let (mut error, mut points) = (0.0, 0_u32);
         for (number, (point, light)) in (0u32..).zip(self.subject.points.iter().zip(self.light)) {
             let mean: f64 = light.iter().sum();
@@ -307,18 +321,23 @@ impl<L: SceneLight> Measured<'_, L> {
                 }
             }
         }
-        error / (f64::from(TRIALS) * f64::from(points.max(1)))
+        (points > 0).then(|| error / (f64::from(TRIALS) * f64::from(points)))
     }
 }
 
-/// The relative variance at each point that any light reaches, sorted, and the mean share of samples that contribute nothing.
+/// The mean of what there is.
+pub(super) fn mean_of(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| mean(values))
+}
+
+/// The relative variance at each point that any light reaches, sorted, and the mean share of samples that contribute nothing; `None` where
+/// no light reaches any.
 fn variances<N: Node<W> + Holds<Light: SceneLight>, I: ImportanceModel<N, W>, const W: usize>(
     bvh: &Bvh<N, I, W>,
     subject: &Subject<<N as Holds>::Light>,
     light: &[Vec<f64>],
-) -> (Vec<f64>, f64) {
-    let mut variances = Vec::new();
-    let mut nothing = 0.0;
+) -> (Vec<f64>, Option<f64>) {
+    let (mut variances, mut nothing) = (Vec::new(), Vec::new());
     for (point, light) in subject.points.iter().zip(light) {
         let (mut mean, mut square, mut useful) = (0.0, 0.0, 0.0);
         for (i, &sent) in (0..).zip(light) {
@@ -332,12 +351,11 @@ fn variances<N: Node<W> + Holds<Light: SceneLight>, I: ImportanceModel<N, W>, co
         if mean > 0.0 {
             // Below zero by rounding only, where one light counts.
             variances.push((square / (mean * mean) - 1.0).max(0.0));
-            nothing += 1.0 - useful;
+            nothing.push(1.0 - useful);
         }
     }
-    let count = variances.len().max(1) as f64;
     variances.sort_by(f64::total_cmp);
-    (variances, nothing / count)
+    (variances, mean_of(&nothing))
 }
 
 /// Lights with the weights of their contributions to an estimate.
@@ -370,10 +388,12 @@ fn weighted(lights: &[SampledLight], count: f64) -> Weighted {
 }
 
 /// What several lights leave of one light's variance; nothing where there is none.
-fn gain(row: &Row, error: f64) -> String {
-    match row.mean / error {
+fn gain(row: &Row, error: Option<f64>) -> String {
+    match (row.mean, error) {
         // Beyond that it is rounding that is left.
-        of if of > 0.0 && of < 1e9 => format!("1/{of:.1}"),
+        (Some(mean), Some(error)) if mean / error > 0.0 && mean / error < 1e9 => {
+            format!("1/{:.1}", mean / error)
+        }
         _ => "-".to_owned(),
     }
 }
@@ -387,14 +407,83 @@ fn print(rows: &[Row]) -> Result<(), HostError> {
             ("layout", |r| r.layout.to_owned()),
             ("importance", |r| r.importance.to_owned()),
             ("width", |r| r.width.to_string()),
-            ("mean", |r| format!("{:.3}", r.mean)),
-            ("median", |r| format!("{:.3}", r.median)),
-            ("p95", |r| format!("{:.3}", r.p95)),
+            ("mean", |r| table::known(r.mean, 3)),
+            ("median", |r| table::known(r.median, 3)),
+            ("p95", |r| table::known(r.p95, 3)),
             ("of 8", |r| gain(r, r.of_8)),
             ("of 32", |r| gain(r, r.of_32)),
             ("split 8", |r| gain(r, r.split_8)),
             ("split 32", |r| gain(r, r.split_32)),
-            ("nothing", |r| format!("{:.1} %", (100.0 * r.nothing).max(0.0))),
+            ("nothing", |r| match r.nothing {
+                Some(nothing) => format!("{:.1} %", (100.0 * nothing).max(0.0)),
+                None => table::known(None, 1),
+            }),
         ],
     )?)
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// A floor that faces +z below a lamp, and a light. The lamp shines down on the floor, or up, where nothing is.
+    pub fn room(is_lit: bool, light: &str) -> Scene {
+        let turned = if is_lit { "ReverseOrientation" } else { "" };
+        let text = format!(
+            "Scale -1 1 1\nCamera \"perspective\"\nWorldBegin\n{light}\n\
+             Shape \"trianglemesh\" \"point3 P\" [-4 -4 0 4 -4 0 0 4 0]\n\
+             {turned} AreaLightSource \"diffuse\"\nShape \"trianglemesh\" \"point3 P\" [0 0 1 1 0 1 0 1 1]\n"
+        );
+        Scene::read_pbrt_slice("room.pbrt", text.as_bytes(), None).expect("valid")
+    }
+
+    fn args() -> Args {
+        Args {
+            scene: Vec::new(),
+            points: 32,
+            lights: 1,
+            frame: 0,
+            all: false,
+            gloss: false,
+        }
+    }
+
+    fn rows(is_lit: bool) -> Vec<Row> {
+        let triangles = room(is_lit, "");
+        // From below the floor, on its back.
+        let kinds = room(is_lit, "LightSource \"point\" \"point3 from\" [0.2 0.2 -1]");
+        assert!(kinds.needs_any_light());
+        let mut rows = measure(&Subject::of(&triangles, &args()).expect("lights"), false);
+        rows.extend(measure_kinds(
+            &Subject::of(&kinds, &args()).expect("lights"),
+            false,
+        ));
+        rows
+    }
+
+    /// Four rows of 0.000 and "nothing 0.0 %", as if all were perfect.
+    #[test]
+    fn what_is_not_measured_has_no_figure() {
+        const FIGURES: [&str; 8] = [
+            "mean", "median", "p95", "of_8", "of_32", "split_8", "split_32", "nothing",
+        ];
+        for row in rows(false) {
+            let report = json!(row);
+            assert_eq!(row.points, 0);
+            for figure in FIGURES {
+                assert!(report[figure].is_null(), "{figure}: {report}");
+            }
+            assert_eq!(
+                (gain(&row, row.of_8), table::known(row.mean, 3)),
+                ("-".into(), "-".into())
+            );
+        }
+        for row in rows(true) {
+            let report = json!(row);
+            assert!(row.points > 0);
+            for figure in FIGURES {
+                assert!(report[figure].is_number(), "{figure}: {report}");
+            }
+        }
+    }
 }

@@ -20,10 +20,9 @@ use super::surfaces::Surfaces;
 use super::{MOST_PROBABILITIES, declared};
 use crate::cli::times::ms;
 use crate::cli::trade::quantile::Interval;
-use crate::cli::variance::{kinds::irradiance_of, points};
+use crate::cli::variance::{NOT_MEASURED, kinds::irradiance_of, mean_of, points};
 use crate::cli::{Context, Outcome, table};
 use crate::error::HostError;
-use crate::metrics::mean;
 use crate::scene::{Instances, Scene};
 use crate::workload::lights_of;
 
@@ -44,8 +43,8 @@ struct Checked {
     probabilities: usize,
     /// How many lights that send light to a point are never chosen there.
     unreached: usize,
-    /// Mean over the points of the relative variance of one sample.
-    variance: f64,
+    /// Mean over the points that any light reaches of the relative variance of one sample.
+    variance: Option<f64>,
     nodes: usize,
     depth: u32,
     bytes_per_light: f64,
@@ -104,7 +103,7 @@ pub(super) fn run(context: &Context, args: &Args, scene: &Scene) -> Result<Outco
         };
         let mut text = about.required(lights.triangles().len());
         if let Some(checked) = &checked {
-            text += &about.found(&tree, moved, checked);
+            text += &found(&tree, [args.frame, moved], checked);
         }
         table::print_text(&text)?;
     }
@@ -155,34 +154,37 @@ impl About<'_> {
         text += &line("animation", &self.motion.said());
         text
     }
+}
 
-    /// What was found of the tree over its lights.
-    fn found(&self, tree: &str, moved: u32, checked: &Checked) -> String {
-        let mut text = format!("\na tree over its lights: {tree}, two levels\n");
-        let refitted = match moved == self.args.frame {
-            true => String::new(),
-            false => format!(" in frame {moved}, after a refit"),
-        };
-        text += &match &checked.violation {
-            None => format!("every invariant holds{refitted}\n"),
-            Some(violation) => {
-                format!("{violation}{refitted}: this is a fault of lightbvh; please report it\n")
-            }
-        };
-        let memory = format!(
-            "{} nodes, {} deep; {:.1} bytes per light that sampling reads, {:.1} in all arrays",
-            checked.nodes, checked.depth, checked.bytes_per_light, checked.memory_per_light
-        );
-        text += &match checked.points {
-            0 => format!("there is no surface that is shown, so nothing was asked\n{memory}\n"),
-            points => format!(
-                "{} probabilities from {points} points on surfaces: {} lights that send light there are never chosen; variance of one sample {:.4}\n\
+/// What was found of the tree over the lights, which was built in one frame and looked at in another.
+fn found(tree: &str, [first, moved]: [u32; 2], checked: &Checked) -> String {
+    let mut text = format!("\na tree over its lights: {tree}, two levels\n");
+    let refitted = match moved == first {
+        true => String::new(),
+        false => format!(" in frame {moved}, after a refit"),
+    };
+    text += &match &checked.violation {
+        None => format!("every invariant holds{refitted}\n"),
+        Some(violation) => {
+            format!("{violation}{refitted}: this is a fault of lightbvh; please report it\n")
+        }
+    };
+    let memory = format!(
+        "{} nodes, {} deep; {:.1} bytes per light that sampling reads, {:.1} in all arrays",
+        checked.nodes, checked.depth, checked.bytes_per_light, checked.memory_per_light
+    );
+    text += &match (checked.points, checked.variance) {
+        (0, _) => format!("there is no surface that is shown, so nothing was asked\n{memory}\n"),
+        (points, None) => {
+            format!("from {points} points on surfaces: {NOT_MEASURED}\n{memory}\n")
+        }
+        (points, Some(variance)) => format!(
+            "{} probabilities from {points} points on surfaces: {} lights that send light there are never chosen; variance of one sample {variance:.4}\n\
                  {memory}, {:.0} ns per sample\n",
-                checked.probabilities, checked.unreached, checked.variance, checked.ns_per_sample.median
-            ),
-        };
-        text
-    }
+            checked.probabilities, checked.unreached, checked.ns_per_sample.median
+        ),
+    };
+    text
 }
 
 /// Builds the tree in the first of the frames, moves it to the second, and asks it.
@@ -242,11 +244,44 @@ where
         points: points.len(),
         probabilities: points.len() * lights.len(),
         unreached,
-        variance: mean(&variances),
+        variance: mean_of(&variances),
         nodes: bvh.nodes().len(),
         depth: bvh.depth(),
         bytes_per_light: per_light(bvh.bytes()),
         memory_per_light: per_light(bvh.memory()),
         ns_per_sample,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::variance::tests::room;
+
+    fn checked(is_lit: bool) -> Checked {
+        let scene = room(is_lit, "LightSource \"point\" \"point3 from\" [0.2 0.2 -1]");
+        let lights = lights_of::<AnyLight>(&scene, 0).expect("lights");
+        let points = points::on_surfaces(&scene, 0, 16);
+        check::<Plain>(&scene, [0; 2], &lights, &points).expect("a tree")
+    }
+
+    /// "0 lights that send light there are never chosen; variance of one sample 0.0000", of nothing.
+    #[test]
+    fn what_is_not_measured_has_no_figure() {
+        let dark = checked(false);
+        assert_eq!((dark.points, dark.variance), (16, None));
+        assert!(json!(dark)["variance"].is_null());
+        let text = found("Bvh", [0; 2], &dark);
+        assert!(
+            text.contains("nothing is measured") && !text.contains("never chosen"),
+            "{text}"
+        );
+        let lit = checked(true);
+        assert!(lit.variance.is_some());
+        let text = found("Bvh", [0; 2], &lit);
+        assert!(
+            text.contains("never chosen") && !text.contains("nothing is measured"),
+            "{text}"
+        );
+    }
 }

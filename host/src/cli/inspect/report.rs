@@ -11,6 +11,7 @@ use super::steps::{Checked, Cost, MOST_VARIANCE, Promise, Step};
 use super::surfaces::Surfaces;
 use crate::cli::table;
 use crate::cli::trade::quantile::Interval;
+use crate::cli::variance::NOT_MEASURED;
 use crate::error::HostError;
 
 /// Everything that is said.
@@ -135,6 +136,12 @@ impl Report<'_> {
             steps,
             ..
         } = &self.checked;
+        if variance.is_none() {
+            table::print_text(&format!(
+                "\nfrom {} points on surfaces: {NOT_MEASURED}; what parts promise of the variance is not known to hold\n",
+                self.points
+            ))?;
+        }
         if steps.is_empty() {
             let Cost {
                 bytes_per_light,
@@ -144,7 +151,8 @@ impl Report<'_> {
             } = default;
             return Ok(table::print_text(&format!(
                 "\nthat is the default, with nothing to save: {bytes_per_light:.1} bytes per light, {memory_per_light:.1} in all arrays, \
-                 {ns_per_sample:.0} ns per sample, variance {variance:.4}\n"
+                 {ns_per_sample:.0} ns per sample, variance {}\n",
+                table::known(*variance, 4)
             ))?);
         }
         let refitted = if self.moved == self.args.frame {
@@ -205,7 +213,7 @@ pub(super) fn line(name: &str, text: &str) -> String {
 
 /// A line of the check: the default, then each step.
 struct Row {
-    variance: f64,
+    variance: Option<f64>,
     cost: Cost,
     step: Option<Step>,
 }
@@ -224,11 +232,11 @@ const COLUMNS: &[table::Column<Row>] = &[
     ("holds", |r| r.of_step(|s| table::yes(s.held))),
     ("compared", |r| r.of_step(|s| s.compared.to_string())),
     ("different", |r| r.of_step(|s| s.different.to_string())),
-    ("variance", |r| format!("{:.4}", r.variance)),
+    ("variance", |r| table::known(r.variance, 4)),
     ("times, 95 %", |r| {
-        r.of_step(|s| {
-            let MeanRatio { ratio, low, high } = s.variance_ratio;
-            format!("{ratio:.3} [{low:.3}, {high:.3}]")
+        r.of_step(|s| match s.variance_ratio {
+            Some(MeanRatio { ratio, low, high }) => format!("{ratio:.3} [{low:.3}, {high:.3}]"),
+            None => table::known(None, 3),
         })
     }),
     ("bytes/light", |r| format!("{:.1}", r.cost.bytes_per_light)),

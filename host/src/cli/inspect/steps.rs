@@ -12,8 +12,8 @@ use super::ratio::MeanRatio;
 use super::subject::{Source, Subject, build};
 use crate::cli::times::ms;
 use crate::cli::trade::quantile::Interval;
+use crate::cli::variance::mean_of;
 use crate::error::HostError;
-use crate::metrics::mean;
 
 /// Where probabilities may differ, the mean variance of a sample surely rises by no more than a twentieth.
 pub(super) const MOST_VARIANCE: f64 = 1.05;
@@ -44,12 +44,12 @@ pub(super) struct Step {
     pub different: u64,
     /// Greatest difference of two probabilities.
     pub most: f64,
-    /// Mean over the points of the relative variance of one sample.
-    pub variance: f64,
+    /// Mean over the points that any light reaches of the relative variance of one sample; where there is none, nothing is known.
+    pub variance: Option<f64>,
     /// That of the step before.
-    pub variance_before: f64,
+    pub variance_before: Option<f64>,
     /// The one over the other.
-    pub variance_ratio: MeanRatio,
+    pub variance_ratio: Option<MeanRatio>,
     /// Whether the promise holds.
     pub held: bool,
     /// Whether the part stays as it was because it does not.
@@ -75,7 +75,7 @@ pub(super) struct Checked {
     pub model: Model,
     pub cost: Cost,
     /// The default's variance and cost.
-    pub variance: f64,
+    pub variance: Option<f64>,
     pub default: Cost,
     pub steps: Vec<Step>,
 }
@@ -128,7 +128,7 @@ pub(super) fn check(
     let mut subjects = vec![build(&now, source)?];
     let mut before = light.pmfs(&*subjects[0], points);
     let first = light.variances(before.as_deref().unwrap_or_default());
-    let variance = mean(&first);
+    let variance = mean_of(&first);
     let (mut last, mut variances_before) = (0, first);
     let mut steps = Vec::new();
     for (part, take) in PARTS {
@@ -152,9 +152,10 @@ pub(super) fn check(
         let variances = pmfs
             .as_deref()
             .map_or_else(|| variances_before.clone(), |pmfs| light.variances(pmfs));
-        let variance_ratio = MeanRatio::of(&variances_before, &variances);
+        let is_known = !variances.is_empty();
+        let variance_ratio = is_known.then(|| MeanRatio::of(&variances_before, &variances));
         let held = match promise {
-            Promise::Variance => variance_ratio.high <= MOST_VARIANCE,
+            Promise::Variance => variance_ratio.is_none_or(|ratio| ratio.high <= MOST_VARIANCE),
             _ => compared.different == 0,
         };
         let put_back = !held && promise == Promise::Variance && !args.asks_for(part);
@@ -165,8 +166,8 @@ pub(super) fn check(
             compared: compared.count,
             different: compared.different,
             most: compared.most,
-            variance: mean(&variances),
-            variance_before: mean(&variances_before),
+            variance: mean_of(&variances),
+            variance_before: mean_of(&variances_before),
             variance_ratio,
             held,
             put_back,
@@ -209,4 +210,55 @@ fn costs(subjects: &[Box<dyn Subject>], points: &[ShadingPoint], lights: usize) 
         ns_saved: Interval::of(times[0].iter().zip(own).map(|(a, b)| a - b).collect()),
     })
     .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{Args as _, FromArgMatches};
+    use lightbvh::requirements::{Changes, Declared};
+    use lightbvh::{BuildParams, Lights};
+    use lightbvh_kernels::bvh::{Node, WIDTH};
+
+    use super::*;
+    use crate::cli::variance::{points, tests::room};
+    use crate::scene::Instances;
+    use crate::workload::lights_at;
+
+    fn checked(is_lit: bool) -> Checked {
+        let scene = room(is_lit, "");
+        let lights: Lights = lights_at(&scene, 0).expect("lights");
+        let (bvh, _) = Instances::new::<Node, (), WIDTH>(&scene, 0, BuildParams::default()).expect("a tree");
+        let declared = Declared {
+            changes: Changes::NONE,
+            glossy: false,
+            pmf: true,
+        };
+        let requirements = Requirements::of(&bvh, declared);
+        let given = Args::augment_args(clap::Command::new("inspect")).get_matches_from(["inspect", "room"]);
+        let args = Args::from_arg_matches(&given).expect("options");
+        let source = Source {
+            scene: &scene,
+            frame: 0,
+            moved: 0,
+            lights: &lights,
+        };
+        let points = points::on_surfaces(&scene, 0, 16);
+        check(&requirements.model(), &args, &requirements, &source, &points).expect("trees")
+    }
+
+    /// A variance of 0.0000 and a ratio of 1.000 [1.000, 1.000], of nothing.
+    #[test]
+    fn what_is_not_measured_has_no_figure() {
+        for is_lit in [false, true] {
+            let found = checked(is_lit);
+            assert_eq!(found.variance.is_some(), is_lit);
+            assert!(!found.steps.is_empty());
+            for step in &found.steps {
+                assert!(step.held);
+                assert_eq!(step.variance.is_some(), is_lit);
+                assert_eq!(step.variance_before.is_some(), is_lit);
+                assert_eq!(step.variance_ratio.is_some(), is_lit);
+            }
+        }
+    }
 }

@@ -16,12 +16,11 @@ use lightbvh::{
 };
 use serde::Serialize;
 
-use super::Subject;
+use super::{Subject, mean_of};
 use crate::backend::Sampler;
 use crate::cli::table;
 use crate::cli::times::ms;
 use crate::cli::trade::quantile::Interval;
-use crate::metrics::mean;
 use crate::vector::{cross, dot, sub};
 use crate::workload::{build, instance_of};
 
@@ -49,20 +48,20 @@ pub(super) struct Row {
     /// By `Glossy`.
     told: OverPoints,
     /// Share of the points with less variance by `Glossy`.
-    less: f64,
+    less: Option<f64>,
     /// The same with a direction that the surface reflects into.
     default_mis: OverPoints,
     told_mis: OverPoints,
-    less_mis: f64,
-    /// Time of a sample by `Glossy` over that by the default, turn by turn.
-    time: Interval,
+    less_mis: Option<f64>,
+    /// Time of a sample by `Glossy` over that by the default, turn by turn; `None` without points.
+    time: Option<Interval>,
 }
 
-/// Mean and median over the points.
+/// Mean and median over the points, of which there is one at least.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct OverPoints {
-    mean: f64,
-    median: f64,
+    mean: Option<f64>,
+    median: Option<f64>,
 }
 
 /// A part of a light, seen from a point.
@@ -133,27 +132,36 @@ impl Row {
     pub fn scene(&self) -> &str {
         &self.scene
     }
+
+    /// Whether there was no point to measure at.
+    pub fn is_empty(&self) -> bool {
+        self.points == 0
+    }
 }
 
 impl OverPoints {
     fn of(values: Vec<f64>) -> Self {
         Self {
-            mean: mean(&values),
-            median: if values.is_empty() {
-                0.0
-            } else {
-                Interval::of(values).median
-            },
+            mean: mean_of(&values),
+            median: (!values.is_empty()).then(|| Interval::of(values).median),
         }
     }
 
     fn text(&self) -> String {
-        format!("{:.3} ({:.3})", self.mean, self.median)
+        match self.mean {
+            Some(_) => format!(
+                "{} ({})",
+                table::known(self.mean, 3),
+                table::known(self.median, 3)
+            ),
+            None => table::known(None, 3),
+        }
     }
 }
 
-fn less(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).filter(|(a, b)| a < b).count() as f64 / a.len().max(1) as f64
+fn less(a: &[f64], b: &[f64]) -> Option<f64> {
+    let less = a.iter().zip(b).filter(|(a, b)| a < b).count();
+    (!a.is_empty()).then(|| less as f64 / a.len() as f64)
 }
 
 /// The surface at `point`, if it faces the viewer.
@@ -292,7 +300,7 @@ fn times(
     plain: &LightTree<'_, MomentNode<8>, DefaultImportance, 8>,
     told: &LightTree<'_, MomentNode<8>, Told, 8>,
     receivers: &[GlossyPoint],
-) -> Interval {
+) -> Option<Interval> {
     let receivers: Vec<GlossyPoint> = receivers
         .iter()
         .map(|r| GlossyPoint {
@@ -309,10 +317,7 @@ fn times(
         ));
         found[1].push(time_of(told, receivers.iter(), turn));
     }
-    match receivers.is_empty() {
-        true => Interval::default(),
-        false => Interval::of_ratios(&found[1], &found[0]),
-    }
+    (!receivers.is_empty()).then(|| Interval::of_ratios(&found[1], &found[0]))
 }
 
 fn time_of<'a, I: ImportanceModel<MomentNode<8>, 8, P>, P: Receiver + 'a>(
@@ -338,18 +343,27 @@ fn unit(v: V) -> Option<V> {
     (length > 0.0).then(|| v.map(|x| x / length))
 }
 
+/// A share in a cell.
+fn percent(share: Option<f64>) -> String {
+    match share {
+        Some(share) => format!("{:.0} %", 100.0 * share),
+        None => table::known(None, 0),
+    }
+}
+
 pub(super) fn print(rows: &[Row]) -> std::io::Result<()> {
     let columns: [table::Column<Row>; 9] = [
         ("scene", |r| r.scene.clone()),
         ("exponent", |r| r.exponent.to_string()),
         ("default, mean (median)", |r| r.default.text()),
         ("told", |r| r.told.text()),
-        ("less at", |r| format!("{:.0} %", 100.0 * r.less)),
+        ("less at", |r| percent(r.less)),
         ("default with MIS", |r| r.default_mis.text()),
         ("told with MIS", |r| r.told_mis.text()),
-        ("less at", |r| format!("{:.0} %", 100.0 * r.less_mis)),
-        ("time", |r| {
-            format!("{:.2} [{:.2}, {:.2}]", r.time.median, r.time.low, r.time.high)
+        ("less at", |r| percent(r.less_mis)),
+        ("time", |r| match &r.time {
+            Some(time) => format!("{:.2} [{:.2}, {:.2}]", time.median, time.low, time.high),
+            None => table::known(None, 2),
         }),
     ];
     table::print(rows, &columns)
@@ -367,6 +381,18 @@ mod tests {
             let centre = [0, 1].map(|axis| all.iter().map(|c| c[axis]).sum::<f64>() / all.len() as f64);
             assert!((centre[0] - 2.0).abs() < 1e-12 && (centre[1] - 2.0).abs() < 1e-12);
         }
+    }
+
+    #[test]
+    fn what_is_not_measured_has_no_figure() {
+        let none = OverPoints::of(Vec::new());
+        assert_eq!(
+            (none.mean, none.median, none.text()),
+            (None, None, "-".to_owned())
+        );
+        assert_eq!((less(&[], &[]), percent(None)), (None, "-".to_owned()));
+        assert_eq!(OverPoints::of(vec![1.0, 2.0, 6.0]).text(), "3.000 (2.000)");
+        assert_eq!(percent(less(&[1.0, 2.0], &[2.0, 2.0])), "50 %");
     }
 
     /// A light that is chosen always, in one patch: no variance but what the direction adds, and the direction that meets half of what is
