@@ -52,8 +52,9 @@ pub(super) fn read(bytes: &[u8]) -> Option<Result<Header, String>> {
 
 fn header(bytes: &[u8]) -> Result<Header, String> {
     let beginning = &bytes[..bytes.len().min(MAX_HEADER)];
-    let decoder = HdrDecoder::new(beginning).map_err(|error| {
-        format!("the first {MAX_HEADER} bytes of the file have no header that is known: {error}")
+    let decoder = HdrDecoder::new(beginning).map_err(|error| match bytes.len() > beginning.len() {
+        true => format!("its header, of which {MAX_HEADER} bytes are read: {error}"),
+        false => format!("its header: {error}"),
     })?;
     let mut divisors = [1.0_f64; 3];
     let mut has_other_primaries = false;

@@ -10,30 +10,20 @@ const MODELS: f32 = 10.0;
 
 /// Names what `word` has no meaning for, and what is taken.
 pub(super) fn note_outside(word: &str, values: &[f32], place: &Place, notes: &mut Notes) {
-    let all = |is_inside: fn(f32) -> bool| values.iter().all(|&value| is_inside(value));
-    match word {
-        "Kd" | "Ks" | "Pr" | "Pm" | "d" | "Tr" => {
-            if !all(|x| (-ROUNDED..=1.0 + ROUNDED).contains(&x)) {
-                notes.add(
-                    place,
-                    format!("`{word}` outside of 0 to 1 is taken as the nearer of the two"),
-                );
-            }
-        }
-        "Ns" => {
-            if !all(|x| x >= 0.0) {
-                notes.add(place, "`Ns` below 0 is taken as 0");
-            }
-        }
-        "illum" => {
-            if !all(|x| (0.0..=MODELS).contains(&x) && x.fract() == 0.0) {
-                notes.add(
-                    place,
-                    "`illum` that is no whole number from 0 to 10 is passed by, and the material is no glass and no mirror for it",
-                );
-            }
-        }
-        _ => {}
+    let (is_inside, problem): (fn(f32) -> bool, _) = match word {
+        "Kd" | "Ks" | "Pr" | "Pm" | "d" | "Tr" => (
+            |x| (-ROUNDED..=1.0 + ROUNDED).contains(&x),
+            "outside of 0 to 1 is taken as the nearer of the two",
+        ),
+        "Ns" => (|x| x >= 0.0, "below 0 is taken as 0"),
+        "illum" => (
+            |x| (0.0..=MODELS).contains(&x) && x.fract() == 0.0,
+            "that is no whole number from 0 to 10 is passed by",
+        ),
+        _ => return,
+    };
+    if !values.iter().all(|&value| is_inside(value)) {
+        notes.add(place, format!("`{word}` {problem}"));
     }
 }
 
