@@ -43,6 +43,7 @@ mod pbrt_in;
 mod pfm;
 mod picture_file;
 mod ply_in;
+mod polygon;
 mod profile;
 mod radiance_hdr;
 mod random;

@@ -10,6 +10,7 @@ use super::super::frame::emits;
 use super::super::glow::Glow;
 use super::super::model::{Material, Mesh, Node, Primitive, SceneData};
 use super::super::notes::{Notes, Place};
+use super::super::polygon::cut;
 use super::super::read_file::read_unpacked;
 use super::lines::{Lines, numbers, shown, split};
 use super::mtl::Library;
@@ -50,7 +51,9 @@ struct Reading<'a> {
     parts: Vec<((u32, u32), Vec<Face>)>,
     by_part: HashMap<(u32, u32), usize>,
     triangles: u64,
+    /// Of the face that is read.
     corners: Vec<Corner>,
+    places: Vec<[f32; 3]>,
 }
 
 /// Reads all of a file into a scene.
@@ -74,6 +77,7 @@ pub(super) fn read(
         by_part: HashMap::new(),
         triangles: 0,
         corners: Vec::new(),
+        places: Vec::new(),
     };
     let mut library = Library::default();
     let (mut object, mut group, mut material) = (String::new(), String::new(), String::new());
@@ -282,9 +286,12 @@ impl Reading<'_> {
                 "faces that name normals that are not before them are read without normals; export the file again, or with its normals",
             );
         }
+        let places = &mut self.places;
+        places.clear();
+        places.extend((corners.iter()).map(|&(vertex, _, _)| self.positions[vertex as usize]));
         let faces = &mut self.parts[part].1;
-        for pair in corners[1..].windows(2) {
-            let triangle = [corners[0], pair[0], pair[1]];
+        cut(places, |triangle| {
+            let triangle = triangle.map(|k| corners[k]);
             let normals = triangle.map(|(_, _, normal)| normal.map(|n| self.normals[n as usize]));
             let normal = match normals {
                 [Some(a), Some(b), Some(c)] => Some([0, 1, 2].map(|i| a[i] + b[i] + c[i])),
@@ -295,7 +302,7 @@ impl Reading<'_> {
                 coordinates: triangle.map(|(_, texture, _)| texture.unwrap_or(NONE)),
                 normal,
             });
-        }
+        });
         self.triangles += corners.len() as u64 - 2;
         self.corners = corners;
         if self.triangles > MAX_TRIANGLES {

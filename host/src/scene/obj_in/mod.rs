@@ -1,7 +1,7 @@
 //! Wavefront OBJ in, with its MTL libraries.
 //!
 //! Read:
-//! - polygons, cut into triangles around their first vertex; indices from 1, or negative ones from the end; lines that go on after `\`;
+//! - polygons, cut into triangles, also concave ones; indices from 1, or negative ones from the end; lines that go on after `\`;
 //! - objects and groups, each a node of its own with a primitive for each material: a mesh light is what a group has of a material that emits;
 //! - `Kd`, `Ks` of mirrors (`illum` 3 and 5), `Ns` and `Pr` as roughness, `Pm` as metallic, `d` and `Tr`, glass (`illum` 4, 6, 7 and 9), `Ke`;
 //! - `map_Kd` with the opacity of `map_d`, and `map_Ke`, which are shown; lights have the mean of `map_Ke` over each triangle.

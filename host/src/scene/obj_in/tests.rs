@@ -510,3 +510,21 @@ fn many_lamps_of_one_picture() {
             .all(|[r, g, b]| (r - 1.0).abs() < 1e-6 && g < 1e-3 && b < 1e-3)
     );
 }
+
+/// A dart shines with its area, to one side, wherever it begins.
+#[test]
+fn concave_faces_emit_with_their_area() {
+    for face in ["1 2 3 4", "2 3 4 1", "3 4 1 2", "4 1 2 3"] {
+        let text =
+            format!("mtllib room.mtl\nusemtl glow\nv -2 2 2\nv 0 2 0.5\nv 2 2 2\nv 0 2 -2\nf {face}\n");
+        let scene = read("dart", &text, LIBRARY).expect("valid");
+        let primitive = &scene.data().meshes[0].primitives[0];
+        let heights: Vec<f32> = (primitive.triangles.iter())
+            .map(|triangle| {
+                let [a, b, c] = triangle.map(|k| primitive.positions[k as usize]);
+                0.5 * ((b[2] - a[2]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[2] - a[2]))
+            })
+            .collect();
+        assert_eq!(heights, [2.5; 2], "{face}");
+    }
+}

@@ -2,6 +2,7 @@
 
 use super::super::check::MAX_TRIANGLES;
 use super::super::error::SceneError;
+use super::super::polygon::cut;
 use super::header::{Element, Format, Header, Number};
 use super::{PlyMesh, malformed};
 
@@ -59,6 +60,7 @@ pub(super) fn read(path: &str, header: &Header, body: &[u8]) -> Result<PlyMesh, 
         rest: body,
     };
     let mut out = PlyMesh::default();
+    let mut polygons = Vec::new();
     for element in &header.elements {
         let least = element.least_bytes(header.format);
         // The last number of a text needs nothing after it.
@@ -81,8 +83,8 @@ pub(super) fn read(path: &str, header: &Header, body: &[u8]) -> Result<PlyMesh, 
         }
         match element.name.as_str() {
             "vertex" => vertices(path, element, &mut numbers, &mut out)?,
-            "face" => faces(path, element, &mut numbers, &mut out, false)?,
-            "tristrips" => faces(path, element, &mut numbers, &mut out, true)?,
+            "face" => faces(path, element, &mut numbers, &mut out, Some(&mut polygons))?,
+            "tristrips" => faces(path, element, &mut numbers, &mut out, None)?,
             _ => pass(path, element, &mut numbers)?,
         }
     }
@@ -97,7 +99,27 @@ pub(super) fn read(path: &str, header: &Header, body: &[u8]) -> Result<PlyMesh, 
             "the file is damaged; export it again",
         ));
     }
+    cut_again(&polygons, &mut out);
     Ok(out)
+}
+
+/// Cuts polygons that are fans, once all vertices are there: they may come after the faces.
+fn cut_again(polygons: &[Fan], out: &mut PlyMesh) {
+    let (mut corners, mut places) = (Vec::new(), Vec::new());
+    for fan in polygons {
+        let triangles = &mut out.triangles[fan.first as usize..][..fan.count as usize];
+        corners.clear();
+        corners.extend_from_slice(&triangles[0][..2]);
+        corners.extend(triangles.iter().map(|triangle| triangle[2]));
+        places.clear();
+        places.extend(corners.iter().map(|&vertex| out.positions[vertex as usize]));
+        let mut next = triangles.iter_mut();
+        cut(&places, |triangle| {
+            if let Some(place) = next.next() {
+                *place = triangle.map(|k| corners[k]);
+            }
+        });
+    }
 }
 
 fn ends(path: &str, element: &Element, index: u64) -> SceneError {
@@ -166,14 +188,22 @@ fn vertices(
     Ok(())
 }
 
-/// Faces as fans, or `strips` of triangles, of which every second one turns the other way and -1 begins another.
+/// Triangles around the first vertex of a polygon.
+struct Fan {
+    first: u32,
+    count: u32,
+}
+
+/// Faces as fans, which `polygons` lists where they are more than a triangle. Without it, strips of triangles, of which every second one turns
+/// the other way and -1 begins another.
 fn faces(
     path: &str,
     element: &Element,
     numbers: &mut Numbers<'_>,
     out: &mut PlyMesh,
-    strips: bool,
+    mut polygons: Option<&mut Vec<Fan>>,
 ) -> Result<(), SceneError> {
+    let strips = polygons.is_none();
     for index in 0..element.count {
         let ends = || ends(path, element, index);
         for property in &element.properties {
@@ -187,6 +217,7 @@ fn faces(
                 continue;
             }
             let count = whole(count).ok_or_else(ends)?;
+            let begin = out.triangles.len() as u32;
             let (mut first, mut before, mut k) = (0, 0, 0);
             for _ in 0..count {
                 let vertex = numbers.next(property.number);
@@ -213,6 +244,14 @@ fn faces(
                     what: "triangles",
                     count: out.triangles.len() as u64,
                     limit: MAX_TRIANGLES,
+                });
+            }
+            if let Some(polygons) = &mut polygons
+                && count > 3
+            {
+                polygons.push(Fan {
+                    first: begin,
+                    count: count - 2,
                 });
             }
         }

@@ -141,3 +141,35 @@ fn other_versions_are_refused_by_name() {
         "{error}"
     );
 }
+
+/// A dart is cut at its notch, wherever it begins, and where vertices come after faces; other faces stay as they are.
+#[test]
+fn concave_faces_are_cut_at_their_notch() {
+    let vertices = "-2 2 0\n0 0.5 0\n2 2 0\n0 -2 0\n9 9 9\n";
+    let faces = "4 0 1 2 3\n3 0 1 4\n4 2 3 0 1\n4 3 2 1 0\n";
+    let head = [
+        "element vertex 5\nproperty float x\nproperty float y\nproperty float z\n",
+        "element face 4\nproperty list uchar int vertex_indices\n",
+    ];
+    let begin = "ply\nformat ascii 1.0\n";
+    for text in [
+        format!("{begin}{}{}end_header\n{vertices}{faces}", head[0], head[1]),
+        format!("{begin}{}{}end_header\n{faces}{vertices}", head[1], head[0]),
+    ] {
+        let mesh = PlyMesh::parse("t.ply", text.as_bytes()).expect("valid");
+        assert_eq!(mesh.triangles[2], [0, 1, 4]);
+        assert_eq!(mesh.triangles.len(), 7);
+        let area = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|k| mesh.positions[k as usize]);
+            0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+        };
+        // Clockwise, but for the last.
+        for (pair, sign) in [
+            (&mesh.triangles[0..2], -1.0),
+            (&mesh.triangles[3..5], -1.0),
+            (&mesh.triangles[5..7], 1.0),
+        ] {
+            assert_eq!([area(&pair[0]), area(&pair[1])], [2.5 * sign; 2]);
+        }
+    }
+}
