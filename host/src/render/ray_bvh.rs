@@ -1,6 +1,7 @@
 //! The ray BVH: built by `obvhs`, laid out for the kernels' walk.
 
 mod copies;
+mod ploc;
 
 use glam::Vec3A;
 use lightbvh_kernels::shading::grid::{MAX_COORDINATE, STEP, snap};
@@ -11,10 +12,10 @@ use lightbvh_kernels::shading::trace::{
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::build_bvh2_from_tris;
+use obvhs::bvh2::leaf_collapser::collapse;
+use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::triangle::Triangle;
 use std::ops::Range;
-use std::time::Duration;
 
 /// Boxes grow by this part of the scene's largest coordinate: two units in its last place, more than the ray-triangle
 /// test errs on hits of rays that begin within some thousand sizes of the scene, so that no box hides those.
@@ -129,8 +130,8 @@ fn snap_triangle(index: usize, triangle: &SurfaceTriangle) -> Result<SurfaceTria
     Ok(snapped)
 }
 
-/// PLOC (D. Meister and J. Bittner, "Parallel Locally-Ordered Clustering for Bounding Volume Hierarchy Construction",
-/// 2018) with some reinsertion; one thread, so always the same tree.
+/// PLOC with some reinsertion; one thread, so always the same tree. Where PLOC finds triangles too hard, reinsertion would take as long, and
+/// gain nothing.
 fn build(triangles: &[SurfaceTriangle]) -> Bvh2 {
     let mut corners: Vec<Triangle> = triangles
         .iter()
@@ -141,12 +142,15 @@ fn build(triangles: &[SurfaceTriangle]) -> Bvh2 {
         })
         .collect();
     copies::spread(&mut corners);
-    let params = BvhBuildParams {
-        max_prims_per_leaf: LANES as u32,
-        collapse_traversal_cost: NODE_COST,
-        ..BvhBuildParams::fast_build()
-    };
-    build_bvh2_from_tris(&corners, params, &mut Duration::default())
+    let built = ploc::build(&corners);
+    let is_hard = built.is_hard();
+    let mut bvh = built.bvh;
+    if !is_hard {
+        let part = BvhBuildParams::fast_build().reinsertion_batch_ratio;
+        ReinsertionOptimizer::default().run(&mut bvh, part, None);
+    }
+    collapse(&mut bvh, LANES as u32, NODE_COST);
+    bvh
 }
 
 /// The binary tree as the walk's: its leaves in their order, and nodes over runs of them.
@@ -374,5 +378,26 @@ mod tests {
         sources.retain(|&source| source != NONE);
         sources.sort_unstable();
         assert!(sources.iter().copied().eq(0..triangles.len() as u32));
+    }
+
+    /// Of triangles around one corner, which PLOC does not merge in time, each is met.
+    #[test]
+    fn triangles_of_a_large_fan_are_met() {
+        let count = 4000;
+        let at = |k: usize| [k as f32, 0.0, if k % 2 == 1 { 8000.0 } else { 4000.0 }];
+        let triangle = |k: usize| SurfaceTriangle {
+            p: [[0.0; 3], at(k), at(k + 1)],
+            material: k as u32,
+            light: NONE,
+            instance: NONE,
+        };
+        let triangles: Vec<_> = (1..=count).map(triangle).collect();
+        let rays = RayBvh::build(&triangles).expect("a ray BVH");
+        assert_eq!(rays.triangles().count(), count);
+        for triangle in &triangles {
+            let [a, b, c] = triangle.p.map(Vec3::from);
+            let ray = Ray::new((a + b + c) / 3.0 + Vec3::Y, Vec3::NEG_Y, FAR);
+            assert_eq!(closest_hit(&rays.surfaces(), &ray).t, 1.0);
+        }
     }
 }

@@ -16,7 +16,7 @@ type Place = [f64; 2];
 ///
 /// It is the fan around the first corner, unless that turns a triangle over. Then ears are cut (G. Meisters, "Polygons Have Ears", 1975). The
 /// plane is that of two axes, across which Newell's normal is longest, so places and the signs of areas are all but exact. The triangles cover
-/// a simple polygon once, also one that touches itself. Of others, and of those without an area, they are some.
+/// a simple polygon once, also one to whose outline seams join holes. Of others, and of those without an area, they are some.
 ///
 /// Time is in proportion to `n log n`: what is left after [`Notches`] has looked into as many boxes as it may is a fan.
 pub(super) fn cut(corners: &[[f32; 3]], mut take: impl FnMut([usize; 3])) {
@@ -121,9 +121,6 @@ impl Ring {
                 for beside in [before, after] {
                     rounds[beside] += 1;
                     line.push_back((beside, rounds[beside]));
-                    if self.turn_at(beside) > 0.0 {
-                        self.notches.remove(beside);
-                    }
                 }
             }
         }
@@ -160,21 +157,6 @@ impl Ring {
             return false;
         }
         let triangle = [before, corner, after].map(|corner| self.places[corner]);
-        let Self {
-            places,
-            before,
-            after,
-            notches,
-        } = self;
-        // A polygon that touches itself has other corners where one of the triangle's is. They do no harm unless it lies beyond their edges.
-        let enters = |notch: usize| {
-            let beside = [before[notch], after[notch]].map(|corner| places[corner]);
-            let Some(k) = triangle.iter().position(|&place| place == places[notch]) else {
-                return false;
-            };
-            let [here, next, last] = [0, 1, 2].map(|step| triangle[(k + step) % 3]);
-            (beside.iter()).any(|&place| turn([here, next, place]) > 0.0 && turn([last, here, place]) > 0.0)
-        };
-        !notches.any_in(triangle, strictly, enters)
+        !self.notches.any_in(triangle, strictly)
     }
 }

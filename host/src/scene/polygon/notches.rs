@@ -3,22 +3,18 @@
 use super::{Place, turn};
 
 /// Boxes that are looked into for each corner of a polygon.
-const MOST_LOOKS: usize = 1024;
+pub(super) const MOST_LOOKS: usize = 1024;
 
 /// A part of lengths, more than their products and sums are rounded by.
 const ROUNDING: f64 = 1.0 / (1_u64 << 40) as f64;
 
-/// The corners at which a polygon does not turn to the left: one lies in a triangle of three others where any corner does. Boxes around them
-/// are the nodes of a binary tree, whose root is 1 and where those below `k` are `2 k` and `2 k + 1`.
+/// The corners at which a polygon does not turn to the left: one lies in a triangle of three others where any corner does. They are those of
+/// the whole polygon; one that turns to the left later, or is cut, does no harm. Boxes around them are the nodes of a binary tree, whose root
+/// is 1 and where those below `k` are `2 k` and `2 k + 1`.
 pub(super) struct Notches {
-    /// Around those that there still are.
     boxes: Vec<Upright>,
-    /// Around all that there were; of leaves there are none.
+    /// Of nodes that are no leaves.
     slanted: Vec<Slanted>,
-    /// By corner its leaf, 0 of none.
-    leaves: Vec<u32>,
-    /// By leaf, from the first one on, its corner.
-    corners: Vec<usize>,
     looks: usize,
     stack: Vec<usize>,
 }
@@ -46,8 +42,6 @@ impl Notches {
         let mut notches = Self {
             boxes: vec![Upright::NOTHING; 2 * room],
             slanted: vec![Slanted::default(); room],
-            leaves: vec![0; places.len()],
-            corners: vec![0; room],
             looks: MOST_LOOKS * places.len(),
             stack: Vec::new(),
         };
@@ -62,13 +56,11 @@ impl Notches {
         };
         if self.is_leaf(node) {
             self.boxes[node] = Upright::around(places[corner]);
-            self.leaves[corner] = node as u32;
-            let leaf = node - self.slanted.len();
-            self.corners[leaf] = corner;
             return;
         }
         let all = corners.iter().map(|&corner| Upright::around(places[corner]));
         let around = all.fold(Upright::NOTHING, Upright::union);
+        self.boxes[node] = around;
         let extent = [0, 1].map(|axis| around.high[axis] - around.low[axis]);
         let axis = usize::from(extent[1] > extent[0]);
         let along = |a: &usize, b: &usize| places[*a][axis].total_cmp(&places[*b][axis]).then(a.cmp(b));
@@ -88,38 +80,15 @@ impl Notches {
         };
         self.arrange(2 * node, places, low);
         self.arrange(2 * node + 1, places, high);
-        self.fit(node);
     }
 
     fn is_leaf(&self, node: usize) -> bool {
         node >= self.slanted.len()
     }
 
-    fn fit(&mut self, node: usize) {
-        self.boxes[node] = self.boxes[2 * node].union(self.boxes[2 * node + 1]);
-    }
-
-    /// Where a polygon turns to the left at last.
-    pub(super) fn remove(&mut self, corner: usize) {
-        let mut node = std::mem::take(&mut self.leaves[corner]) as usize;
-        if node == 0 {
-            return;
-        }
-        self.boxes[node] = Upright::NOTHING;
-        while node > 1 {
-            node /= 2;
-            self.fit(node);
-        }
-    }
-
-    /// Whether one lies in a triangle that turns to the left, or may as there were too many looks. Those on its edges do not count unless
-    /// `edges_also`, of those where its corners are `enters` tells.
-    pub(super) fn any_in(
-        &mut self,
-        triangle: [Place; 3],
-        edges_also: bool,
-        enters: impl Fn(usize) -> bool,
-    ) -> bool {
+    /// Whether one lies in a triangle that turns to the left, or may as there were too many looks. Those where its corners are do not count, nor
+    /// those on its edges unless `edges_also`.
+    pub(super) fn any_in(&mut self, triangle: [Place; 3], edges_also: bool) -> bool {
         self.stack.clear();
         self.stack.push(1);
         while let Some(node) = self.stack.pop() {
@@ -132,8 +101,7 @@ impl Notches {
                 continue;
             }
             if self.is_leaf(node) {
-                let corner = self.corners[node - self.slanted.len()];
-                if !triangle.contains(&around.low) || enters(corner) {
+                if !triangle.contains(&around.low) {
                     return true;
                 }
             } else if !self.slanted[node].misses(triangle) {
@@ -143,9 +111,10 @@ impl Notches {
         false
     }
 
+    /// Boxes that may still be looked into.
     #[cfg(test)]
     pub(super) fn looks(&self) -> usize {
-        MOST_LOOKS * self.leaves.len() - self.looks
+        self.looks
     }
 }
 
