@@ -140,8 +140,8 @@ impl Ring {
         self.turn_of([self.before[corner], corner, self.after[corner]])
     }
 
-    /// Whether the triangle of a corner and the two beside it lies in the polygon. `strictly`, it has an area, no other corner is on its edges
-    /// and it leaves none without an area.
+    /// Whether the triangle of a corner and the two beside it lies in the polygon. `strictly`, it has an area and so has what it
+    /// leaves.
     fn is_ear(&mut self, corner: usize, strictly: bool) -> bool {
         let (before, after) = (self.before[corner], self.after[corner]);
         let area = self.turn_of([before, corner, after]);
@@ -157,6 +157,6 @@ impl Ring {
             return false;
         }
         let triangle = [before, corner, after].map(|corner| self.places[corner]);
-        !self.notches.any_in(triangle, strictly)
+        !self.notches.any_in(triangle)
     }
 }

@@ -86,9 +86,9 @@ impl Notches {
         node >= self.slanted.len()
     }
 
-    /// Whether one lies in a triangle that turns to the left, or may as there were too many looks. Those where its corners are do not count, nor
-    /// those on its edges unless `edges_also`.
-    pub(super) fn any_in(&mut self, triangle: [Place; 3], edges_also: bool) -> bool {
+    /// Whether one lies in a triangle that turns to the left, or on its edges, or may as there were too many looks. Those where its corners are
+    /// do not count.
+    pub(super) fn any_in(&mut self, triangle: [Place; 3]) -> bool {
         self.stack.clear();
         self.stack.push(1);
         while let Some(node) = self.stack.pop() {
@@ -97,7 +97,7 @@ impl Notches {
             };
             self.looks = looks;
             let around = self.boxes[node];
-            if !around.meets(triangle, edges_also) {
+            if !around.meets(triangle) {
                 continue;
             }
             if self.is_leaf(node) {
@@ -138,8 +138,8 @@ impl Upright {
         }
     }
 
-    /// Whether it may have a place in common with a triangle; exact where it has no size. `edges_also` counts those on the triangle's edges.
-    fn meets(self, [a, b, c]: [Place; 3], edges_also: bool) -> bool {
+    /// Whether it may have a place in common with a triangle; exact where it has no size.
+    fn meets(self, [a, b, c]: [Place; 3]) -> bool {
         let Self { low, high } = self;
         let apart = [0, 1].iter().any(|&axis| {
             a[axis].max(b[axis]).max(c[axis]) < low[axis] || high[axis] < a[axis].min(b[axis]).min(c[axis])
@@ -148,8 +148,7 @@ impl Upright {
             // Its place that is farthest to the left of the edge.
             let x = if to[1] > from[1] { low[0] } else { high[0] };
             let y = if to[0] > from[0] { high[1] } else { low[1] };
-            let area = turn([from, to, [x, y]]);
-            area > 0.0 || area == 0.0 && edges_also
+            turn([from, to, [x, y]]) >= 0.0
         };
         !apart && reaches(a, b) && reaches(b, c) && reaches(c, a)
     }

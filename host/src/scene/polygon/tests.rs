@@ -357,10 +357,17 @@ fn work_is_bounded() {
         let mut ring = Ring::new(places);
         let mut area = 0.0;
         let all = ring.places.clone();
-        ring.cut(|triangle| area += turn(triangle.map(|k| all[k])).abs());
+        let mut around = vec![0; count];
+        ring.cut(|triangle| {
+            area += turn(triangle.map(|k| all[k])).abs();
+            for corner in triangle {
+                around[corner] += 1;
+            }
+        });
         let expected = doubled_area(&all);
         assert!((area - expected).abs() <= expected * count as f64 * f64::EPSILON);
-        notches::MOST_LOOKS as f64 - ring.notches.looks() as f64 / count as f64
+        let looks = notches::MOST_LOOKS as f64 - ring.notches.looks() as f64 / count as f64;
+        (looks, around.into_iter().max().unwrap_or(0))
     };
     for [a, b] in [[1.0, 0.0], [1.0, 1.0], [3.0, 1.0]] {
         let turned = |[x, y]: Place| [a * x - b * y, b * x + a * y];
@@ -369,9 +376,11 @@ fn work_is_bounded() {
             places.reverse();
             looks(places)
         });
-        assert!(few <= 32.0 && many <= few + 16.0, "{few} {many}");
+        assert!(few.0 <= 32.0 && many.0 <= few.0 + 16.0, "{few:?} {many:?}");
     }
     let mut random = Random::new(4);
     let [few, many] = [1000, 16_000].map(|count| looks(round(count, |_| random.between(0.01, 1.0))));
-    assert!(few <= 64.0 && many <= 4.0 * few, "{few} {many}");
+    assert!(few.0 <= 64.0 && many.0 <= 4.0 * few.0, "{few:?} {many:?}");
+    // Nor are there many triangles around one corner.
+    assert!(few.1 <= 32 && many.1 <= 32, "{few:?} {many:?}");
 }
