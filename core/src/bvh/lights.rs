@@ -21,10 +21,11 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.live(instance).map(|placed| placed.lights.clone())
     }
 
-    /// One more than the greatest number of a light that is in use, or that waits until removed lights are taken.
+    /// One more than the greatest number of a light that is in use, or among the [removed](Self::removed_lights).
     #[must_use]
     pub fn light_end(&self) -> u32 {
-        self.lights.used_end()
+        let forgotten = self.removed_lights.first().filter(|_| self.forgotten);
+        self.lights.used_end().max(forgotten.map_or(0, |all| all.end))
     }
 
     /// Light `light` of the instance of index `instance` in the world, as a [`SampledLight`](crate::SampledLight) names them; `None` where there is
@@ -181,8 +182,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             .light_count
             .min(MAX_LIGHTS.saturating_sub(self.light_count) / 2);
         if self.waiting_lights > LEAST_WAITING.max(most) {
-            // Those that wait are in use until they are taken.
-            let end = self.lights.used_end();
+            // Those that wait are in use until they are taken, and what was forgotten before has not been told.
+            let end = self.light_end();
             self.take_removed_lights();
             self.removed_lights.push(0..end);
             self.forgotten = true;

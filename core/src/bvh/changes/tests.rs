@@ -434,3 +434,36 @@ fn removed_lights_that_were_taken_wait_no_more() {
         assert_eq!(bvh.take_removed_lights().len(), 60);
     }
 }
+
+/// Forgotten twice, the second time with fewer numbers in use: those of the first time were never told, and new lights got them.
+#[test]
+fn what_was_forgotten_before_is_told() {
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(std::vec![lamp(); 1000]).expect("a mesh");
+    let add = |count: usize| {
+        let one = Edit::AddInstance {
+            mesh,
+            transform: Transform::IDENTITY,
+            radiance: 1.0,
+        };
+        std::vec![one; count]
+    };
+    let remove = |ids: &[InstanceId]| ids.iter().map(|&id| Edit::RemoveInstance(id)).collect::<Vec<_>>();
+    let ids = bvh.apply(add(201)).expect("instances").instances;
+    bvh.apply(remove(&ids[1..])).expect("there");
+    assert!(bvh.forgotten);
+    let told = bvh.removed_lights()[0].end;
+    assert!(told >= 66_000, "{told}");
+    for _ in 0..2 {
+        let ids = bvh.apply(add(70)).expect("instances").instances;
+        bvh.apply(remove(&ids)).expect("there");
+    }
+    let read = LightBvh::from_words(&bvh.to_words()).expect("its own");
+    assert_eq!(read.removed_lights(), bvh.removed_lights());
+    let all = bvh.take_removed_lights();
+    // Each number that went is in one of the ranges.
+    assert!(
+        (1000..201_000).all(|light| all.iter().any(|range| range.contains(&light))),
+        "{all:?}"
+    );
+}

@@ -30,7 +30,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             blases: self.blases.len() as u32,
             meshes: self.meshes.len() as u32,
             instances: self.placed.len() as u32,
-            lights: self.written_end(),
+            lights: self.light_end(),
             removed: self.removed_lights.len() as u32,
             top_root: self.top.root,
             top_nodes: self.top.nodes.len() as u32,
@@ -61,12 +61,6 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         self.write_triangles_to(&mut words);
         words[LENGTH] = words.len() as u32;
         words
-    }
-
-    /// One more than the greatest number of a light that is in use, waits, or is said to be forgotten. Numbers that are free beyond are as good as new ones.
-    fn written_end(&self) -> u32 {
-        let forgotten = self.removed_lights.first().filter(|_| self.forgotten);
-        self.lights.used_end().max(forgotten.map_or(0, |all| all.end))
     }
 
     fn write_bottoms(&self, words: &mut Vec<u32>) {

@@ -21,6 +21,9 @@ const LOOKED_AT: usize = 16;
 
 /// Instances that are noted because they were moved, at most: beside more of them parts are tried in any case.
 const MOVED: usize = 1024;
+/// What lies elsewhere is farther from the others than it was, in squared distance: of those that move together some are ahead of the rest.
+#[cfg(feature = "std")]
+const FARTHER: f64 = 2.0;
 /// Where an instance is said to have been put that had no flux, metres along each axis: farther off than any light.
 const NOWHERE: f32 = 1e18;
 
@@ -63,7 +66,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             let few = self.meshes[mesh].users.len() <= FEW;
             for user in 0..self.meshes[mesh].users.len() {
                 let index = self.meshes[mesh].users[user];
-                if !is_known && self.placed[index as usize].hung_center[0] != NOWHERE {
+                // Known once more: where each was put is told by itself.
+                if !is_known && self.placed[index as usize].hung_center[0].is_nan() {
                     continue;
                 }
                 if few {
@@ -87,15 +91,37 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         let blas = self.meshes[placed.mesh as usize].blas;
         if self.root_of(blas).phi() <= 0.0 {
+            self.lose_center(blas);
             self.placed[index as usize].hung_center = [NOWHERE; 3];
-            self.blases[blas as usize].center = [f32::NAN; 3];
+        }
+    }
+
+    /// The centre of a mesh is no longer what tells where its instances were put: each keeps that for itself, and is noted once the mesh shines.
+    fn lose_center(&mut self, blas: u32) {
+        let own = &mut self.blases[blas as usize];
+        let was = core::mem::replace(&mut own.center, [f32::NAN; 3]);
+        let users = &self.meshes[own.mesh as usize].users;
+        if was[0].is_nan() || users.len() > FEW {
+            return;
+        }
+        for &user in users {
+            let center = self.instances[user as usize].vertex(was);
+            let placed = &mut self.placed[user as usize];
+            if placed.hung_center[0].is_nan() {
+                placed.hung_center = center;
+            }
         }
     }
 
     /// An instance that was moved, and that lies no farther from what is beside it by a single step, is looked at as a frame begins: one that walks through a
     /// scene is never far from where it was a step before.
     pub(super) fn note_moved(&mut self, index: u32) {
-        if self.placed[index as usize].node != INVALID && self.top.strayed.len() < MOVED {
+        if self.top.strayed.len() >= MOVED || self.placed[index as usize].node == INVALID {
+            return;
+        }
+        // Dark ones are nowhere.
+        let blas = self.blas_index(&self.placed[index as usize]);
+        if self.instances[index as usize].flux > 0.0 && self.root_of(blas).phi() > 0.0 {
             self.top.strayed.insert(index);
         }
     }
@@ -132,6 +158,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             let changed = self.blases[blas as usize].changed;
             if self.was_brighter(blas) > DIM && looked.epoch.is_none_or(|since| changed > since) {
                 later.push(index);
+                continue;
+            }
+            if self.root_of(blas).phi() <= 0.0 {
+                self.lose_center(blas);
                 continue;
             }
             if self.lies_elsewhere(index) {
@@ -181,7 +211,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         // Flux, flux times centre, and flux times squared distance from where it was.
         let mut phi = f64::from(own.phi());
         let (mut first, mut second) = ([0.0; 3], phi * f64::from(own.spread()));
-        for slot in (0..W).filter(|&slot| slot != placed.slot as usize && node.kind(slot) != kind::EMPTY) {
+        // Those that are nowhere themselves go elsewhere too.
+        let is_there = |slot: usize| {
+            node.kind(slot) != kind::MESH || self.placed[node.link(slot) as usize].hung_center[0] != NOWHERE
+        };
+        let others = (0..W).filter(|&slot| slot != placed.slot as usize && node.kind(slot) != kind::EMPTY);
+        for slot in others.filter(|&slot| is_there(slot)) {
             let other = node.summary(slot);
             let flux = f64::from(other.phi());
             let center = other.center().to_array().map(f64::from);
@@ -195,7 +230,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let others = phi - f64::from(own.phi());
         let middle = first.map(|x| if others > 0.0 { x / others } else { 0.0 });
         let now = [0, 1, 2].map(|k| is[k] - was[k]);
-        distance(is, was) > spread && distance(now, middle) > distance([0.0; 3], middle)
+        distance(is, was) > spread && distance(now, middle) > FARTHER * distance([0.0; 3], middle)
     }
 }
 

@@ -250,3 +250,58 @@ fn an_instance_that_stays_while_another_jumps_is_not_forgotten() {
         assert!(found < 1.7, "{turn}: {found}");
     }
 }
+
+/// Another instance came in while the mesh was dark, and where the first one had been put was forgotten: 6 to 144 times.
+#[test]
+fn an_instance_is_not_forgotten_as_another_comes_in_dark() {
+    let to = [35.0, 30.0, 20.0];
+    for comes in [false, true] {
+        let (mut bvh, mesh) = scene(8);
+        let own = &mut rebuilder();
+        let of = |at: [f32; 3], radiance: f32| {
+            let mut all = cloud(8, at, 0);
+            all.iter_mut().for_each(|light| light.radiance = [radiance; 3]);
+            [0, 4].map(|first| Edit::SetTriangleRange {
+                mesh,
+                first,
+                triangles: all[first as usize..first as usize + 4].to_vec(),
+            })
+        };
+        frame(&mut bvh, own, of([-40.0; 3], 0.0).to_vec());
+        if comes {
+            walker(&mut bvh, mesh, 1.0, [400.0, 0.0, 0.0]);
+        }
+        frame(&mut bvh, own, Vec::new());
+        frame(&mut bvh, own, of(to, 3.0).to_vec());
+        assert!(bvh.top.strayed.contains(&500), "another {comes}");
+        rest(&mut bvh, own);
+        let found = over_new(&bvh, to);
+        assert!(found < 1.6, "{comes}: {found}");
+    }
+}
+
+/// Dark ones that move are nowhere: they were taken out and put in again, two in each frame.
+#[test]
+fn what_moves_in_the_dark_stays() {
+    let (mut bvh, _) = scene(8);
+    let mut dark = cloud(8, [0.0; 3], 0);
+    dark.iter_mut().for_each(|light| light.radiance = [0.0; 3]);
+    let mesh = bvh.add_mesh(dark).expect("a mesh");
+    let ids: Vec<_> = (0..20)
+        .map(|k| walker(&mut bvh, mesh, 1.0, [f32::from(k as u16), 0.0, 0.0]))
+        .collect();
+    let own = &mut rebuilder();
+    let stamp = bvh.epoch;
+    for k in 1..60_u16 {
+        let edits = ids.iter().map(|&instance| Edit::SetTransform {
+            instance,
+            transform: Transform::at([3.0 * f32::from(k), f32::from(instance.index() as u16), 0.0]),
+        });
+        frame(&mut bvh, own, edits.collect());
+        assert!(bvh.top.strayed.is_empty());
+    }
+    let put = ids
+        .iter()
+        .filter(|id| bvh.placed[id.index() as usize].hung > stamp);
+    assert_eq!(put.count(), 0);
+}
