@@ -4,7 +4,7 @@
 //! Such ones are shut in, and count where there is no other light.
 
 use glam::Vec3;
-use lightbvh::light::{AnyLight, Light, ProfileLight, SpotLight};
+use lightbvh::light::{AnyLight, Light, PointLight, ProfileLight, SpotLight};
 
 use super::super::frame::Frame;
 use super::super::scene_light::SceneLight;
@@ -20,7 +20,10 @@ const LIGHTS: usize = 64;
 const BACK_COUNTS: f64 = 0.2;
 
 /// Lamps that may be found to be shut in, at most: those with the brightest share.
-const ASKED: usize = 64;
+const ASKED: usize = 1024;
+
+/// Light that is no more than this part of all is none to see by.
+const FAINT: f64 = 1e-3;
 
 /// Lamps that stand off, at most: those with the brightest share.
 const FAR: usize = 16;
@@ -42,19 +45,21 @@ pub(super) fn fluxes(frame: &Frame, room: &Room, size: f64, is_under_sky: bool) 
             open[index] = 0.0;
         }
     }
-    if is_under_sky || open.iter().any(|&flux| flux > 0.0) {
+    let [left, sent] = [&open, &all].map(|fluxes| fluxes.iter().sum::<f64>());
+    if is_under_sky || left > FAINT * sent {
         open
     } else {
         all
     }
 }
 
-/// Lamps without size that stand beyond all that there is to see, which light it as suns do: they need not be in the image. Their flux is taken out of
-/// `fluxes`; those with the brightest share.
-pub(super) fn take_far(frame: &Frame, fluxes: &mut [f64]) -> Vec<AnyLight> {
+/// Lamps without size that stand beyond all that there is to see, which light it as suns do: those with the brightest share of those that shine all around, for
+/// where the others' light lands is found by their own cones. Their flux is taken out of `fluxes`, and that of all of them of what is returned beside: they need not
+/// be in the image.
+pub(super) fn take_far(frame: &Frame, fluxes: &mut [f64]) -> (Vec<AnyLight>, Vec<f64>) {
     let triangles = frame.triangles.iter().chain(&frame.clear);
     let Some((low, high)) = super::bounds(triangles.flat_map(|triangle| triangle.p)) else {
-        return Vec::new();
+        return (Vec::new(), fluxes.to_vec());
     };
     let middle = [0, 1, 2].map(|axis| 0.5 * (low[axis] + high[axis]));
     let reach = squared(sub(high, middle));
@@ -63,22 +68,35 @@ pub(super) fn take_far(frame: &Frame, fluxes: &mut [f64]) -> Vec<AnyLight> {
         let bounds = light.bounds();
         bounds.min == bounds.max && squared(sub(light.centroid().map(f64::from), middle)) > reach
     };
-    let others: Vec<f64> = (0..)
-        .zip(&frame.others)
-        .map(|(own, light)| if is_far(light) { fluxes[first + own] } else { 0.0 })
-        .collect();
-    let mut chosen: Vec<usize> = spread(&others, FAR).map(|(own, _)| own).collect();
-    chosen.dedup();
-    for (own, flux) in others.iter().enumerate() {
-        if *flux > 0.0 {
-            fluxes[first + own] = 0.0;
+    let mut seen = fluxes.to_vec();
+    let mut others = vec![0.0; frame.others.len()];
+    for (own, _) in frame.others.iter().enumerate().filter(|(_, light)| is_far(light)) {
+        seen[first + own] = 0.0;
+        if cone(frame, first + own).is_none() {
+            others[own] = std::mem::take(&mut fluxes[first + own]);
         }
     }
-    chosen.into_iter().map(|own| frame.others[own]).collect()
+    let mut chosen: Vec<usize> = spread(&others, FAR).map(|(own, _)| own).collect();
+    chosen.dedup();
+    (chosen.into_iter().map(|own| frame.others[own]).collect(), seen)
 }
 
 fn squared(v: [f64; 3]) -> f64 {
     dot(v, v)
+}
+
+/// The part of a lamp's light that is left so many metres from it, where it has a range: the window of glTF's `KHR_lights_punctual`.
+pub(super) fn left_at(frame: &Frame, index: usize, distance: f64) -> f64 {
+    let own = index.checked_sub(frame.emissive.len());
+    let Some(light) = own.and_then(|own| frame.others.get(own)) else {
+        return 1.0;
+    };
+    let point = PointLight::try_from(*light).map(|point| point.range);
+    let range = point.or_else(|_| SpotLight::try_from(*light).map(|spot| spot.range));
+    match range {
+        Ok(range) if range > 0.0 => (1.0 - (distance / f64::from(range)).powi(4)).max(0.0),
+        _ => 1.0,
+    }
 }
 
 /// The cosine of the cone about its axis that a lamp shines in, where it does.

@@ -56,7 +56,7 @@ pub(super) fn points(frame: &Frame, room: &Room, size: f64) -> Vec<Point> {
     let step = 1e-6 * size;
     let suns = suns(frame);
     let mut fluxes = lamps::fluxes(frame, room, size, !suns.is_empty());
-    let far = lamps::take_far(frame, &mut fluxes);
+    let (far, near) = lamps::take_far(frame, &mut fluxes);
     let (sent, flux) = sent(frame, room, &fluxes, step);
     let surface = on_surfaces(frame);
     let (sky, of_sky) = under_sky(room, &surface, &suns, &far, step);
@@ -66,7 +66,7 @@ pub(super) fn points(frame: &Frame, room: &Room, size: f64) -> Vec<Point> {
     add(&mut all, sent, landed);
     add(&mut all, sky, heaven);
     let lit: f64 = all.iter().map(|point| point.weight).sum();
-    let on_lamps = lamps::points(frame, &fluxes);
+    let on_lamps = lamps::points(frame, &near);
     add(
         &mut all,
         on_lamps,
@@ -140,7 +140,11 @@ fn sent(frame: &Frame, room: &Room, flux: &[f64], step: f64) -> (Vec<Point>, f64
         let point = Point {
             p: along(start, met.t, d),
             n: if is_back { met.n.map(|x| -x) } else { met.n },
-            weight: each * reflects(frame, met.material) * counts * of_side,
+            weight: each
+                * reflects(frame, met.material)
+                * counts
+                * of_side
+                * lamps::left_at(frame, index, met.t),
             size: 0.0,
             is_lit: true,
         };

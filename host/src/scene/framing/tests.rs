@@ -278,6 +278,23 @@ fn what_a_lamp_far_off_lights_fills_the_image() {
     assert!(!is_within(&view, low, high), "{view:?}");
 }
 
+/// Half of a room lies in the range of a dim lamp, the other half beyond that of a bright one, which lights nothing: the camera looked at that.
+#[test]
+fn beyond_its_range_a_lamp_lights_nothing() {
+    let floor = sheet([-20.0, 0.0, 5.0], [40.0, 0.0, 0.0], [0.0, 0.0, -10.0], GREY);
+    let table = cube([-13.0, 0.0, -1.0], [-11.0, 1.0, 1.0], GREY);
+    let lamps = [[-12.0, 3.0, 0.0], [12.0, 9.0, 0.0]];
+    let mut data = scene_with(vec![floor, table], &lamps, false).into_data();
+    data.analytic[0].range = Some(4.0);
+    data.analytic[1].range = Some(2.0);
+    data.analytic[1].intensity = 5000.0;
+    let view = Scene::new(data).expect("a sound scene").frame(0).camera;
+    let [x, y] = place(&view, [-12.0, 1.0, 0.0]).expect("the table is before the eye");
+    assert!(x.abs() < 16.0 / 9.0 && y.abs() < 1.0, "{view:?}");
+    let size = filled(&view, &[[-13.0, 0.0, 0.0], [-11.0, 0.0, 0.0]]);
+    assert!(size[0].max(size[1]) > 0.03, "{size:?}: {view:?}");
+}
+
 /// Light of a narrow spot was looked for in all directions, and not found.
 #[test]
 fn what_a_narrow_spot_lights_is_seen() {

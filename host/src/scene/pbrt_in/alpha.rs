@@ -36,7 +36,7 @@ impl Loader<'_> {
             self.note(&params.place, "shapes whose alpha is 0 are left out");
             return None;
         }
-        if is_inside && self.graphics.area.is_some() {
+        if share < 1.0 && self.graphics.area.is_some() {
             self.note(
                 &params.place,
                 "alpha of shapes that shine is left out; they are taken as opaque",
