@@ -1,7 +1,7 @@
 //! The lamps of a frame, as what there is to see and as what it is seen by.
 //!
 //! A point within a small closed mesh lights the inside of that mesh alone: programs place lamps so that let them shine through their own bulbs.
-//! Such ones are shut in, and count where there is no other light.
+//! Such ones are shut in, and count where there is no other light; so do those that have nothing in their range.
 
 use glam::Vec3;
 use lightbvh::light::{AnyLight, Light, PointLight, ProfileLight, SpotLight};
@@ -10,7 +10,7 @@ use super::super::frame::Frame;
 use super::super::scene_light::SceneLight;
 use super::points::{Point, luminance};
 use super::room::Room;
-use super::spread::{along, anywhere, area, inside, sequence, spread, unit};
+use super::spread::{along, anywhere, area, inside, sequence, spread, unit, within};
 use crate::vector::{dot, normal, sub};
 
 /// Points on lamps, at most.
@@ -41,7 +41,7 @@ pub(super) fn fluxes(frame: &Frame, room: &Room, size: f64, is_under_sky: bool) 
     asked.dedup();
     let mut open = all.clone();
     for index in asked {
-        if is_shut_in(frame, room, size, index) {
+        if is_shut_in(frame, room, size, index) || is_out_of_range(frame, room, size, index) {
             open[index] = 0.0;
         }
     }
@@ -105,6 +105,17 @@ pub(super) fn cone(frame: &Frame, index: usize) -> Option<f64> {
     let spot = SpotLight::try_from(*light).map(|spot| spot.cos_outer);
     let cosine = spot.or_else(|_| ProfileLight::try_from(*light).map(|profile| profile.cos_outer));
     cosine.ok().map(f64::from)
+}
+
+/// Whether a lamp has a range within which its rays meet nothing.
+fn is_out_of_range(frame: &Frame, room: &Room, size: f64, index: usize) -> bool {
+    left_at(frame, index, f64::INFINITY) == 0.0
+        && (0..RAYS).all(|i| {
+            let (p, axis) = point_on(frame, index, i);
+            let d = cone(frame, index).map_or(anywhere(i), |cosine| within(axis, cosine, i));
+            let met = room.meet(along(p, 1e-9 * size, d), d);
+            met.is_none_or(|met| left_at(frame, index, met.t) == 0.0)
+        })
 }
 
 /// Whether a lamp is a point that sends every ray to the back of something close by.
