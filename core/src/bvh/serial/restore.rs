@@ -121,14 +121,12 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         let waiting = &self.removed_lights[usize::from(self.forgotten)..];
         self.waiting_lights = waiting.iter().map(ExactSizeIterator::len).sum();
         used.extend_from_slice(waiting);
-        let end = used.iter().map(|range| range.end).max().unwrap_or(0);
-        let forgotten = self.removed_lights.first().filter(|_| self.forgotten);
-        if header.lights != end.max(forgotten.map_or(0, |all| all.end)) {
+        self.lights = taken(header.lights, used, "lights")?;
+        if header.lights != self.light_end() {
             return Err(ReadError::Places {
                 what: "the end of the lights' numbers",
             });
         }
-        self.lights = taken(header.lights, used, "lights")?;
         Ok(())
     }
 

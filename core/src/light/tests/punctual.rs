@@ -51,3 +51,26 @@ fn bounds_of_points_and_spots_are_closed_forms() {
         assert_eq!(bounds.cos_theta_e, 0.0);
     }
 }
+
+/// Straight behind its axis a profile of all directions sent nothing, where the direction was a little longer than 1.
+#[test]
+fn profiles_of_all_directions_have_no_hole_behind_them() {
+    let random = &mut Random(3);
+    for _ in 0..20_000 {
+        let axis = normalize(wide(random.vector()));
+        let profile = ProfileLight {
+            p: [0.0; 3],
+            intensity: [1.0; 3],
+            axis: axis.map(|x| x as f32),
+            cos_outer: -1.0,
+            ..ProfileLight::DARK
+        };
+        let far = 0.1 + 50.0 * f64::from(random.unit());
+        let from = narrow(times(axis, -far));
+        assert_eq!(
+            profile.point_for(from, [0.5; 2]).radiance,
+            [1.0; 3],
+            "{axis:?} {far}"
+        );
+    }
+}
