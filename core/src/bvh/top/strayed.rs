@@ -21,7 +21,8 @@ const LOOKED_AT: usize = 16;
 
 /// Instances that are noted because they were moved, at most: beside more of them parts are tried in any case.
 const MOVED: usize = 1024;
-/// What lies elsewhere is farther from the others than it was, in squared distance: of those that move together some are ahead of the rest.
+/// What lies elsewhere is farther from the others than it was, in squared distance, by this while it moves: of those that move together some are ahead of
+/// the rest for a while. Once it rests, 1.
 #[cfg(feature = "std")]
 const FARTHER: f64 = 2.0;
 /// Where an instance is said to have been put that had no flux, metres along each axis: farther off than any light.
@@ -153,10 +154,13 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             };
             self.top.strayed.remove(&index);
             looked.next = index + 1;
-            // One that blinks is where it is bright, unless it rests where it is dim.
             let blas = self.blas_index(&self.placed[index as usize]);
-            let changed = self.blases[blas as usize].changed;
-            if self.was_brighter(blas) > DIM && looked.epoch.is_none_or(|since| changed > since) {
+            let changed = self.blases[blas as usize]
+                .changed
+                .max(self.placed[index as usize].changed);
+            let rests = looked.epoch.is_some_and(|since| changed <= since);
+            // One that blinks is where it is bright, unless it rests where it is dim.
+            if self.was_brighter(blas) > DIM && !rests {
                 later.push(index);
                 continue;
             }
@@ -164,11 +168,14 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 self.lose_center(blas);
                 continue;
             }
-            if self.lies_elsewhere(index) {
+            let farther = if rests { 1.0 } else { FARTHER };
+            if self.lies_elsewhere(index, farther) {
                 let leaves = self.leaves_of(index);
                 out.extend(leaves.filter(|&leaf| self.placed[leaf as usize].node != INVALID));
                 // Where it is opened that is not said of its parts alone.
                 self.settle_placed(index);
+            } else if !rests {
+                later.push(index);
             }
         }
         self.top.strayed.extend(later);
@@ -185,10 +192,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.settle_some(crate::bvh::rebuild::ADOPTED);
     }
 
-    /// Whether an instance is farther from where it was put than its node was wide then, the others in it, and it where it was; and farther from the others
-    /// than it was: those that move together stay together. An opened one, of which each part has a node, where it is out of its own extent.
+    /// Whether an instance is farther from where it was put than its node was wide then, the others in it, and it where it was; and `farther` from the
+    /// others than it was, in squared distance: those that move together stay together. An opened one, of which each part has a node, where it is out of its own extent.
     #[cfg(feature = "std")]
-    fn lies_elsewhere(&self, index: u32) -> bool {
+    fn lies_elsewhere(&self, index: u32, farther: f64) -> bool {
         let placed = &self.placed[index as usize];
         let own = self.in_world(index);
         let (was, is) = (
@@ -230,7 +237,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let others = phi - f64::from(own.phi());
         let middle = first.map(|x| if others > 0.0 { x / others } else { 0.0 });
         let now = [0, 1, 2].map(|k| is[k] - was[k]);
-        distance(is, was) > spread && distance(now, middle) > FARTHER * distance([0.0; 3], middle)
+        distance(is, was) > spread && distance(now, middle) > farther * distance([0.0; 3], middle)
     }
 }
 
