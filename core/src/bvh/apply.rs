@@ -68,14 +68,17 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                     updated.instances.push(id);
                 }
                 Edit::SetTransform { instance, transform } => {
+                    self.note_dark(instance.index);
                     self.placed[instance.index as usize].transform = transform;
                     self.place(instance.index);
                     moved.push(instance.index);
                 }
                 Edit::SetRadiance { instance, radiance } => {
+                    let shone = self.placed[instance.index as usize].radiance > 0.0;
                     self.placed[instance.index as usize].radiance = radiance;
                     self.place(instance.index);
-                    if self.is_otherwise_bright(instance.index) {
+                    let has_moved_dark = !shone && radiance > 0.0 && self.has_moved(instance.index);
+                    if has_moved_dark || self.is_otherwise_bright(instance.index) {
                         moved.push(instance.index);
                         let placed = &self.placed[instance.index as usize];
                         if placed.radiance > placed.hung_radiance {

@@ -79,6 +79,52 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         const { Sampled::<N, I, W, T, P>::ALLOWED };
         self.arrays().sample_many_for(receiver, random)
     }
+
+    /// [`sample_batch`](Self::sample_batch) for such receivers; see [`LightTree::sample_batch_for`]. Features `simd` and `prefetch` are for points alone.
+    pub fn sample_batch_for<P: Receiver>(
+        &self,
+        receivers: &[P],
+        randoms: &[Random64],
+        sampled: &mut [SampledLight],
+    ) where
+        I: ImportanceModel<N, W, P>,
+    {
+        const { Sampled::<N, I, W, T, P>::ALLOWED };
+        self.arrays().sample_batch_for(receivers, randoms, sampled);
+    }
+}
+
+impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
+    /// [`pmf`](Self::pmf) for such a receiver: to the bit what comes with [`sample_for`](Self::sample_for).
+    #[must_use]
+    pub fn pmf_for<P: Receiver>(&self, receiver: &P, light: u32, instance: u32) -> f32
+    where
+        I: ImportanceModel<N, W, P>,
+    {
+        self.tree().pmf_for(receiver, light, instance)
+    }
+
+    /// [`pmf_of`](Self::pmf_of) for such a receiver.
+    #[must_use]
+    pub fn pmf_of_for<P: Receiver>(
+        &self,
+        receiver: &P,
+        instance: InstanceId,
+        triangle: u32,
+    ) -> Option<f32>
+    where
+        I: ImportanceModel<N, W, P>,
+    {
+        let light = self.light_of(instance, triangle)?;
+        Some(self.pmf_for(receiver, light, instance.index()))
+    }
+
+    /// The number of the light that is triangle `triangle` of an instance, as its mesh was given.
+    fn light_of(&self, instance: InstanceId, triangle: u32) -> Option<u32> {
+        let lights = self.lights_of(instance)?;
+        let light = lights.start.checked_add(triangle)?;
+        lights.contains(&light).then_some(light)
+    }
 }
 
 impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
@@ -100,17 +146,16 @@ impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
     /// ray hits it. `None` where there is no such instance, or its mesh has no such triangle.
     #[must_use]
     pub fn pmf_of(&self, point: &ShadingPoint, instance: InstanceId, triangle: u32) -> Option<f32> {
-        let lights = self.lights_of(instance)?;
-        let light = lights.start.checked_add(triangle)?;
-        lights
-            .contains(&light)
-            .then(|| self.pmf(point, light, instance.index()))
+        let light = self.light_of(instance, triangle)?;
+        Some(self.pmf(point, light, instance.index()))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use alloc::vec::Vec;
+
     use crate::kit::triangle;
     use crate::{LightBvh, Transform};
 
@@ -132,12 +177,21 @@ mod tests {
                 let pmf = bvh.pmf_of(&point, id, triangle).unwrap();
                 let light = lights.start + triangle;
                 assert_eq!(pmf.to_bits(), bvh.pmf(&point, light, id.index()).to_bits());
+                // A point is a receiver too.
+                assert_eq!(pmf, bvh.pmf_for(&point, light, id.index()));
+                assert_eq!(Some(pmf), bvh.pmf_of_for(&point, id, triangle));
                 sum += f64::from(pmf);
             }
             assert_eq!(bvh.pmf_of(&point, id, 40), None);
             assert_eq!(bvh.pmf_of(&point, id, u32::MAX), None);
         }
         assert!((sum - 1.0).abs() < 1e-6, "{sum}");
+        assert_eq!(bvh.pmf_of_for(&point, ids[0], 40), None);
+        let randoms: Vec<Random64> = (0..20_u32).map(|k| (k << 27).into()).collect();
+        let mut sampled = [[SampledLight::NONE; 20]; 2];
+        bvh.sample_batch(&[point; 20], &randoms, &mut sampled[0]);
+        bvh.sample_batch_for(&[point; 20], &randoms, &mut sampled[1]);
+        assert_eq!(sampled[0], sampled[1]);
         // A light of another instance has none.
         let first = bvh.lights_of(ids[0]).unwrap().start;
         assert_eq!(bvh.pmf(&point, first, ids[1].index()), 0.0);

@@ -114,6 +114,23 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
+    /// Before an instance is moved: where it was, where its node does not tell, for it has no flux.
+    pub(in crate::bvh) fn note_dark(&mut self, index: u32) {
+        let placed = &self.placed[index as usize];
+        let instance = &self.instances[index as usize];
+        if instance.flux <= 0.0 && placed.parts.is_empty() && placed.hung_center[0].is_nan() {
+            let center = self.blases[self.meshes[placed.mesh as usize].blas as usize].center;
+            // Not known either where the mesh has no flux.
+            self.placed[index as usize].hung_center = instance.vertex(center);
+        }
+    }
+
+    /// Whether an instance was moved since it was put where it is.
+    pub(in crate::bvh) fn has_moved(&self, index: u32) -> bool {
+        let first = self.leaves_of(index).start;
+        !self.placed[first as usize].hung_center[0].is_nan()
+    }
+
     /// An instance that was moved, and that lies no farther from what is beside it by a single step, is looked at as a frame begins: one that walks through a
     /// scene is never far from where it was a step before.
     pub(super) fn note_moved(&mut self, index: u32) {

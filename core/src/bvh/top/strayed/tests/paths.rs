@@ -313,3 +313,80 @@ fn what_moves_in_the_dark_stays() {
         .filter(|id| bvh.placed[id.index() as usize].hung > stamp);
     assert_eq!(put.count(), 0);
 }
+
+/// Off, moved, and on again as bright as before, each in a call of its own: nobody looked, and it rested at 9 to 50 times.
+#[test]
+fn a_lamp_that_moves_while_it_is_off_is_where_it_shines() {
+    let to = [35.0, 30.0, 20.0];
+    for (steps, count, refits) in [(1_u16, 8, true), (44, 8, true), (1, 8, false), (1, 3000, true)] {
+        let (mut bvh, _) = scene(8);
+        let mesh = bvh.add_mesh(cloud(count, [0.0; 3], 0)).expect("a mesh");
+        let id = walker(&mut bvh, mesh, 25.0, [-40.0; 3]);
+        let own = &mut rebuilder();
+        let shine = |radiance: f32| {
+            [Edit::SetRadiance {
+                instance: id,
+                radiance,
+            }]
+            .to_vec()
+        };
+        frame(&mut bvh, own, Vec::new());
+        let mut step = |bvh: &mut LightBvh, edits: Vec<Edit>| {
+            if refits {
+                frame(bvh, own, edits);
+            } else {
+                bvh.apply(edits).expect("sound edits");
+            }
+        };
+        step(&mut bvh, shine(0.0));
+        for k in 1..=steps {
+            let part = f32::from(k) / f32::from(steps);
+            let at = to.map(|x| (x + 40.0) * part - 40.0);
+            let transform = Transform::at(at);
+            step(
+                &mut bvh,
+                [Edit::SetTransform {
+                    instance: id,
+                    transform,
+                }]
+                .to_vec(),
+            );
+        }
+        step(&mut bvh, shine(25.0));
+        bvh.refit();
+        rest(&mut bvh, own);
+        let found = over_new(&bvh, to);
+        assert!(
+            found < 1.5,
+            "{steps} steps, {count} lights, refits {refits}: {found}"
+        );
+    }
+}
+
+/// One that blinks in its place is not put in anew, though it swayed while it was dark.
+#[test]
+fn what_blinks_and_sways_stays() {
+    let (mut bvh, _) = scene(8);
+    let mesh = bvh.add_mesh(cloud(8, [0.0; 3], 0)).expect("a mesh");
+    let id = walker(&mut bvh, mesh, 1.0, [0.0; 3]);
+    let own = &mut rebuilder();
+    (0..20).for_each(|_| frame(&mut bvh, own, Vec::new()));
+    let stamp = bvh.epoch;
+    for k in 1..40_u16 {
+        let at = [0.01 * f32::from(k % 3), 0.0, 0.0];
+        for (radiance, is_moved) in [(0.0, false), (0.0, true), (1.0, false)] {
+            let edit = match is_moved {
+                true => Edit::SetTransform {
+                    instance: id,
+                    transform: Transform::at(at),
+                },
+                false => Edit::SetRadiance {
+                    instance: id,
+                    radiance,
+                },
+            };
+            frame(&mut bvh, own, [edit].to_vec());
+        }
+    }
+    assert!(bvh.placed[id.index() as usize].hung <= stamp);
+}
