@@ -22,6 +22,7 @@ pub mod receivers;
 pub mod refit;
 pub mod render;
 pub mod restir;
+pub mod scatter;
 pub mod self_test;
 pub mod shading;
 

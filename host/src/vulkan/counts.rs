@@ -13,6 +13,8 @@ pub struct Counts {
     pub waits: u64,
     /// Regions of copies, from the host or between buffers of the device.
     pub regions: u64,
+    /// Short runs of words that a dispatch put in their places.
+    pub runs: u64,
     /// Bytes that the host wrote for the device.
     pub bytes: u64,
     /// Buffers made, those for staging too.
@@ -27,6 +29,7 @@ impl Sub for Counts {
             submissions: self.submissions - before.submissions,
             waits: self.waits - before.waits,
             regions: self.regions - before.regions,
+            runs: self.runs - before.runs,
             bytes: self.bytes - before.bytes,
             buffers: self.buffers - before.buffers,
         }
@@ -39,6 +42,7 @@ pub(super) struct Counters {
     pub submissions: AtomicU64,
     pub waits: AtomicU64,
     pub regions: AtomicU64,
+    pub runs: AtomicU64,
     pub bytes: AtomicU64,
     pub buffers: AtomicU64,
 }
@@ -50,6 +54,7 @@ impl Counters {
             submissions: read(&self.submissions),
             waits: read(&self.waits),
             regions: read(&self.regions),
+            runs: read(&self.runs),
             bytes: read(&self.bytes),
             buffers: read(&self.buffers),
         }

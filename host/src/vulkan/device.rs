@@ -6,6 +6,7 @@ use super::fma;
 use super::instance::Instance;
 use super::options::Options;
 use super::probe::{Candidate, Probe};
+use super::scatter;
 use super::shared::Shared;
 use ash::vk;
 use lightbvh_gpu::FloatEnvironment;
@@ -93,7 +94,10 @@ impl Device {
         let raw = create(&instance, &candidate, options)?;
         let shared = Arc::new(Shared::new(instance, raw, candidate, options)?);
         shared.check_validation()?;
-        Ok(Self { shared })
+        let device = Self { shared };
+        // Here, so that no frame compiles it.
+        device.kernel(scatter::KERNEL)?;
+        Ok(device)
     }
 
     /// What the device said about itself.

@@ -39,6 +39,7 @@ mod probe;
 mod queue;
 mod ring;
 mod run;
+mod scatter;
 mod self_test;
 mod shared;
 mod submit;

@@ -105,7 +105,7 @@ impl<'a> Pass<'a> {
     }
 
     /// Replaces elements of `buffer` from `first` on, before any dispatch. Parts that are written in one pass do not overlap. All that is
-    /// written goes through the staging ring, many regions of a buffer by one copy, on every device.
+    /// written goes through the staging ring, the regions of a buffer by one copy and many short ones by one dispatch, on every device.
     ///
     /// # Errors
     /// [`VulkanError::WrongLength`] when they do not fit.
@@ -151,12 +151,11 @@ impl<'a> Pass<'a> {
 
     /// The same, with copies of the bytes that it writes.
     pub(crate) fn into_owned(self) -> Pass<'static> {
-        let all: Vec<u8> = self
-            .writes
+        // Run by run, not byte by byte.
+        let mut all = Vec::with_capacity(self.bytes());
+        self.writes
             .iter()
-            .flat_map(|write| write.data())
-            .copied()
-            .collect();
+            .for_each(|write| all.extend_from_slice(write.data()));
         let all: Arc<[u8]> = all.into();
         let mut end = 0;
         let own = |write: Write<'_>| {

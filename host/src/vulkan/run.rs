@@ -3,9 +3,11 @@
 use super::counts::count;
 use super::device::Device;
 use super::error::{CallContext, VulkanError};
+use super::kernel::Kernel;
 use super::memory::{Region, copy, fill};
 use super::pass::{Dispatch, Pass};
 use super::queue::Retired;
+use super::scatter;
 use super::shared::Shared;
 use super::upload::Part;
 use crate::words::UNWRITTEN;
@@ -46,6 +48,8 @@ pub struct Submission {
 struct Scratch {
     shared: Arc<Shared>,
     sets: vk::DescriptorPool,
+    /// Of the dispatches that put the host's bytes in their places.
+    scatters: vk::DescriptorPool,
     queries: vk::QueryPool,
 }
 
@@ -71,6 +75,7 @@ impl Device {
         let mut scratch = Scratch {
             shared: Arc::clone(shared),
             sets: vk::DescriptorPool::null(),
+            scatters: vk::DescriptorPool::null(),
             queries: vk::QueryPool::null(),
         };
         let sets = scratch.bind(&pass.dispatches)?;
@@ -82,6 +87,9 @@ impl Device {
         let queries = scratch.queries;
         let start = Instant::now();
         let mut parts = Part::split(&writes);
+        let scatter = self.kernel(scatter::KERNEL)?;
+        let all_sets = scratch.bind_scatters(&scatter, &parts)?;
+        let mut all_sets = all_sets.as_slice();
         let Some(last) = parts.pop() else {
             unreachable!("there is always a last part")
         };
@@ -90,13 +98,21 @@ impl Device {
         for part in &parts {
             let first = first.take();
             let stage = |place: &mut [u8]| part.stage(place);
-            shared.submit(part.name(), part.bytes, stage, |device, commands, ring, start| {
-                if let Some((fills, carries)) = first {
-                    prepare(device, commands, fills, carries);
-                }
-                part.record(device, commands, ring, start);
-            })?;
+            let (own, others) = all_sets.split_at(part.dispatches());
+            shared.submit(
+                part.name(),
+                part.bytes(),
+                stage,
+                |device, commands, ring, start| {
+                    if let Some((fills, carries)) = first {
+                        prepare(device, commands, fills, carries);
+                    }
+                    part.record(device, commands, (ring, start), &scatter, own);
+                },
+            )?;
             count(&shared.counters.regions, part.regions());
+            count(&shared.counters.runs, part.runs());
+            all_sets = others;
         }
         let work = match pass.dispatches.as_slice() {
             [] => last.name(),
@@ -107,12 +123,12 @@ impl Device {
         };
         let first = first.take();
         let stage = |place: &mut [u8]| last.stage(place);
-        let number = shared.submit(work, last.bytes, stage, |device, commands, ring, start| {
+        let number = shared.submit(work, last.bytes(), stage, |device, commands, ring, start| {
             if let Some((fills, carries)) = first {
                 prepare(device, commands, fills, carries);
             }
-            last.record(device, commands, ring, start);
-            if !last.copies.is_empty()
+            last.record(device, commands, (ring, start), &scatter, all_sets);
+            if !last.is_empty()
                 || first.is_some_and(|(fills, carries)| !fills.is_empty() || !carries.is_empty())
             {
                 barrier(device, commands);
@@ -134,6 +150,7 @@ impl Device {
             .map(|(_, _, regions)| regions.len() as u64)
             .sum();
         count(&shared.counters.regions, last.regions() + carried);
+        count(&shared.counters.runs, last.runs());
         Ok(Submission {
             scratch,
             number,
@@ -238,6 +255,21 @@ impl Scratch {
         Ok(sets)
     }
 
+    /// A set for each dispatch that puts bytes in their places.
+    fn bind_scatters(
+        &mut self,
+        kernel: &Kernel,
+        parts: &[Part<'_>],
+    ) -> Result<Vec<vk::DescriptorSet>, VulkanError> {
+        let count: usize = parts.iter().map(Part::dispatches).sum();
+        if count == 0 {
+            return Ok(Vec::new());
+        }
+        let (pool, sets) = scatter::sets(&self.shared, kernel, count as u32)?;
+        self.scatters = pool;
+        Ok(sets)
+    }
+
     fn make_queries(&mut self, count: u32) -> Result<(), VulkanError> {
         let info = vk::QueryPoolCreateInfo::default()
             .query_type(vk::QueryType::TIMESTAMP)
@@ -275,6 +307,7 @@ impl Scratch {
 impl Drop for Scratch {
     fn drop(&mut self) {
         self.shared.retire(Retired::Sets(self.sets));
+        self.shared.retire(Retired::Sets(self.scatters));
         self.shared.retire(Retired::Queries(self.queries));
     }
 }

@@ -112,7 +112,7 @@ impl Shared {
             return Ok(0..0);
         }
         if let Some(larger) = queue.ring.outgrown(bytes) {
-            let usage = vk::BufferUsageFlags::TRANSFER_SRC;
+            let usage = vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::STORAGE_BUFFER;
             let (buffer, allocation) = create(self, larger, usage, MemoryLocation::CpuToGpu)?;
             let old = std::mem::replace(&mut queue.ring, Ring::new(buffer, allocation, larger));
             let retired = Retired::Buffer(old.buffer, old.allocation);

@@ -1,20 +1,27 @@
 //! How the bytes of a pass get from the host into their buffers: one after another in the staging ring, and from there by one copy for each
-//! buffer, of as many regions as it takes.
+//! buffer, of some regions, and by one dispatch where there are many short ones.
 
 use super::buffer::Binding;
+use super::kernel::Kernel;
 use super::memory::{Region, copy};
 use super::pass::Write;
 use super::ring::PART;
+use super::scatter::{ENTRY, Scatter};
 use ash::vk;
+use lightbvh_kernels::scatter::Run;
 
 /// What one submission writes.
 #[derive(Default)]
 pub(super) struct Part<'a> {
     /// The bytes, one after another.
-    pub pieces: Vec<&'a [u8]>,
-    pub bytes: u64,
+    pieces: Vec<&'a [u8]>,
+    /// Those of the pieces.
+    data: u64,
     /// The copies: for each buffer its regions, whose `from` counts from the first byte of the part.
-    pub copies: Vec<(Binding, Vec<Region>)>,
+    copies: Vec<(Binding, Vec<Region>)>,
+    /// What goes by dispatches, and the runs of all of them: behind the pieces.
+    scatters: Vec<Scatter>,
+    list: Vec<Run>,
 }
 
 impl<'a> Part<'a> {
@@ -25,7 +32,8 @@ impl<'a> Part<'a> {
             let (mut at, mut data) = (write.at, write.data());
             while !data.is_empty() {
                 let last = parts.len() - 1;
-                let room = (PART - parts[last].bytes) as usize;
+                // With its entry in the list.
+                let room = PART.saturating_sub(parts[last].most() + ENTRY) as usize;
                 if room == 0 {
                     parts.push(Self::default());
                     continue;
@@ -36,18 +44,43 @@ impl<'a> Part<'a> {
                 data = later;
             }
         }
+        parts.iter_mut().for_each(Self::scatter);
         parts
+    }
+
+    /// Bytes of the ring, where all went by dispatches.
+    fn most(&self) -> u64 {
+        self.data + self.regions() * ENTRY
+    }
+
+    /// Has many short runs go by dispatches.
+    fn scatter(&mut self) {
+        for (target, regions) in &mut self.copies {
+            self.scatters
+                .extend(Scatter::take(target, regions, &mut self.list));
+        }
+        self.copies.retain(|(_, regions)| !regions.is_empty());
+    }
+
+    /// Bytes of the ring.
+    pub fn bytes(&self) -> u64 {
+        self.data + self.list.len() as u64 * ENTRY
+    }
+
+    /// Whether nothing is written.
+    pub fn is_empty(&self) -> bool {
+        self.data == 0
     }
 
     /// Appends a region, to the one before where they are neighbours.
     fn push(&mut self, target: &Binding, at: u64, data: &'a [u8]) {
         let region = Region {
-            from: self.bytes,
+            from: self.data,
             to: at,
             bytes: data.len() as u64,
         };
         self.pieces.push(data);
-        self.bytes += region.bytes;
+        self.data += region.bytes;
         let is_same = |(last, _): &&mut (Binding, Vec<Region>)| last.memory.buffer == target.memory.buffer;
         match self.copies.last_mut().filter(is_same) {
             Some((_, regions)) => match regions.last_mut() {
@@ -60,7 +93,7 @@ impl<'a> Part<'a> {
 
     /// What it does, for the error of a time limit.
     pub fn name(&self) -> String {
-        format!("copying {} bytes", self.bytes)
+        format!("copying {} bytes", self.bytes())
     }
 
     /// Regions of all copies.
@@ -68,17 +101,43 @@ impl<'a> Part<'a> {
         self.copies.iter().map(|(_, regions)| regions.len() as u64).sum()
     }
 
+    /// Runs of all dispatches.
+    pub fn runs(&self) -> u64 {
+        self.scatters.iter().map(Scatter::len).sum()
+    }
+
+    /// Dispatches.
+    pub fn dispatches(&self) -> usize {
+        self.scatters.len()
+    }
+
     /// Writes the bytes to their place in the ring.
     pub fn stage(&self, mut place: &mut [u8]) {
-        for piece in &self.pieces {
+        for piece in self
+            .pieces
+            .iter()
+            .copied()
+            .chain([bytemuck::cast_slice(&self.list)])
+        {
             let (now, later) = place.split_at_mut(piece.len());
             now.copy_from_slice(piece);
             place = later;
         }
     }
 
-    /// Records the copies from the ring, where the part begins at `start`.
-    pub fn record(&self, device: &ash::Device, commands: vk::CommandBuffer, ring: vk::Buffer, start: u64) {
+    /// Records what goes from the ring, where the part begins at `start`; with a set of the kernel for each dispatch.
+    pub fn record(
+        &self,
+        device: &ash::Device,
+        commands: vk::CommandBuffer,
+        (ring, start): (vk::Buffer, u64),
+        kernel: &Kernel,
+        sets: &[vk::DescriptorSet],
+    ) {
+        let words = [start, start + self.data].map(|bytes| (bytes / 4) as u32);
+        for (scatter, set) in self.scatters.iter().zip(sets) {
+            scatter.record(device, commands, (kernel, *set), ring, words.into());
+        }
         for (target, regions) in &self.copies {
             let placed: Vec<Region> = regions
                 .iter()

@@ -52,6 +52,14 @@ pub struct Region {
     pub bytes: u64,
 }
 
+impl Region {
+    /// Its entry in the list of kernel [`SCATTER`](crate::SCATTER): its first words in the staging buffer and in the device's, and how many.
+    #[must_use]
+    pub fn run(&self) -> [u32; 3] {
+        [self.from, self.to, self.bytes].map(|bytes| (bytes / 4) as u32)
+    }
+}
+
 impl Frame {
     /// Bytes of all [`copies`](Self::copies): what a staging buffer of them takes.
     #[must_use]
@@ -64,6 +72,9 @@ impl Frame {
 
     /// The copies out of a staging buffer that holds their [sources](Copy::source) one after another, in their order: for each buffer the
     /// regions of one copy command. `start` is the first byte there, a multiple of 4: the place in a ring, for example.
+    ///
+    /// Drivers of real devices run one copy for each region, some 2 µs on an NVIDIA H100. Where there are dozens of short ones, put their
+    /// [entries](Region::run) behind the bytes and dispatch kernel [`SCATTER`](crate::SCATTER) instead, 16 invocations for each.
     #[must_use]
     pub fn regions(&self, start: u64) -> Vec<(Buffer, Vec<Region>)> {
         let mut all: Vec<(Buffer, Vec<Region>)> = Vec::new();

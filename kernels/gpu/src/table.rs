@@ -1070,6 +1070,18 @@ pub static SAMPLE_WIDE: Kernel = Kernel {
     workgroup: [64, 1, 1],
 };
 
+/// Kernel `scatter`.
+pub static SCATTER: Kernel = Kernel {
+    name: "scatter",
+    bytes: include_bytes!("../spirv/scatter.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "from", access: Read, stride: 4 },
+        Binding { binding: 1, name: "to", access: Write, stride: 4 },
+    ],
+    push_constants: 12,
+    workgroup: [64, 1, 1],
+};
+
 /// Kernel `segment_places`.
 pub static SEGMENT_PLACES: Kernel = Kernel {
     name: "segment_places",
@@ -1160,6 +1172,7 @@ pub static KERNELS: &[&Kernel] = &[
     &SAMPLE_SEGMENT,
     &SAMPLE_TRANSMISSIVE,
     &SAMPLE_WIDE,
+    &SCATTER,
     &SEGMENT_PLACES,
     &SELF_TEST,
 ];

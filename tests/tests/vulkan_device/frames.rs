@@ -110,11 +110,12 @@ fn a_frame_is_one_submission_without_a_wait_whatever_moves() {
             let what = format!("{}, {moved} moved: {counts:?}", device.name());
             assert_eq!(counts.submissions, 1, "{what}");
             assert_eq!(counts.waits, 0, "{what}");
-            // One for each lamp and one for the list; those that are neighbours are one.
-            let regions = if stride == 1 { 2 } else { moved + 1 };
-            assert_eq!(counts.regions, regions, "{what}");
+            // One for each lamp and one for the list; those that are neighbours are one. Many go by a dispatch, with an entry each.
+            let parts = if stride == 1 { 1 } else { moved };
+            let (regions, runs) = if parts > 16 { (1, parts) } else { (parts + 1, 0) };
+            assert_eq!((counts.regions, counts.runs), (regions, runs), "{what}");
             let record = size_of::<lightbvh::Instance>() as u64;
-            assert_eq!(counts.bytes, moved * record + 4 * refitted, "{what}");
+            assert_eq!(counts.bytes, moved * record + 4 * refitted + 12 * runs, "{what}");
             assert!(time == 1 || counts.buffers == 0 || stride == 1, "{what}");
             bvh.refit();
             assert_follows(&what, &bvh, &mut backend);
@@ -221,6 +222,53 @@ fn passes_that_write_more_than_the_ring_holds_are_whole() {
         // 70 MiB in parts of 16 MiB, each one region.
         assert_eq!((counts.submissions, counts.regions), (5, 5), "{what}");
         assert!(buffer.read().expect("a read") == words, "{what}");
+    });
+}
+
+/// Runs of any length between each other, into two buffers, in two orders: what is short goes by a dispatch where it is much, all arrives, nothing else changes.
+#[test]
+fn short_runs_and_long_ones_arrive() {
+    on_each(|device| {
+        let lengths = [1, 2, 15, 16, 17, 100, 1023, 1024, 1025, 5000];
+        for (turns, is_much) in [(1, false), (3, true)] {
+            let count: usize = turns * lengths.iter().map(|length| length + 1).sum::<usize>();
+            let words = super::values(count as u32);
+            let held = vec![7_u32; count + 1];
+            let buffers = [(); 2].map(|()| device.upload(&held).expect("an upload"));
+            let (mut pass, mut expected) = (Pass::new(), held.clone());
+            let mut first = 1;
+            let mut runs: Vec<_> = lengths
+                .iter()
+                .cycle()
+                .take(turns * lengths.len())
+                .map(|&length| {
+                    let run = first..first + length;
+                    first += length + 1;
+                    run
+                })
+                .collect();
+            for run in &runs {
+                expected[run.clone()].copy_from_slice(&words[run.start - 1..run.end - 1]);
+            }
+            for buffer in &buffers {
+                for run in &runs {
+                    pass.write(buffer, run.start, &words[run.start - 1..run.end - 1])
+                        .expect("within");
+                }
+                runs.reverse();
+            }
+            let counts = counted(device, || {
+                device.run(&pass).expect("a run");
+            });
+            let what = format!("{}: {counts:?}", device.name());
+            let long = 2 * turns as u64 * 2;
+            let short = 2 * turns as u64 * 8;
+            let expected_counts = if is_much { (long, short) } else { (long + short, 0) };
+            assert_eq!((counts.regions, counts.runs), expected_counts, "{what}");
+            for buffer in &buffers {
+                assert!(buffer.read().expect("a read") == expected, "{what}");
+            }
+        }
     });
 }
 

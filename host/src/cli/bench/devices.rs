@@ -7,15 +7,15 @@ use lightbvh::exact::{hash, unit_f32};
 use lightbvh::{Edit, EmissiveTriangle, InstanceId, Transform};
 use serde::Serialize;
 
+use super::passes::WARM;
 use crate::backend::{Bvh, DeviceBackend};
 use crate::cli::devices::Opened;
 use crate::cli::table::{self, Column, news};
 use crate::error::HostError;
 use crate::vulkan::Counts;
 
-/// Frames that count, and those before them that do not.
+/// Frames that count. Those before them, for [`WARM`], do not.
 const FRAMES: usize = 40;
-const WARM: usize = 4;
 /// Instances that move in a frame, those that there are at most.
 const MOVED: [u32; 3] = [1, 100, 5_000];
 /// Different meshes, and triangles of each.
@@ -34,8 +34,8 @@ pub(in crate::cli::bench) struct DeviceRow {
     pub instances: u32,
     /// In all instances together.
     pub triangles: u64,
-    /// `ns` until the frame is handed over, `ns-done` until the device has done it, `bytes` written for it, `regions` copied,
-    /// `submissions`, `waits`.
+    /// `ns` until the frame is handed over, `ns-done` until the device has done it, `bytes` written for it, `regions` copied, `runs` put in
+    /// their places by dispatches, `submissions`, `waits`.
     pub unit: &'static str,
     pub median: f64,
     pub p99: f64,
@@ -87,7 +87,10 @@ fn moving(opened: &Opened, instances: u32, moved: u32) -> Result<Vec<DeviceRow>,
     let (mut bvh, ids) = lamps(instances);
     let mut backend: DeviceBackend<'_> = DeviceBackend::new(&opened.device, &bvh)?;
     let mut samples = Vec::new();
-    for frame in 0..(WARM + FRAMES) as u32 {
+    let begin = Instant::now();
+    let mut frame = 0;
+    while samples.len() < FRAMES {
+        frame += 1;
         bvh.apply(moves(&ids, moved, frame))
             .expect("edits within the domain");
         bvh.plan();
@@ -102,9 +105,10 @@ fn moving(opened: &Opened, instances: u32, moved: u32) -> Result<Vec<DeviceRow>,
         }
         let done = start.elapsed().as_nanos() as f64;
         bvh.refit();
-        samples.push(Sample { handed, done, counts });
+        if begin.elapsed() >= WARM {
+            samples.push(Sample { handed, done, counts });
+        }
     }
-    samples.drain(..WARM);
     let row = |(unit, quantity): Quantity| {
         let mut values: Vec<f64> = samples.iter().map(quantity).collect();
         values.sort_by(f64::total_cmp);
@@ -120,11 +124,12 @@ fn moving(opened: &Opened, instances: u32, moved: u32) -> Result<Vec<DeviceRow>,
             most: at(1.0),
         }
     };
-    let units: [Quantity; 6] = [
+    let units: [Quantity; 7] = [
         ("ns", |it| it.handed),
         ("ns-done", |it| it.done),
         ("bytes", |it| it.counts.bytes as f64),
         ("regions", |it| it.counts.regions as f64),
+        ("runs", |it| it.counts.runs as f64),
         ("submissions", |it| it.counts.submissions as f64),
         ("waits", |it| it.counts.waits as f64),
     ];

@@ -1,7 +1,7 @@
 //! The passes, timed: through a backend, and by the library alone.
 
 use std::hint::black_box;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use lightbvh::{Lights, Random64, SampledLight, ShadingPoint};
 use lightbvh_kernels::query::Query;
@@ -15,6 +15,8 @@ use crate::error::HostError;
 const BATCH: usize = 4096;
 /// Runs of each measurement; the median counts.
 const RUNS: usize = 5;
+/// Time of runs before them: a device compiles at the first dispatch, and one that was idle has slow clocks for a while (an NVIDIA H100 a fifth of its full ones).
+pub(super) const WARM: Duration = Duration::from_secs(1);
 
 /// Times of several runs of each pass.
 pub(super) struct Times {
@@ -33,8 +35,9 @@ pub(super) fn passes(
         sample: Vec::new(),
         pmf: Vec::new(),
     };
-    // A device compiles at the first dispatch; that run is not counted.
-    for run in 0..=RUNS {
+    let start = Instant::now();
+    let mut is_warm = false;
+    while times.pmf.len() < RUNS {
         let refit = backend.refit(lights)?.time;
         let sampled = backend.sample(queries)?;
         let asked: Vec<Query> = queries
@@ -46,11 +49,12 @@ pub(super) fn passes(
             })
             .collect();
         let pmf = backend.pmf(&asked)?.time;
-        if run > 0 {
+        if is_warm {
             times.refit.push(refit);
             times.sample.push(sampled.time);
             times.pmf.push(pmf);
         }
+        is_warm |= start.elapsed() >= WARM;
     }
     Ok(times)
 }

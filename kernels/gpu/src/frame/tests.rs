@@ -46,7 +46,12 @@ impl Device {
         let regions = frame.regions(start as u64);
         for (number, (buffer, regions)) in regions.iter().enumerate() {
             let to: &mut [u8] = cast_slice_mut(&mut self.buffers[*buffer as usize]);
-            for Region { from, to: at, bytes } in regions {
+            for region in regions {
+                let Region { from, to: at, bytes } = region;
+                assert_eq!(
+                    region.run().map(|words| u64::from(words) * 4),
+                    [*from, *at, *bytes]
+                );
                 let [from, at, bytes] = [from, at, bytes].map(|byte| *byte as usize);
                 to[at..at + bytes].copy_from_slice(&staging[from..from + bytes]);
             }
