@@ -254,9 +254,12 @@ fn lights_without_area_are_read() {
         { "type": "point", "range": 0.0 },
     ] } });
     root["extensionsRequired"] = json!(["KHR_lights_punctual"]);
-    let places = (0..8).map(|light| json!({ "extensions": { "KHR_lights_punctual": { "light": light } } }));
+    // The moon on two nodes.
+    let places = (0..8)
+        .chain([5])
+        .map(|light| json!({ "extensions": { "KHR_lights_punctual": { "light": light } } }));
     root["nodes"].as_array_mut().expect("a list").extend(places);
-    root["scenes"][0]["nodes"] = (0..9).collect();
+    root["scenes"][0]["nodes"] = (0..10).collect();
     let scene = read_json(&root).expect("a sound file");
     let kinds: Vec<AnalyticKind> = scene.data().analytic.iter().map(|light| light.kind).collect();
     let spot = AnalyticKind::Spot {
@@ -285,8 +288,11 @@ fn lights_without_area_are_read() {
             .filter(|warning| warning.contains(word))
             .count()
     };
+    // Once for each light, whatever the number of its nodes.
     assert_eq!(said("is left out"), 4, "{:?}", scene.warnings());
-    assert_eq!(scene.warnings().len(), 4, "{:?}", scene.warnings());
+    assert_eq!(said("nodes[6], nodes[9]"), 1, "{:?}", scene.warnings());
+    assert_eq!(said("are cut to 0.25 and 0.25"), 1, "{:?}", scene.warnings());
+    assert_eq!(scene.warnings().len(), 5, "{:?}", scene.warnings());
     let back = read(&scene.to_glb().expect("written")).expect("read back");
     assert_eq!(back.data().analytic, scene.data().analytic);
 }

@@ -25,19 +25,7 @@ use crate::kinds_render::{SETTINGS, agree, arrays, at, down, mean, node, open_ro
 /// What a painted floor reflects of the light that falls on it: its diffuse part, and at most this of gloss.
 const GLOSS: f64 = 0.04 * 7.0 / 8.0;
 
-const PLAIN: Paint = Paint {
-    base: [1.0; 4],
-    metallic: 0.0,
-    roughness: 1.0,
-    bump: 0.0,
-    radiance: [0.0; 3],
-    base_texture: None,
-    rough_texture: None,
-    bump_texture: None,
-    glow_texture: None,
-    opacity: Opacity::Opaque,
-    transmission: 0.0,
-};
+const PLAIN: Paint = Paint::PLAIN;
 
 const fn lying(picture: u32, is_color: bool) -> Texture {
     Texture {

@@ -21,7 +21,10 @@ pub(super) fn run(_: &Context, args: &Args) -> Result<Outcome, HostError> {
     let known = |kind| {
         matches!(
             kind,
-            AnalyticKind::Directional | AnalyticKind::Point | AnalyticKind::Spot { .. }
+            AnalyticKind::Directional
+                | AnalyticKind::Point
+                | AnalyticKind::Spot { .. }
+                | AnalyticKind::Profile { .. }
         )
     };
     let lost = scene

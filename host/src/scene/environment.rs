@@ -35,7 +35,7 @@ pub fn read_environment(
             "cannot be read as an environment map: {error}; name a .hdr or .exr picture by longitude and latitude"
         ))
     };
-    let bytes = read_file(path).map_err(|error| unread(&error))?;
+    let bytes = radiance_hdr::with_signature(read_file(path).map_err(|error| unread(&error))?);
     let header = radiance_hdr::read(&bytes)
         .transpose()
         .map_err(|problem| unread(&problem))?;

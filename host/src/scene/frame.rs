@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use lightbvh::light::infinite::DistantLight;
 use lightbvh::light::{AnyLight, EmissiveTriangle, MIN_COORDINATE, TWO_SIDED};
+use lightbvh_kernels::shading::area::offset_distance;
 use lightbvh_kernels::shading::material::Material as SurfaceMaterial;
 use lightbvh_kernels::shading::skin::Corner;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
@@ -63,6 +64,31 @@ pub struct Frame {
     pub camera: View,
     /// Radiance of rays that leave the scene, W/(m² sr).
     pub background: [f32; 3],
+}
+
+/// Rays that start off their surface by more than this part of the scene's size are told of.
+const FAR_OFF: f64 = 1e-3;
+
+impl Frame {
+    /// Says how far off their surfaces rays start, where that is much beside the scene's size: in a scene that lies far from the origin coordinates are rounded to
+    /// as much, and light of what is nearer is lost.
+    pub fn far_off(&self) -> Option<String> {
+        let triangles = || self.triangles.iter().chain(&self.clear);
+        let offset = triangles()
+            .map(|triangle| offset_distance(triangle.p[0].into(), triangle.p[1].into(), triangle.p[2].into()))
+            .fold(0.0, f32::max);
+        let (low, high) = framing::bounds(triangles().flat_map(|triangle| triangle.p))?;
+        let size = (0..3)
+            .map(|axis| (high[axis] - low[axis]).powi(2))
+            .sum::<f64>()
+            .sqrt();
+        (f64::from(offset) > FAR_OFF * size).then(|| {
+            format!(
+                "note: all lies far from the origin beside its size, {size:.3} m: rays start {offset:.3} m off surfaces, and what is nearer to them neither lights them nor \
+                 casts a shadow; move the scene to the origin"
+            )
+        })
+    }
 }
 
 impl Scene {

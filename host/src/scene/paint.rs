@@ -88,6 +88,21 @@ pub struct Paint {
 }
 
 impl Paint {
+    /// White, rough, opaque, without a texture.
+    pub const PLAIN: Self = Self {
+        base: [1.0; 4],
+        metallic: 0.0,
+        roughness: 1.0,
+        bump: 0.0,
+        radiance: [0.0; 3],
+        base_texture: None,
+        rough_texture: None,
+        bump_texture: None,
+        glow_texture: None,
+        opacity: Opacity::Opaque,
+        transmission: 0.0,
+    };
+
     /// All of its textures, with their names.
     pub fn textures(&self) -> impl Iterator<Item = (&'static str, Texture)> {
         [

@@ -160,7 +160,7 @@ impl Pictures {
 
     /// The pixels of a file.
     pub fn decode(&mut self, path: &Path) -> Result<DynamicImage, String> {
-        let bytes = read_file(path).map_err(|error| error.to_string())?;
+        let bytes = radiance_hdr::with_signature(read_file(path).map_err(|error| error.to_string())?);
         if let Some(picture) = pfm::read(&bytes) {
             let picture =
                 picture.map_err(|problem| format!("cannot decode {}: {problem}", path.display()))?;

@@ -5,6 +5,8 @@ use image::codecs::hdr::HdrDecoder;
 
 /// First bytes of such pictures.
 const SIGNATURE: &[u8] = b"#?RADIANCE";
+/// Those that other programs write (B. Walter's `rgbe.c`), for the same format.
+const OTHER_SIGNATURE: &[u8] = b"#?RGBE";
 
 /// Longest header.
 const MAX_HEADER: usize = 1 << 16;
@@ -42,6 +44,14 @@ impl Header {
                 pixel.0 = self.light_of(pixel.0);
             }
         }
+    }
+}
+
+/// The bytes of a file, where it is such a picture with the usual first ones.
+pub(super) fn with_signature(bytes: Vec<u8>) -> Vec<u8> {
+    match bytes.strip_prefix(OTHER_SIGNATURE) {
+        Some(rest) => [SIGNATURE, rest].concat(),
+        None => bytes,
     }
 }
 
@@ -108,6 +118,16 @@ pub(super) mod tests {
 
     fn of(lines: &str) -> Result<Header, String> {
         read(&picture(lines, &[[128, 128, 128, 129]])).expect("a picture of Radiance")
+    }
+
+    #[test]
+    fn the_other_signature_is_the_same_format() {
+        let own = picture("EXPOSURE=4\n", &[[128, 128, 128, 129]]);
+        let other = [OTHER_SIGNATURE, &own[SIGNATURE.len()..]].concat();
+        assert!(read(&other).is_none());
+        assert_eq!(with_signature(other), own);
+        assert_eq!(with_signature(own.clone()), own);
+        assert_eq!(with_signature(b"#?RG".to_vec()), b"#?RG");
     }
 
     #[test]

@@ -31,6 +31,9 @@ const FAR: usize = 16;
 /// Rays that tell so of each.
 const RAYS: usize = 8;
 
+/// And towards surfaces, where those miss.
+const AIMED: usize = 32;
+
 /// What lies farther away than this part of the scene's size is no bulb.
 const BULB: f64 = 0.05;
 
@@ -53,9 +56,9 @@ pub(super) fn fluxes(frame: &Frame, room: &Room, size: f64, is_under_sky: bool) 
     }
 }
 
-/// Lamps without size that stand beyond all that there is to see, which light it as suns do: those with the brightest share of those that shine all around, for
-/// where the others' light lands is found by their own cones. Their flux is taken out of `fluxes`, and that of all of them of what is returned beside: they need not
-/// be in the image.
+/// Lamps without size that stand beyond all that there is to see, which light it as suns do: those with the brightest share. The flux of those that shine all
+/// around is taken out of `fluxes`; rays in the cone of a spot find where on a large floor its light lands, and miss what is small in it. That of all of them is
+/// taken out of what is returned beside: they need not be in the image.
 pub(super) fn take_far(frame: &Frame, fluxes: &mut [f64]) -> (Vec<AnyLight>, Vec<f64>) {
     let triangles = frame.triangles.iter().chain(&frame.clear);
     let Some((low, high)) = super::bounds(triangles.flat_map(|triangle| triangle.p)) else {
@@ -72,8 +75,9 @@ pub(super) fn take_far(frame: &Frame, fluxes: &mut [f64]) -> (Vec<AnyLight>, Vec
     let mut others = vec![0.0; frame.others.len()];
     for (own, _) in frame.others.iter().enumerate().filter(|(_, light)| is_far(light)) {
         seen[first + own] = 0.0;
+        others[own] = fluxes[first + own];
         if cone(frame, first + own).is_none() {
-            others[own] = std::mem::take(&mut fluxes[first + own]);
+            fluxes[first + own] = 0.0;
         }
     }
     let mut chosen: Vec<usize> = spread(&others, FAR).map(|(own, _)| own).collect();
@@ -107,14 +111,30 @@ pub(super) fn cone(frame: &Frame, index: usize) -> Option<f64> {
     cosine.ok().map(f64::from)
 }
 
-/// Whether a lamp has a range within which its rays meet nothing.
+/// Whether a lamp has a range within which its rays meet nothing, those towards some of the surfaces neither.
 fn is_out_of_range(frame: &Frame, room: &Room, size: f64, index: usize) -> bool {
-    left_at(frame, index, f64::INFINITY) == 0.0
-        && (0..RAYS).all(|i| {
-            let (p, axis) = point_on(frame, index, i);
-            let d = cone(frame, index).map_or(anywhere(i), |cosine| within(axis, cosine, i));
-            let met = room.meet(along(p, 1e-9 * size, d), d);
-            met.is_none_or(|met| left_at(frame, index, met.t) == 0.0)
+    if left_at(frame, index, f64::INFINITY) > 0.0 {
+        return false;
+    }
+    let cosine = cone(frame, index);
+    let lights = |p, d| {
+        let met = room.meet(along(p, 1e-9 * size, d), d);
+        met.is_some_and(|met| left_at(frame, index, met.t) > 0.0)
+    };
+    let anywhere = (0..RAYS).any(|i| {
+        let (p, axis) = point_on(frame, index, i);
+        lights(p, cosine.map_or(anywhere(i), |cosine| within(axis, cosine, i)))
+    });
+    let count = frame.triangles.len();
+    !anywhere
+        && !(0..AIMED.min(count)).any(|k| {
+            let (p, axis) = point_on(frame, index, k);
+            let d = sub(inside(&frame.triangles[k * count / AIMED.min(count)].p, k), p);
+            let away = squared(d).sqrt();
+            away > 0.0
+                && left_at(frame, index, away) > 0.0
+                && cosine.is_none_or(|cosine| dot(d, axis) >= cosine * away)
+                && lights(p, unit(d))
         })
 }
 

@@ -387,6 +387,67 @@ fn a_lamp_over_a_floor_and_its_light_are_seen() {
     is_upright(&view);
 }
 
+/// Rays in the cone of a spot far off missed what is small in it, and the camera stood on its dark side.
+#[test]
+fn what_a_spot_far_off_lights_is_seen_from_there() {
+    for around in 0..8_u16 {
+        for (distance, outer) in [(6.0, 0.8), (15.0, 0.8), (15.0, 0.3), (200.0, 0.8)] {
+            let angle = std::f32::consts::FRAC_PI_4 * f32::from(around);
+            let (sine, cosine) = angle.sin_cos();
+            let (half_sine, half_cosine) = (0.5 * angle).sin_cos();
+            let statue = cube([-0.5, 0.0, -0.5], [0.5, 2.0, 0.5], GREY);
+            let mut data = scene_with(vec![statue], &[[0.0; 3]], false).into_data();
+            // Spots shine along -z: towards the statue.
+            data.nodes[1].transform = Transform::Trs {
+                translation: [distance * sine, 1.0, distance * cosine],
+                rotation: [0.0, half_sine, 0.0, half_cosine],
+                scale: [1.0; 3],
+            };
+            data.analytic[0].kind = AnalyticKind::Spot {
+                inner: 0.5 * outer,
+                outer,
+            };
+            let view = Scene::new(data).expect("a sound scene").frame(0).camera;
+            let lit = view.eye[0] * sine + view.eye[2] * cosine;
+            assert!(lit > 0.5, "{around} {distance} {outer}: {view:?}");
+        }
+    }
+}
+
+/// All rays of a lamp missed what lies in its range, and it counted for nothing.
+#[test]
+fn a_range_that_reaches_what_is_small_counts() {
+    let (low, high) = ([-1.0, 0.0, -1.0], [1.0, 2.0, 1.0]);
+    let lamps = [[0.0, 1.0, -20.0], [0.0, 1.0, 3.0]];
+    for (range, is_behind) in [(60.0, true), (10.0, false)] {
+        let mut data = scene_with(vec![cube(low, high, GREY)], &lamps, false).into_data();
+        data.analytic[0].intensity = 4e5;
+        data.analytic[0].range = Some(range);
+        data.analytic[1].intensity = 60.0;
+        let view = Scene::new(data).expect("a sound scene").frame(0).camera;
+        assert_eq!(view.eye[2] < -1.0, is_behind, "{range}: {view:?}");
+    }
+}
+
+/// A lamp shut in a bulb counts where all else is darker than a thousandth of it.
+#[test]
+fn faint_light_is_none_to_see_by() {
+    let bulb = globe([0.0, 2.0, 0.0], 0.1, GREY);
+    let floor = sheet([-3.0, 0.0, 3.0], [6.0, 0.0, 0.0], [0.0, 0.0, -6.0], GREY);
+    for (intensity, counts) in [(1e-2, true), (10.0, false)] {
+        // The second lamp stands in the open.
+        let lamps = [[0.0, 2.0, 0.0], [2.0, 1.0, 0.0]];
+        let mut data = scene_with(vec![bulb.clone(), floor.clone()], &lamps, false).into_data();
+        data.analytic[1].intensity = intensity;
+        let scene = Scene::new(data).expect("a sound scene");
+        let frame = scene.frame(0);
+        let room = Room::new(&frame.triangles, &scene.data().materials).expect("rays");
+        let fluxes = lamps::fluxes(&frame, &room, 8.0, false);
+        assert_eq!(fluxes[0] > 0.0, counts, "{intensity}: {fluxes:?}");
+        assert!(fluxes[1] > 0.0, "{fluxes:?}");
+    }
+}
+
 #[test]
 fn a_single_glowing_sphere_fills_the_image() {
     for radius in [0.01, 3.0, 4000.0] {
@@ -442,6 +503,20 @@ fn the_work_is_bounded_and_the_same() {
             + places::between(&points, &room, 100.0).len();
         assert!(places <= 356, "{places}");
         assert_eq!(scene.clone().frame(3).camera, frame.camera);
+    }
+}
+
+/// Floors were dark within some metres of their lamps, without a word.
+#[test]
+fn what_lies_far_off_is_told() {
+    for (at, is_told) in [(0.0, false), (1e4, false), (5e5, true)] {
+        let floor = sheet([at, 0.0, 0.0], [100.0, 0.0, 0.0], [0.0, 0.0, -100.0], GREY);
+        let told = scene_with(vec![floor], &[[at + 50.0, 3.0, -50.0]], false)
+            .frame(0)
+            .far_off();
+        assert_eq!(told.is_some(), is_told, "{told:?}");
+        // 2^-18 of the coordinate.
+        assert!(told.is_none_or(|told| told.contains("rays start 1.90")), "{at}");
     }
 }
 

@@ -86,18 +86,26 @@ pub(super) fn read(
         };
         let found = lights.and_then(|lights| lights.get(named.light));
         match found.map_or(Err(String::from("it is not there")), |value| light(value, node)) {
-            Ok(light) => data.analytic.push(light),
-            Err(problem) => document.warn(format!(
-                "light {} of {element} is left out: {problem}",
-                named.light
-            )),
+            Ok((light, note)) => {
+                data.analytic.push(light);
+                // The element comes first, so that what several nodes say is said once.
+                if let Some(note) = note {
+                    document.warn(format!("{element}: light {}: {note}", named.light));
+                }
+            }
+            Err(problem) => {
+                document.warn(format!("{element}: light {} is left out: {problem}", named.light));
+            }
         }
     }
     Ok(())
 }
 
-/// One light, with what is wrong with it.
-fn light(value: &Value, node: u32) -> Result<AnalyticLight, String> {
+/// Radians by which cones may be wider than they can be, as rounding has them.
+const ROUNDED: f32 = 1e-3;
+
+/// One light, with a note where it is taken as another; or what is wrong with it.
+fn light(value: &Value, node: u32) -> Result<(AnalyticLight, Option<String>), String> {
     let light = Light::deserialize(value).map_err(|error| error.to_string())?;
     let Light {
         name,
@@ -120,6 +128,7 @@ fn light(value: &Value, node: u32) -> Result<AnalyticLight, String> {
     let range = range
         .filter(|range| *range <= MAX_COORDINATE)
         .map(|range| range.max(2.0_f32.powi(-20)));
+    let mut note = None;
     let kind = match light.kind {
         Kind::Directional => AnalyticKind::Directional,
         Kind::Point => AnalyticKind::Point,
@@ -133,19 +142,28 @@ fn light(value: &Value, node: u32) -> Result<AnalyticLight, String> {
                 return Err(format!("its cone, from {inner} to {outer} radians, is none"));
             }
             // Exporters write inner cones as wide as outer ones, and cones beyond what is allowed.
-            let outer = outer.min(std::f32::consts::FRAC_PI_2);
+            let most = std::f32::consts::FRAC_PI_2;
+            if outer > most + ROUNDED || inner > outer + ROUNDED {
+                note = Some(format!(
+                    "its cones, from {inner} to {outer} radians, are cut to {} and {}: the outer one to a right angle, the inner one to the outer",
+                    inner.min(outer).min(most),
+                    outer.min(most)
+                ));
+            }
+            let outer = outer.min(most);
             AnalyticKind::Spot {
                 inner: inner.min(outer),
                 outer,
             }
         }
     };
-    Ok(AnalyticLight {
+    let light = AnalyticLight {
         name,
         node,
         kind,
         color,
         intensity,
         range,
-    })
+    };
+    Ok((light, note))
 }

@@ -66,14 +66,7 @@ impl Loader<'_> {
             base: [r, g, b, 1.0],
             metallic: own.metallic,
             roughness: own.roughness,
-            bump: 0.0,
-            radiance: [0.0; 3],
-            base_texture: None,
-            rough_texture: None,
-            bump_texture: None,
-            glow_texture: None,
-            opacity: Opacity::Opaque,
-            transmission: 0.0,
+            ..Paint::PLAIN
         };
         let mut paint = own.paint.unwrap_or(plain);
         paint.base[3] = share;

@@ -7,6 +7,12 @@ use super::super::notes::Place;
 use super::token::Lexer;
 use super::{REPAIR, shown, wrong};
 
+/// Types whose values are numbers alone.
+const OF_NUMBERS: [&str; 12] = [
+    "float", "integer", "point", "point2", "point3", "vector", "vector2", "vector3", "normal", "normal3",
+    "rgb", "color",
+];
+
 /// A parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Param {
@@ -60,6 +66,15 @@ impl Params {
                     shown(&declared),
                     shown(&param.words[0])
                 );
+                return Err(wrong(&place, problem, REPAIR));
+            }
+            let expected = match kind {
+                "string" | "texture" | "bool" if !param.numbers.is_empty() => "words",
+                _ if OF_NUMBERS.contains(&kind) && !param.words.is_empty() => "numbers",
+                _ => "",
+            };
+            if !expected.is_empty() {
+                let problem = format!("`{}` has other values than {expected}", shown(&declared));
                 return Err(wrong(&place, problem, REPAIR));
             }
             list.push(Rc::new(param));

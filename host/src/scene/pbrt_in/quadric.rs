@@ -136,7 +136,8 @@ impl Loader<'_> {
             && is_whole
             && self.shines()
             && SIZES.contains(&size)
-            && (!self.graphics.is_reversed || area.is_two_sided)
+            && !self.graphics.is_reversed
+            && !area.is_two_sided
         {
             let radiance = area.radiance_of(4.0 * PI * size * size);
             self.small.push(Small {

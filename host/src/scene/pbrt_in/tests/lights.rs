@@ -235,12 +235,13 @@ fn what_shines_by_formula() {
     let front = |index: usize| front_of(&frame, index);
     near(front(1), [0.0, 0.0, 1.0], ROUNDED);
     near(front(2), [0.0, 0.0, -1.0], ROUNDED);
-    // Half a sphere, one that is stretched, one that shines inward, and a disc of two sides are triangles.
+    // Half a sphere, one that is stretched, one that shines inward, a disc and a sphere of two sides are triangles.
     for shape in [
         "Shape \"sphere\" \"float zmin\" 0",
         "Scale 1 2 1 Shape \"sphere\"",
         "ReverseOrientation Shape \"sphere\"",
         "AreaLightSource \"diffuse\" \"bool twosided\" true Shape \"disk\"",
+        "AreaLightSource \"diffuse\" \"bool twosided\" true Shape \"sphere\"",
     ] {
         let scene = read(&format!("{UNMIRRORED}AreaLightSource \"diffuse\"\n{shape}"));
         assert!(

@@ -121,6 +121,14 @@ fn lists_are_of_numbers_or_of_words() {
             "Shape \"trianglemesh\" \"point3 Q\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2]",
             "the mesh has no `P`",
         ),
+        (
+            "LightSource \"spot\" \"float coneangle\" \"wide\"",
+            "`float coneangle` has other values than numbers",
+        ),
+        (
+            "AreaLightSource \"diffuse\" \"bool twosided\" 1",
+            "`bool twosided` has other values than words",
+        ),
     ] {
         let error = refused(&format!("WorldBegin\n{text}"));
         assert!(error.contains(expected), "{error}");
