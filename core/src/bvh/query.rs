@@ -106,12 +106,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 
     /// [`pmf_of`](Self::pmf_of) for such a receiver.
     #[must_use]
-    pub fn pmf_of_for<P: Receiver>(
-        &self,
-        receiver: &P,
-        instance: InstanceId,
-        triangle: u32,
-    ) -> Option<f32>
+    pub fn pmf_of_for<P: Receiver>(&self, receiver: &P, instance: InstanceId, triangle: u32) -> Option<f32>
     where
         I: ImportanceModel<N, W, P>,
     {

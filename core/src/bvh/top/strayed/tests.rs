@@ -4,10 +4,12 @@ extern crate std;
 
 use std::vec::Vec;
 
-use super::{FEW, Looked};
+use super::{FARTHER, FEW, Looked, distance};
 use crate::bvh::{RebuilderParams, Swap};
 use crate::kit::{Random, cross, dot, minus};
+use crate::node::{Node, kind};
 use crate::rebuilder::Rebuilder;
+use crate::summary::Summary;
 use crate::{Edit, EmissiveTriangle, LightBvh, MeshId, MomentNode, ShadingPoint, Transform};
 
 mod paths;
@@ -192,6 +194,133 @@ fn what_stays_where_it_belongs_stays() {
     assert!(other.placed[500].hung > stamp, "far off");
     bvh.remove_instance(id).expect("there");
     assert!(bvh.top.strayed.is_empty());
+}
+
+/// What moves must be twice as far from the others as it was, in squared distance; once it rests, farther by any distance.
+#[test]
+fn what_rests_is_put_in_elsewhere_sooner_than_what_moves() {
+    let (still, _) = scene(8);
+    let id = still.instance_id(3).expect("there");
+    let at = still.instances()[3].translation;
+    let moved = |k: u16| {
+        let mut bvh = still.clone();
+        let away = [at[0] + 0.25 * f32::from(k), at[1], at[2]];
+        let id = bvh.instance_id(id.index()).expect("there");
+        bvh.set_transform(id, Transform::at(away)).expect("its own");
+        bvh.refit();
+        bvh
+    };
+    let between = (1..200).map(moved).find(|bvh| {
+        bvh.top.strayed.contains(&3) && bvh.lies_elsewhere(3, 1.0) && !bvh.lies_elsewhere(3, FARTHER)
+    });
+    let mut bvh = between.expect("a place that is farther, and not by much");
+    let stamp = bvh.epoch;
+    let looked = &mut Looked {
+        next: 0,
+        epoch: Some(still.epoch),
+    };
+    bvh.put_strayed_elsewhere(2, looked);
+    assert!(
+        bvh.top.strayed.contains(&3) && bvh.placed[3].hung <= stamp,
+        "it moves"
+    );
+    bvh.put_strayed_elsewhere(2, looked);
+    assert!(
+        !bvh.top.strayed.contains(&3) && bvh.placed[3].hung > stamp,
+        "it rests"
+    );
+    bvh.validate().expect("valid");
+}
+
+/// [`lies_elsewhere`](LightBvh) by its definition: farther from where it was than its node was wide, itself there, about the mean of all; and farther from
+/// the mean of the others than it was.
+fn lies_elsewhere_by_definition(bvh: &LightBvh, index: usize, farther: f64) -> bool {
+    let placed = &bvh.placed[index];
+    let own = bvh.in_world(index as u32);
+    let was = placed.hung_center.map(f64::from);
+    let is = own.center().to_array().map(f64::from);
+    let node = &bvh.nodes[placed.node as usize];
+    let others: Vec<(f64, [f64; 3], f64)> = (0..8)
+        .filter(|&slot| slot != placed.slot as usize && node.kind(slot) != kind::EMPTY)
+        .map(|slot| node.summary(slot))
+        .map(|other| {
+            (
+                f64::from(other.phi()),
+                other.center().to_array().map(f64::from),
+                f64::from(other.spread()),
+            )
+        })
+        .collect();
+    let mean = |of: &[(f64, [f64; 3], f64)]| {
+        let phi: f64 = of.iter().map(|one| one.0).sum();
+        [0, 1, 2].map(|k| of.iter().map(|one| one.0 * one.1[k]).sum::<f64>() / phi)
+    };
+    let mut all = others.clone();
+    all.push((f64::from(own.phi()), was, f64::from(own.spread())));
+    let (middle, phi) = (mean(&all), all.iter().map(|one| one.0).sum::<f64>());
+    let wide: f64 = all
+        .iter()
+        .map(|one| one.0 * (one.2 + distance(one.1, middle)))
+        .sum();
+    let beside = mean(&others);
+    distance(is, was) > wide / phi && distance(is, beside) > farther * distance(was, beside)
+}
+
+#[test]
+fn what_lies_elsewhere_does_so_by_its_definition() {
+    let (still, _) = scene(8);
+    let mut found = [0, 0];
+    for index in 0..60_u32 {
+        let at = still.instances()[index as usize].translation;
+        for k in 1..24_u16 {
+            let mut bvh = still.clone();
+            let id = bvh.instance_id(index).expect("there");
+            let way = [[1.0, 0.3, -0.2], [-0.4, 1.0, 0.1], [0.2, -0.5, -1.0]][index as usize % 3];
+            let away = [0, 1, 2].map(|axis| at[axis] + 0.8 * f32::from(k) * way[axis]);
+            bvh.set_transform(id, Transform::at(away)).expect("its own");
+            bvh.refit();
+            if !bvh.top.strayed.contains(&index) {
+                continue;
+            }
+            for farther in [1.0, FARTHER] {
+                let is = bvh.lies_elsewhere(index, farther);
+                assert_eq!(
+                    is,
+                    lies_elsewhere_by_definition(&bvh, index as usize, farther),
+                    "{index} {k}"
+                );
+                found[usize::from(is)] += 1;
+            }
+        }
+    }
+    assert!(found.iter().all(|&count| count > 50), "{found:?}");
+}
+
+/// A mesh that is dimmer than it was, and changes in every frame, may be as bright again in the next: it is put in elsewhere once it rests.
+#[test]
+fn what_blinks_waits_until_it_rests() {
+    let (mut bvh, mesh) = scene(8);
+    let own = &mut rebuilder();
+    let of = |at: [f32; 3], radiance: f32| {
+        let mut all = cloud(8, at, 0);
+        all.iter_mut().for_each(|light| light.radiance = [radiance; 3]);
+        [0, 4].map(|first| Edit::SetTriangleRange {
+            mesh,
+            first,
+            triangles: all[first as usize..first as usize + 4].to_vec(),
+        })
+    };
+    for radiance in [100.0, 1.0, 100.0] {
+        frame(&mut bvh, own, of([-40.0; 3], radiance).to_vec());
+    }
+    let stamp = bvh.epoch;
+    for k in 0..12_u16 {
+        let at = [35.0, 30.0 + 0.1 * f32::from(k % 2), 20.0];
+        frame(&mut bvh, own, of(at, 1.0).to_vec());
+        assert!(bvh.placed[500].hung <= stamp, "{k}");
+    }
+    (0..4).for_each(|_| frame(&mut bvh, own, Vec::new()));
+    assert!(bvh.placed[500].hung > stamp, "it rests");
 }
 
 /// A frame puts in a few, whatever there are; those of a mesh of many are left to parts that are built anew.
