@@ -342,7 +342,7 @@ fn record(device: &ash::Device, commands: vk::CommandBuffer, dispatch: &Dispatch
 }
 
 /// What was written so far is there for what follows, and what was read may be written.
-fn barrier(device: &ash::Device, commands: vk::CommandBuffer) {
+pub(super) fn barrier(device: &ash::Device, commands: vk::CommandBuffer) {
     let stages = vk::PipelineStageFlags::COMPUTE_SHADER | vk::PipelineStageFlags::TRANSFER;
     let memory = [vk::MemoryBarrier::default()
         .src_access_mask(vk::AccessFlags::SHADER_WRITE | vk::AccessFlags::TRANSFER_WRITE)

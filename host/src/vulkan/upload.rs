@@ -6,6 +6,7 @@ use super::kernel::Kernel;
 use super::memory::{Region, copy};
 use super::pass::Write;
 use super::ring::PART;
+use super::run::barrier;
 use super::scatter::{ENTRY, Scatter};
 use ash::vk;
 use lightbvh_kernels::scatter::Run;
@@ -134,10 +135,6 @@ impl<'a> Part<'a> {
         kernel: &Kernel,
         sets: &[vk::DescriptorSet],
     ) {
-        let words = [start, start + self.data].map(|bytes| (bytes / 4) as u32);
-        for (scatter, set) in self.scatters.iter().zip(sets) {
-            scatter.record(device, commands, (kernel, *set), ring, words.into());
-        }
         for (target, regions) in &self.copies {
             let placed: Vec<Region> = regions
                 .iter()
@@ -147,6 +144,14 @@ impl<'a> Part<'a> {
                 })
                 .collect();
             copy(device, commands, ring, target.memory.buffer, &placed);
+        }
+        if !self.copies.is_empty() && !self.scatters.is_empty() {
+            // A dispatch may write anything of a buffer, as far as others know.
+            barrier(device, commands);
+        }
+        let words = [start, start + self.data].map(|bytes| (bytes / 4) as u32);
+        for (scatter, set) in self.scatters.iter().zip(sets) {
+            scatter.record(device, commands, (kernel, *set), ring, words.into());
         }
     }
 }
