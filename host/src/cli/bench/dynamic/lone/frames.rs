@@ -33,11 +33,27 @@ pub(super) fn rows(scene: &mut Scene, patience: Patience) -> Vec<Row> {
     rows
 }
 
+/// So many frames in which a rebuilder starts nothing are rest, and so many it is given to come to it.
+const QUIET: u32 = 40;
+const MOST_LEFT: u32 = 4000;
+
 /// Ends of frames in which one instance is dimmed and no rebuild is under way, by a rebuilder as it comes: what it starts then is
 /// started for one lamp.
 fn flickering(scene: &mut Scene, patience: Patience) -> Vec<Duration> {
     let mut rebuilder = Rebuilder::default();
     let lamp = scene.some();
+    // What the frames before have left due is not this lamp's.
+    let mut quiet = 0;
+    for _ in 0..MOST_LEFT {
+        rebuilder.begin_frame(&mut scene.bvh).expect("no panic");
+        scene.bvh.refit();
+        rebuilder.end_frame(&scene.bvh);
+        quiet = if rebuilder.is_busy() { 0 } else { quiet + 1 };
+        if quiet > QUIET {
+            break;
+        }
+        std::thread::sleep(if quiet == 0 { PAUSE } else { Duration::ZERO });
+    }
     let mut times = Vec::new();
     patience.frames(|frame| {
         while rebuilder.is_busy() {
