@@ -70,14 +70,18 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 Edit::SetTransform { instance, transform } => {
                     self.note_dark(instance.index);
                     self.placed[instance.index as usize].transform = transform;
-                    self.place(instance.index);
-                    moved.push(instance.index);
+                    if self.place(instance.index) {
+                        moved.push(instance.index);
+                    }
                 }
                 Edit::SetRadiance { instance, radiance } => {
                     let shone = self.placed[instance.index as usize].radiance > 0.0;
                     self.placed[instance.index as usize].radiance = radiance;
                     self.place(instance.index);
                     let has_moved_dark = !shone && radiance > 0.0 && self.has_moved(instance.index);
+                    if has_moved_dark {
+                        self.note_lit(instance.index);
+                    }
                     if has_moved_dark || self.is_otherwise_bright(instance.index) {
                         moved.push(instance.index);
                         let placed = &self.placed[instance.index as usize];
@@ -262,20 +266,19 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.changes.new.written_instances.push(entry);
     }
 
-    /// Brings the words of an instance in line with its transform and radiance.
-    pub(super) fn place(&mut self, index: u32) {
+    /// Brings the words of an instance in line with its transform and radiance, and says whether that changed any.
+    pub(super) fn place(&mut self, index: u32) -> bool {
         self.hand_over(index);
-        self.put_words(index);
+        self.put_words(index)
     }
 
     /// The same, whichever tree it followed.
-    pub(super) fn put_words(&mut self, index: u32) {
+    pub(super) fn put_words(&mut self, index: u32) -> bool {
         self.epoch += 1;
-        self.placed[index as usize].changed = self.epoch;
         let placed = &self.placed[index as usize];
         let blas = self.meshes[placed.mesh as usize].blas;
         let old = self.instances[index as usize];
-        self.instances[index as usize] = Instance {
+        let new = Instance {
             root: self.roots[blas as usize].node,
             blas,
             first: placed.lights.start,
@@ -287,8 +290,15 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             part: old.part,
             ..self.in_place(blas, placed.transform, placed.radiance)
         };
+        // What is set as it was rests: engines send all their transforms in every frame.
+        let is_other = bytemuck::bytes_of(&new) != bytemuck::bytes_of(&old);
+        if is_other {
+            self.placed[index as usize].changed = self.epoch;
+        }
+        self.instances[index as usize] = new;
         self.changes.new.mark_instance(index);
         self.write_parts(index);
+        is_other
     }
 
     /// After a bottom level got other nodes: its instances must know the root.

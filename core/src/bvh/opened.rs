@@ -287,6 +287,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         record.place = INVALID;
         record.part = parts.start;
         self.place(index);
+        // Its leaves are others, whatever its words are.
+        self.placed[index as usize].changed = self.epoch;
         true
     }
 
@@ -341,6 +343,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.instances[index as usize].part = INVALID;
         self.give_parts(blas);
         self.place(index);
+        // Its leaves are others, whatever its words are.
+        self.placed[index as usize].changed = self.epoch;
     }
 
     /// One more instance is opened into the parts of a bottom level, `count` of them.

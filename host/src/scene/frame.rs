@@ -10,6 +10,7 @@ use lightbvh_kernels::shading::skin::Corner;
 use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 
 use crate::render::{RayBvh, View};
+use crate::vector::dot;
 
 use super::Material;
 use super::analytic::AnalyticKind;
@@ -74,14 +75,19 @@ impl Frame {
     /// as much, and light of what is nearer is lost.
     pub fn far_off(&self) -> Option<String> {
         let triangles = || self.triangles.iter().chain(&self.clear);
-        let offset = triangles()
+        let mut offsets: Vec<f32> = triangles()
             .map(|triangle| offset_distance(triangle.p[0].into(), triangle.p[1].into(), triangle.p[2].into()))
-            .fold(0.0, f32::max);
-        let (low, high) = framing::bounds(triangles().flat_map(|triangle| triangle.p))?;
-        let size = (0..3)
-            .map(|axis| (high[axis] - low[axis]).powi(2))
-            .sum::<f64>()
-            .sqrt();
+            .collect();
+        // Of most of it: a few triangles elsewhere say nothing of the others.
+        let offset = *at(&mut offsets, 0.5)?;
+        let sides = [0, 1, 2].map(|axis| {
+            let mut along: Vec<f32> = triangles()
+                .flat_map(|triangle| triangle.p.map(|p| p[axis]))
+                .collect();
+            let [low, high] = [0.1, 0.9].map(|part| at(&mut along, part).copied().unwrap_or(0.0));
+            f64::from(high) - f64::from(low)
+        });
+        let size = dot(sides, sides).sqrt();
         (f64::from(offset) > FAR_OFF * size).then(|| {
             format!(
                 "note: all lies far from the origin beside its size, {size:.3} m: rays start {offset:.3} m off surfaces, and what is nearer to them neither lights them nor \
@@ -89,6 +95,12 @@ impl Frame {
             )
         })
     }
+}
+
+/// What so large a part of values is below; none of none.
+fn at(values: &mut [f32], part: f64) -> Option<&f32> {
+    let place = (part * values.len() as f64) as usize;
+    (!values.is_empty()).then(|| &*values.select_nth_unstable_by(place, f32::total_cmp).1)
 }
 
 impl Scene {

@@ -114,14 +114,34 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Before an instance is moved: where it was, where its node does not tell, for it has no flux.
+    /// Before an instance is moved: where it was, where its node does not tell, for it had no flux there.
     pub(in crate::bvh) fn note_dark(&mut self, index: u32) {
         let placed = &self.placed[index as usize];
-        let instance = &self.instances[index as usize];
-        if instance.flux <= 0.0 && placed.parts.is_empty() && placed.hung_center[0].is_nan() {
-            let center = self.blases[self.meshes[placed.mesh as usize].blas as usize].center;
-            // Not known either where the mesh has no flux.
-            self.placed[index as usize].hung_center = instance.vertex(center);
+        if !placed.parts.is_empty() || !placed.hung_center[0].is_nan() {
+            return;
+        }
+        let tells = placed.node != INVALID
+            && self.nodes[placed.node as usize]
+                .summary(placed.slot as usize)
+                .phi()
+                > 0.0;
+        if tells && self.instances[index as usize].flux > 0.0 {
+            return;
+        }
+        let blas = self.meshes[placed.mesh as usize].blas;
+        let center = self.blases[blas as usize].center;
+        self.placed[index as usize].hung_center = self.instances[index as usize].vertex(center);
+        // No light of it tells where it is once it shines: then all of its instances are looked at.
+        if self.root_of(blas).phi() <= 0.0 {
+            self.lose_center(blas);
+        }
+    }
+
+    /// An instance that was moved while it was off shines again.
+    pub(in crate::bvh) fn note_lit(&mut self, index: u32) {
+        let placed = &self.placed[index as usize];
+        if placed.parts.is_empty() && placed.node != INVALID {
+            self.top.strayed.insert(index);
         }
     }
 

@@ -65,8 +65,7 @@ pub(super) fn view(frame: &Frame, materials: &[Material]) -> View {
     best.1
 }
 
-/// The box around points; none around none.
-pub(super) fn bounds(points: impl Iterator<Item = [f32; 3]>) -> Option<([f64; 3], [f64; 3])> {
+fn bounds(points: impl Iterator<Item = [f32; 3]>) -> Option<([f64; 3], [f64; 3])> {
     let mut bounds: Option<([f64; 3], [f64; 3])> = None;
     for p in points {
         let p = p.map(f64::from);

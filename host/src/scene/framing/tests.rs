@@ -515,6 +515,19 @@ fn what_lies_far_off_is_told() {
             .frame(0)
             .far_off();
         assert_eq!(told.is_some(), is_told, "{told:?}");
+        // One triangle at the origin says nothing of the others.
+        let floor = sheet([at, 0.0, 0.0], [100.0, 0.0, 0.0], [0.0, 0.0, -100.0], GREY);
+        let mut stray = sheet([0.0; 3], [0.2, 0.0, 0.0], [0.0, 0.0, -0.2], GREY);
+        stray.triangles.truncate(1);
+        let boxes = (0..8).map(|k| {
+            let x = at + 10.0 * k as f32;
+            cube([x, 0.0, -50.0], [x + 4.0, 4.0, -46.0], GREY)
+        });
+        let parts = [floor, stray].into_iter().chain(boxes).collect();
+        let also = scene_with(parts, &[[at + 50.0, 3.0, -50.0]], false)
+            .frame(0)
+            .far_off();
+        assert_eq!(also.is_some(), is_told, "{also:?}");
         // 2^-18 of the coordinate.
         assert!(told.is_none_or(|told| told.contains("rays start 1.90")), "{at}");
     }

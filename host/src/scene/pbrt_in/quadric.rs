@@ -15,6 +15,8 @@ use crate::vector::dot;
 const FINE: [u32; 2] = [48, 24];
 const COARSE: [u32; 2] = [16, 8];
 const MANY: u32 = 1000;
+/// Whole spheres that shine from both sides and are made of triangles, some 2200 each.
+const SHELLS: u32 = 16;
 
 /// Sizes that a light by formula may have, metres.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-9..=1e9;
@@ -117,6 +119,19 @@ impl Loader<'_> {
         has
     }
 
+    /// Whether a whole sphere is made of triangles, for it shines inward too: the first ones, among which what surrounds a scene is.
+    fn is_shell(&mut self, params: &Params, is_two_sided: bool) -> bool {
+        if is_two_sided && self.shells == SHELLS {
+            self.note(
+                &params.place,
+                "after the first 16 whole spheres that shine from both sides, others shine outward alone",
+            );
+            return false;
+        }
+        self.shells += u32::from(is_two_sided);
+        is_two_sided
+    }
+
     pub fn sphere(&mut self, params: &Params) -> Result<(), SceneError> {
         let radius = params.number("radius").unwrap_or(1.0);
         if !self.has_area(params, radius > 0.0) {
@@ -137,7 +152,7 @@ impl Loader<'_> {
             && self.shines()
             && SIZES.contains(&size)
             && !self.graphics.is_reversed
-            && !area.is_two_sided
+            && !self.is_shell(params, area.is_two_sided)
         {
             let radiance = area.radiance_of(4.0 * PI * size * size);
             self.small.push(Small {

@@ -72,6 +72,8 @@ pub(super) struct Loader<'a> {
     pub object: Option<(String, Vec<Primitive>)>,
     pub placed: Vec<Placed>,
     pub quadrics: u32,
+    /// Whole spheres that shine from both sides, so far.
+    pub shells: u32,
     pub small: Vec<Small>,
     pub infinite: Vec<Infinite>,
     pub camera: Option<Camera>,
@@ -117,6 +119,7 @@ impl<'a> Loader<'a> {
             object: None,
             placed: Vec::new(),
             quadrics: 0,
+            shells: 0,
             small: Vec::new(),
             infinite: Vec::new(),
             camera: None,

@@ -251,6 +251,24 @@ fn what_shines_by_formula() {
     }
 }
 
+/// A dome shines inward; of very many each would be a mesh.
+#[test]
+fn the_first_spheres_of_two_sides_are_triangles() {
+    let spheres = "Translate 3 0 0 Shape \"sphere\"\n".repeat(20);
+    let scene = read(&format!(
+        "{UNMIRRORED}AreaLightSource \"diffuse\" \"bool twosided\" true\n{spheres}"
+    ));
+    assert_eq!(scene.data().analytic.len(), 4);
+    let said = |word: &str| {
+        scene
+            .warnings()
+            .iter()
+            .filter(|warning| warning.contains(word))
+            .count()
+    };
+    assert_eq!(said("others shine outward alone"), 1, "{:?}", scene.warnings());
+}
+
 /// The normal of a flat light by formula.
 fn front_of(frame: &Frame, index: usize) -> [f32; 3] {
     let light = frame.others[index];

@@ -390,3 +390,127 @@ fn what_blinks_and_sways_stays() {
     }
     assert!(bvh.placed[id.index() as usize].hung <= stamp);
 }
+
+/// Engines send all their transforms in every frame: what is set as it was rests, and the list of what moved drains.
+#[test]
+fn what_is_set_as_it_was_rests() {
+    let (mut bvh, _) = scene(8);
+    let mesh = bvh.add_mesh(cloud(8, [0.0; 3], 0)).expect("a mesh");
+    let id = walker(&mut bvh, mesh, 25.0, way(1, 0));
+    let own = &mut rebuilder();
+    let at = |k: u16| {
+        [Edit::SetTransform {
+            instance: id,
+            transform: Transform::at(way(1, k)),
+        }]
+        .to_vec()
+    };
+    (1..=44).for_each(|k| frame(&mut bvh, own, at(k)));
+    (0..REST).for_each(|_| frame(&mut bvh, own, at(44)));
+    assert!(bvh.top.strayed.is_empty());
+    let found = over_new(&bvh, way(1, 44));
+    assert!(found < 1.1, "{found}");
+}
+
+/// Dark by its triangles, moved, and lit again a few triangles at a time: no centre of the mesh changed.
+#[test]
+fn a_mesh_that_is_moved_while_its_triangles_are_dark_is_looked_at() {
+    let to = [35.0, 30.0, 20.0];
+    for blinks in [0, 3] {
+        for radiance_first in [None, Some(true), Some(false)] {
+            let (mut bvh, _) = scene(8);
+            let mesh = bvh.add_mesh(cloud(8, [0.0; 3], 0)).expect("a mesh");
+            let id = walker(&mut bvh, mesh, 25.0, [-40.0; 3]);
+            let own = &mut rebuilder();
+            let set = |factor: f32| {
+                let mut all = cloud(8, [0.0; 3], 0);
+                all.iter_mut().for_each(|light| light.radiance = [factor; 3]);
+                [0, 4].map(|first| Edit::SetTriangleRange {
+                    mesh,
+                    first,
+                    triangles: all[first as usize..first as usize + 4].to_vec(),
+                })
+            };
+            let shine = |radiance: f32| {
+                [Edit::SetRadiance {
+                    instance: id,
+                    radiance,
+                }]
+                .to_vec()
+            };
+            for _ in 0..blinks {
+                frame(&mut bvh, own, set(0.0).to_vec());
+                frame(&mut bvh, own, set(1.0).to_vec());
+            }
+            frame(&mut bvh, own, set(0.0).to_vec());
+            if radiance_first.is_some() {
+                frame(&mut bvh, own, shine(0.0));
+            }
+            let transform = Transform::at(to);
+            let instance = id;
+            frame(
+                &mut bvh,
+                own,
+                [Edit::SetTransform { instance, transform }].to_vec(),
+            );
+            if radiance_first == Some(true) {
+                frame(&mut bvh, own, shine(25.0));
+            }
+            set(1.0)
+                .into_iter()
+                .for_each(|half| frame(&mut bvh, own, [half].to_vec()));
+            if radiance_first == Some(false) {
+                frame(&mut bvh, own, shine(25.0));
+            }
+            rest(&mut bvh, own);
+            let found = over_new(&bvh, to);
+            assert!(found < 1.5, "{blinks} {radiance_first:?}: {found}");
+        }
+    }
+}
+
+/// More than are noted sway beside a lamp that comes on elsewhere.
+#[test]
+fn what_comes_on_is_noted_beside_many_that_move() {
+    let to = [35.0, 30.0, 20.0];
+    let (mut bvh, _) = scene(8);
+    let lamp = bvh.add_mesh(cloud(1, [0.0; 3], 0)).expect("a lamp");
+    let random = &mut Random(5);
+    let at: Vec<_> = (0..2000).map(|_| (random.vector() * 50.0).to_array()).collect();
+    let add = at.iter().map(|&at| Edit::AddInstance {
+        mesh: lamp,
+        transform: Transform::at(at),
+        radiance: 0.01,
+    });
+    let all = bvh.apply(add.collect()).expect("instances").instances;
+    let mesh = bvh.add_mesh(cloud(8, [0.0; 3], 0)).expect("a mesh");
+    let id = walker(&mut bvh, mesh, 25.0, [-40.0; 3]);
+    let own = &mut rebuilder();
+    for k in 0..8_u16 {
+        let mut edits: Vec<Edit> = all
+            .iter()
+            .zip(&at)
+            .map(|(&instance, p)| Edit::SetTransform {
+                instance,
+                transform: Transform::at([p[0] + 0.1 * f32::from(k % 2), p[1], p[2]]),
+            })
+            .collect();
+        match k {
+            2 | 6 => edits.push(Edit::SetRadiance {
+                instance: id,
+                radiance: if k == 2 { 0.0 } else { 25.0 },
+            }),
+            4 => edits.push(Edit::SetTransform {
+                instance: id,
+                transform: Transform::at(to),
+            }),
+            _ => {}
+        }
+        frame(&mut bvh, own, edits);
+    }
+    assert!(bvh.top.strayed.contains(&id.index()));
+    (0..400).for_each(|_| frame(&mut bvh, own, Vec::new()));
+    assert!(bvh.top.strayed.is_empty());
+    let found = over_new(&bvh, to);
+    assert!(found < 1.5, "{found}");
+}
