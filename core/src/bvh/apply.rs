@@ -79,10 +79,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                     self.placed[instance.index as usize].radiance = radiance;
                     self.place(instance.index);
                     let has_moved_dark = !shone && radiance > 0.0 && self.has_moved(instance.index);
-                    if has_moved_dark {
-                        self.note_lit(instance.index);
-                    }
-                    if has_moved_dark || self.is_otherwise_bright(instance.index) {
+                    let is_looked_at_now = has_moved_dark && !self.note_lit(instance.index);
+                    if is_looked_at_now || self.is_otherwise_bright(instance.index) {
                         moved.push(instance.index);
                         let placed = &self.placed[instance.index as usize];
                         if placed.radiance > placed.hung_radiance {

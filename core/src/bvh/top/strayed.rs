@@ -21,6 +21,8 @@ const LOOKED_AT: usize = 16;
 
 /// Instances that are noted because they were moved, at most: beside more of them parts are tried in any case.
 const MOVED: usize = 1024;
+/// Instances that are noted beside which those that come on are no longer.
+const LIT: usize = 4 * MOVED;
 /// What lies elsewhere is farther from the others than it was, in squared distance, by this while it moves: of those that move together some are ahead of
 /// the rest for a while. Once it rests, 1.
 #[cfg(feature = "std")]
@@ -137,12 +139,14 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// An instance that was moved while it was off shines again.
-    pub(in crate::bvh) fn note_lit(&mut self, index: u32) {
+    /// An instance that was moved while it was off shines again. Whether it is noted: an opened one, and one beside very many, is looked at by the edit.
+    pub(in crate::bvh) fn note_lit(&mut self, index: u32) -> bool {
         let placed = &self.placed[index as usize];
-        if placed.parts.is_empty() && placed.node != INVALID {
+        let is_noted = placed.parts.is_empty() && placed.node != INVALID && self.top.strayed.len() < LIT;
+        if is_noted {
             self.top.strayed.insert(index);
         }
+        is_noted
     }
 
     /// Whether an instance was moved since it was put where it is.
