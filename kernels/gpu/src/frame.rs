@@ -53,7 +53,7 @@ pub struct Region {
 }
 
 impl Region {
-    /// Its entry in the list of kernel [`SCATTER`](crate::SCATTER): its first words in the staging buffer and in the device's, and how many.
+    /// Its entry in the list of kernel `scatter`: its first words in the staging buffer and in the device's, and how many.
     #[must_use]
     pub fn run(&self) -> [u32; 3] {
         [self.from, self.to, self.bytes].map(|bytes| (bytes / 4) as u32)
@@ -74,7 +74,7 @@ impl Frame {
     /// regions of one copy command. `start` is the first byte there, a multiple of 4: the place in a ring, for example.
     ///
     /// Drivers of real devices run one copy for each region, some 2 µs on an NVIDIA H100. Where there are dozens of short ones, put their
-    /// [entries](Region::run) behind the bytes and dispatch kernel [`SCATTER`](crate::SCATTER) instead, 16 invocations for each.
+    /// [entries](Region::run) behind the bytes and dispatch kernel `scatter` instead, 16 invocations for each.
     #[must_use]
     pub fn regions(&self, start: u64) -> Vec<(Buffer, Vec<Region>)> {
         let mut all: Vec<(Buffer, Vec<Region>)> = Vec::new();
