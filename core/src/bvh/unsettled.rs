@@ -33,6 +33,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// Whether so much of a bottom level changed since its tree was made that another may be better, whatever it lost.
+    #[cfg(feature = "std")]
     pub(crate) fn is_unsettled(&self, blas: u32) -> bool {
         let own = self.blases.get(blas as usize);
         own.is_some_and(|own| {

@@ -3,17 +3,21 @@
 //! A refit compares the centre of each mesh that it computes with where that was as its instances were put where they are. Those of one that
 //! left its own extent are noted, and the rebuilder puts a few in elsewhere as a frame begins: edits had to pay for what they did not change.
 
+#[cfg(feature = "std")]
 use alloc::vec::Vec;
 
 use super::misplaced::{STIRS, SWAYS, distance};
 use crate::bvh::{Bvh, Trails};
-use crate::node::{Node, kind};
+use crate::node::Node;
+#[cfg(feature = "std")]
+use crate::node::kind;
 use crate::summary::Summary;
 use crate::tree::INVALID;
 
 /// Instances of a mesh that are noted; of more each counts as some that are in subtrees built anew, and parts are tried.
 const FEW: usize = 256;
 /// A mesh is dim that was brighter by more than this factor, where it blinks.
+#[cfg(feature = "std")]
 const DIM: f64 = 2.0;
 /// Noted instances that one frame looks at.
 #[cfg(feature = "std")]
