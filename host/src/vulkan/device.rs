@@ -74,7 +74,7 @@ impl Device {
     /// # Errors
     /// [`VulkanError::FloatEnvironment`] if this thread's float mode is not the default,
     /// [`VulkanError::NoValidationLayer`], [`VulkanError::UnknownDevice`] if the device has gone since it was listed,
-    /// [`VulkanError::Validation`], or [`VulkanError::Call`].
+    /// [`VulkanError::Validation`], [`VulkanError::Call`], or those of [`Device::kernel`].
     pub fn open(info: &DeviceInfo, options: Options) -> Result<Self, VulkanError> {
         let instance = Instance::new(options.validation)?;
         let (candidates, _) = candidates(&instance)?;

@@ -31,7 +31,7 @@ const FAR: usize = 16;
 /// Rays that tell so of each.
 const RAYS: usize = 8;
 
-/// And towards surfaces, where those miss.
+/// And rays towards surfaces, where those miss.
 const AIMED: usize = 32;
 
 /// What lies farther away than this part of the scene's size is no bulb.
