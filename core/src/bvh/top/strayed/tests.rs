@@ -10,11 +10,15 @@ use crate::kit::{Random, cross, dot, minus};
 use crate::node::{Node, kind};
 use crate::rebuilder::Rebuilder;
 use crate::summary::Summary;
-use crate::{Edit, EmissiveTriangle, LightBvh, MeshId, MomentNode, ShadingPoint, Transform};
+use crate::{Edit, EmissiveTriangle, InstanceId, LightBvh, MeshId, MomentNode, ShadingPoint, Transform};
 
+mod dark;
 mod paths;
 
 type Own = Rebuilder<MomentNode<8>, 8>;
+
+/// Frames after which nothing is looked at any more.
+const REST: u32 = 200;
 
 /// Small lights of a cloud about `at`, shining to both sides, every `dark`th one off.
 fn cloud(count: u32, at: [f32; 3], dark: u32) -> Vec<EmissiveTriangle> {
@@ -30,6 +34,34 @@ fn cloud(count: u32, at: [f32; 3], dark: u32) -> Vec<EmissiveTriangle> {
         }
     };
     (0..count).map(lamp).collect()
+}
+
+/// Eight lights of one radiance about a place.
+fn eight(at: [f32; 3], radiance: f32) -> Vec<EmissiveTriangle> {
+    let mut all = cloud(8, at, 0);
+    all.iter_mut().for_each(|light| light.radiance = [radiance; 3]);
+    all
+}
+
+/// All triangles of a mesh in two ranges: neither is the mesh as a whole.
+fn halves(mesh: MeshId, all: &[EmissiveTriangle]) -> [Edit; 2] {
+    let half = all.len() / 2;
+    [0, half].map(|first| Edit::SetTriangleRange {
+        mesh,
+        first: first as u32,
+        triangles: all[first..first + half].to_vec(),
+    })
+}
+
+fn place(instance: InstanceId, at: [f32; 3]) -> Edit {
+    Edit::SetTransform {
+        instance,
+        transform: Transform::at(at),
+    }
+}
+
+fn shine(instance: InstanceId, radiance: f32) -> Edit {
+    Edit::SetRadiance { instance, radiance }
 }
 
 /// A mesh of `count` lights at one corner of 500 lamps.
@@ -69,6 +101,29 @@ fn frame(bvh: &mut LightBvh, own: &mut Own, edits: Vec<Edit>) {
     own.end_frame(bvh);
 }
 
+fn rest(bvh: &mut LightBvh, own: &mut Own) {
+    (0..REST).for_each(|_| frame(bvh, own, Vec::new()));
+    bvh.validate().expect("valid");
+    assert!(bvh.top.strayed.is_empty());
+}
+
+/// Instances that were put in since an epoch.
+fn put_since(bvh: &LightBvh, stamp: u64) -> usize {
+    let placed = bvh.placed.iter();
+    placed.filter(|placed| placed.live && placed.hung > stamp).count()
+}
+
+fn walker(bvh: &mut LightBvh, mesh: MeshId, radiance: f32, at: [f32; 3]) -> InstanceId {
+    let add = Edit::AddInstance {
+        mesh,
+        transform: Transform::at(at),
+        radiance,
+    };
+    let id = bvh.apply([add].to_vec()).expect("an instance").instances[0];
+    bvh.refit();
+    id
+}
+
 /// The second moment of a sample at points around `at`, over that of a new light BVH of the same lights: the geometric mean.
 fn over_new(bvh: &LightBvh, at: [f32; 3]) -> f64 {
     let mut new = LightBvh::default();
@@ -95,7 +150,7 @@ fn over_new(bvh: &LightBvh, at: [f32; 3]) -> f64 {
     }
     let others = new.apply(add).expect("instances").instances;
     new.refit();
-    let moment = |bvh: &LightBvh, ids: &[crate::InstanceId], p: [f32; 3]| {
+    let moment = |bvh: &LightBvh, ids: &[InstanceId], p: [f32; 3]| {
         let point = ShadingPoint { p, n: [0.0; 3] };
         let mut sum = 0.0;
         for &id in ids {
@@ -301,15 +356,7 @@ fn what_lies_elsewhere_does_so_by_its_definition() {
 fn what_blinks_waits_until_it_rests() {
     let (mut bvh, mesh) = scene(8);
     let own = &mut rebuilder();
-    let of = |at: [f32; 3], radiance: f32| {
-        let mut all = cloud(8, at, 0);
-        all.iter_mut().for_each(|light| light.radiance = [radiance; 3]);
-        [0, 4].map(|first| Edit::SetTriangleRange {
-            mesh,
-            first,
-            triangles: all[first as usize..first as usize + 4].to_vec(),
-        })
-    };
+    let of = |at: [f32; 3], radiance: f32| halves(mesh, &eight(at, radiance));
     for radiance in [100.0, 1.0, 100.0] {
         frame(&mut bvh, own, of([-40.0; 3], radiance).to_vec());
     }
@@ -352,11 +399,7 @@ fn each_frame_puts_in_a_few() {
             let (left, stamp) = (bvh.top.strayed.len(), bvh.epoch);
             bvh.put_strayed_elsewhere(2, looked);
             assert!(left - bvh.top.strayed.len() <= 16);
-            let hung = bvh
-                .placed
-                .iter()
-                .filter(|placed| placed.live && placed.hung > stamp)
-                .count();
+            let hung = put_since(&bvh, stamp);
             assert!(hung <= 2, "{hung}");
             bvh.refit();
         }

@@ -1,0 +1,219 @@
+//! Lamps and meshes that went elsewhere while they were dark, or dim: a sample beside them is as good as in a new tree once they rest.
+
+use super::*;
+
+/// Such lamps were put in by a summary without flux, anywhere: 3 to 19 times.
+#[test]
+fn what_came_in_dark_is_looked_at_once_it_shines() {
+    let to = [35.0, 30.0, 20.0];
+    let (dark, lit) = (eight(to, 0.0), eight(to, 25.0));
+    for was_lit in [false, true] {
+        let (mut bvh, _) = scene(8);
+        let own = &mut rebuilder();
+        let first = if was_lit { &lit } else { &dark };
+        let mesh = bvh.add_mesh(first.clone()).expect("a mesh");
+        bvh.refit();
+        bvh.set_triangles(mesh, dark.clone()).expect("as many");
+        bvh.refit();
+        walker(&mut bvh, mesh, 1.0, [0.0; 3]);
+        (0..20).for_each(|_| frame(&mut bvh, own, Vec::new()));
+        frame(&mut bvh, own, halves(mesh, &lit).to_vec());
+        rest(&mut bvh, own);
+        let found = over_new(&bvh, to);
+        assert!(found < 1.6, "lit before {was_lit}: {found}");
+    }
+}
+
+/// Meshes that blinked were never looked at again where they are dim: 2 to 19 times.
+#[test]
+fn a_mesh_that_flashed_is_looked_at_where_it_rests() {
+    let to = [35.0, 30.0, 20.0];
+    let (mut bvh, mesh) = scene(8);
+    let own = &mut rebuilder();
+    for radiance in [25.0, 2500.0, 25.0, 2500.0, 25.0] {
+        let triangles = eight([-40.0; 3], radiance);
+        frame(&mut bvh, own, [Edit::SetTriangles { mesh, triangles }].to_vec());
+    }
+    (0..60).for_each(|_| frame(&mut bvh, own, Vec::new()));
+    frame(&mut bvh, own, halves(mesh, &eight(to, 25.0)).to_vec());
+    rest(&mut bvh, own);
+    let found = over_new(&bvh, to);
+    assert!(found < 1.6, "{found}");
+}
+
+/// Another instance came in while the mesh was dark, and where the first one had been put was forgotten: 6 to 144 times.
+#[test]
+fn an_instance_is_not_forgotten_as_another_comes_in_dark() {
+    let to = [35.0, 30.0, 20.0];
+    for comes in [false, true] {
+        let (mut bvh, mesh) = scene(8);
+        let own = &mut rebuilder();
+        let of = |at: [f32; 3], radiance: f32| halves(mesh, &eight(at, radiance));
+        frame(&mut bvh, own, of([-40.0; 3], 0.0).to_vec());
+        if comes {
+            walker(&mut bvh, mesh, 1.0, [400.0, 0.0, 0.0]);
+        }
+        frame(&mut bvh, own, Vec::new());
+        frame(&mut bvh, own, of(to, 3.0).to_vec());
+        assert!(bvh.top.strayed.contains(&500), "another {comes}");
+        rest(&mut bvh, own);
+        let found = over_new(&bvh, to);
+        assert!(found < 1.6, "{comes}: {found}");
+    }
+}
+
+/// Dark ones that move are nowhere: they were taken out and put in again, two in each frame.
+#[test]
+fn what_moves_in_the_dark_stays() {
+    let (mut bvh, _) = scene(8);
+    let mesh = bvh.add_mesh(eight([0.0; 3], 0.0)).expect("a mesh");
+    let ids: Vec<_> = (0..20)
+        .map(|k| walker(&mut bvh, mesh, 1.0, [f32::from(k as u16), 0.0, 0.0]))
+        .collect();
+    let own = &mut rebuilder();
+    let stamp = bvh.epoch;
+    for k in 1..60_u16 {
+        let edits = ids.iter().map(|&instance| {
+            place(
+                instance,
+                [3.0 * f32::from(k), f32::from(instance.index() as u16), 0.0],
+            )
+        });
+        frame(&mut bvh, own, edits.collect());
+        assert!(bvh.top.strayed.is_empty());
+    }
+    let put = ids
+        .iter()
+        .filter(|id| bvh.placed[id.index() as usize].hung > stamp);
+    assert_eq!(put.count(), 0);
+}
+
+/// Off, moved, and on again as bright as before, each in a call of its own: nobody looked, and it rested at 9 to 50 times.
+#[test]
+fn a_lamp_that_moves_while_it_is_off_is_where_it_shines() {
+    let to = [35.0, 30.0, 20.0];
+    for (steps, count, refits) in [(1_u16, 8, true), (44, 8, true), (1, 8, false), (1, 3000, true)] {
+        let (mut bvh, _) = scene(8);
+        let mesh = bvh.add_mesh(cloud(count, [0.0; 3], 0)).expect("a mesh");
+        let id = walker(&mut bvh, mesh, 25.0, [-40.0; 3]);
+        let own = &mut rebuilder();
+        frame(&mut bvh, own, Vec::new());
+        let mut step = |bvh: &mut LightBvh, edits: Vec<Edit>| {
+            if refits {
+                frame(bvh, own, edits);
+            } else {
+                bvh.apply(edits).expect("sound edits");
+            }
+        };
+        step(&mut bvh, [shine(id, 0.0)].to_vec());
+        for k in 1..=steps {
+            let part = f32::from(k) / f32::from(steps);
+            let at = to.map(|x| (x + 40.0) * part - 40.0);
+            step(&mut bvh, [place(id, at)].to_vec());
+        }
+        step(&mut bvh, [shine(id, 25.0)].to_vec());
+        bvh.refit();
+        rest(&mut bvh, own);
+        let found = over_new(&bvh, to);
+        assert!(
+            found < 1.5,
+            "{steps} steps, {count} lights, refits {refits}: {found}"
+        );
+    }
+}
+
+/// One that blinks in its place is not put in anew, though it swayed while it was dark.
+#[test]
+fn what_blinks_and_sways_stays() {
+    let (mut bvh, _) = scene(8);
+    let mesh = bvh.add_mesh(cloud(8, [0.0; 3], 0)).expect("a mesh");
+    let id = walker(&mut bvh, mesh, 1.0, [0.0; 3]);
+    let own = &mut rebuilder();
+    (0..20).for_each(|_| frame(&mut bvh, own, Vec::new()));
+    let stamp = bvh.epoch;
+    for k in 1..40_u16 {
+        let at = [0.01 * f32::from(k % 3), 0.0, 0.0];
+        for (radiance, is_moved) in [(0.0, false), (0.0, true), (1.0, false)] {
+            let edit = match is_moved {
+                true => place(id, at),
+                false => shine(id, radiance),
+            };
+            frame(&mut bvh, own, [edit].to_vec());
+        }
+    }
+    assert!(bvh.placed[id.index() as usize].hung <= stamp);
+}
+
+/// Dark by its triangles, moved, and lit again a few triangles at a time: no centre of the mesh changed.
+#[test]
+fn a_mesh_that_is_moved_while_its_triangles_are_dark_is_looked_at() {
+    let to = [35.0, 30.0, 20.0];
+    for blinks in [0, 3] {
+        for radiance_first in [None, Some(true), Some(false)] {
+            let (mut bvh, _) = scene(8);
+            let mesh = bvh.add_mesh(cloud(8, [0.0; 3], 0)).expect("a mesh");
+            let id = walker(&mut bvh, mesh, 25.0, [-40.0; 3]);
+            let own = &mut rebuilder();
+            let set = |radiance: f32| halves(mesh, &eight([0.0; 3], radiance));
+            for _ in 0..blinks {
+                frame(&mut bvh, own, set(0.0).to_vec());
+                frame(&mut bvh, own, set(1.0).to_vec());
+            }
+            frame(&mut bvh, own, set(0.0).to_vec());
+            if radiance_first.is_some() {
+                frame(&mut bvh, own, [shine(id, 0.0)].to_vec());
+            }
+            frame(&mut bvh, own, [place(id, to)].to_vec());
+            if radiance_first == Some(true) {
+                frame(&mut bvh, own, [shine(id, 25.0)].to_vec());
+            }
+            set(1.0)
+                .into_iter()
+                .for_each(|half| frame(&mut bvh, own, [half].to_vec()));
+            if radiance_first == Some(false) {
+                frame(&mut bvh, own, [shine(id, 25.0)].to_vec());
+            }
+            rest(&mut bvh, own);
+            let found = over_new(&bvh, to);
+            assert!(found < 1.5, "{blinks} {radiance_first:?}: {found}");
+        }
+    }
+}
+
+/// More than are noted sway beside a lamp that comes on elsewhere.
+#[test]
+fn what_comes_on_is_noted_beside_many_that_move() {
+    let to = [35.0, 30.0, 20.0];
+    let (mut bvh, _) = scene(8);
+    let lamp = bvh.add_mesh(cloud(1, [0.0; 3], 0)).expect("a lamp");
+    let random = &mut Random(5);
+    let at: Vec<_> = (0..2000).map(|_| (random.vector() * 50.0).to_array()).collect();
+    let add = at.iter().map(|&at| Edit::AddInstance {
+        mesh: lamp,
+        transform: Transform::at(at),
+        radiance: 0.01,
+    });
+    let all = bvh.apply(add.collect()).expect("instances").instances;
+    let mesh = bvh.add_mesh(cloud(8, [0.0; 3], 0)).expect("a mesh");
+    let id = walker(&mut bvh, mesh, 25.0, [-40.0; 3]);
+    let own = &mut rebuilder();
+    for k in 0..8_u16 {
+        let mut edits: Vec<Edit> = all
+            .iter()
+            .zip(&at)
+            .map(|(&instance, p)| place(instance, [p[0] + 0.1 * f32::from(k % 2), p[1], p[2]]))
+            .collect();
+        match k {
+            2 => edits.push(shine(id, 0.0)),
+            6 => edits.push(shine(id, 25.0)),
+            4 => edits.push(place(id, to)),
+            _ => {}
+        }
+        frame(&mut bvh, own, edits);
+    }
+    assert!(bvh.top.strayed.contains(&id.index()));
+    (0..400).for_each(|_| frame(&mut bvh, own, Vec::new()));
+    assert!(bvh.top.strayed.is_empty());
+    let found = over_new(&bvh, to);
+    assert!(found < 1.5, "{found}");
+}
