@@ -1,9 +1,8 @@
 //! A light BVH over each kind of light: probabilities sum to one, no light is lost, estimates converge to the sum over all lights, and
 //! edits, rebuilds and files go on with it.
 
-#![allow(clippy::disallowed_methods, reason = "nothing here is shared with devices")]
-
-use lightbvh::exact::{hash, unit_f32};
+use crate::kit::Random;
+use lightbvh::exact::hash;
 use lightbvh::light::{
     AnyLight, BoxLight, DiscLight, Light, PointLight, ProfileLight, RectangleLight, SphereLight, SpotLight,
 };
@@ -14,32 +13,7 @@ use lightbvh::{
 
 type Tree<L> = Bvh<Lit<MomentNode<8>, L>, Defensive<Moments, 6>, 8>;
 
-struct Random(u32);
-
 impl Random {
-    fn unit(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(1);
-        unit_f32(hash(self.0))
-    }
-
-    fn signed(&mut self) -> f32 {
-        2.0 * self.unit() - 1.0
-    }
-
-    fn vector(&mut self, scale: f32) -> [f32; 3] {
-        core::array::from_fn(|_| self.signed() * scale)
-    }
-
-    fn unit_vector(&mut self) -> [f32; 3] {
-        loop {
-            let v = self.vector(1.0);
-            let squared: f32 = v.iter().map(|x| x * x).sum();
-            if (0.01..=1.0).contains(&squared) {
-                return v.map(|x| x / squared.sqrt());
-            }
-        }
-    }
-
     fn shine(&mut self) -> [f32; 3] {
         let dark = self.unit() < 0.1;
         core::array::from_fn(|_| if dark { 0.0 } else { 0.1 + 5.0 * self.unit() })
@@ -47,7 +21,9 @@ impl Random {
 }
 
 const MESHES: usize = 4;
+
 const PER_MESH: usize = 24;
+
 const INSTANCES: u32 = 40;
 
 fn scene<L: Light>(random: &mut Random, mut light: impl FnMut(&mut Random) -> L) -> Tree<L> {

@@ -1,9 +1,8 @@
 //! A surface that light reaches from both sides, against sums over all lights in `f64`.
 
-#![allow(clippy::disallowed_methods, reason = "nothing here is shared with devices")]
-
+use crate::kit::{Random, Wide, cross, dot, minus, room, wide};
 use lightbvh::error::PointError;
-use lightbvh::exact::{hash, unit_f32};
+use lightbvh::exact::hash;
 use lightbvh::importance::{ImportanceModel, Linked, LinkedPoint, Transmissive, TransmissivePoint};
 use lightbvh::light::LinkedTriangle;
 use lightbvh::node::{LinkedMomentNode, Lit};
@@ -11,69 +10,6 @@ use lightbvh::{
     BuildParams, Bvh, CompactNode, Defensive, EmissiveTriangle, Eq4, FullMomentNode, FullNode, LightNode,
     Lights, MomentNode, Moments, Receiver, ShadingPoint, Transform,
 };
-
-type Wide = [f64; 3];
-
-struct Random(u32);
-
-impl Random {
-    fn unit(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(1);
-        unit_f32(hash(self.0))
-    }
-
-    fn vector(&mut self, scale: f32) -> [f32; 3] {
-        core::array::from_fn(|_| (2.0 * self.unit() - 1.0) * scale)
-    }
-
-    fn unit_vector(&mut self) -> [f32; 3] {
-        loop {
-            let v = self.vector(1.0);
-            let squared: f32 = v.iter().map(|x| x * x).sum();
-            if (0.01..=1.0).contains(&squared) {
-                return v.map(|x| x / squared.sqrt());
-            }
-        }
-    }
-}
-
-fn wide(v: [f32; 3]) -> Wide {
-    v.map(f64::from)
-}
-
-fn minus(a: Wide, b: Wide) -> Wide {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: Wide, b: Wide) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Wide, b: Wide) -> Wide {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-/// 200 triangles of up to half a metre in a room of 10 m, in four meshes.
-fn room(random: &mut Random) -> Lights {
-    let triangle = |k: u32| {
-        let at = random.vector(5.0);
-        let mut corner = || {
-            let edge = random.vector(0.5);
-            [at[0] + edge[0], at[1] + edge[1], at[2] + edge[2]]
-        };
-        EmissiveTriangle {
-            p: [at, corner(), corner()],
-            radiance: [0.1 + 2.0 * unit_f32(hash(k)); 3],
-            mesh: k / 50,
-            flags: u32::from(k % 5 == 2) * EmissiveTriangle::TWO_SIDED,
-        }
-    };
-    Lights::new((0..200).map(triangle).collect()).expect("in the domain")
-}
 
 /// Irradiance, W/m², of both sides of a surface at `p` by a triangle: the integral over it, by `N`² pieces.
 fn irradiance<const N: usize>(triangle: &EmissiveTriangle, point: &ShadingPoint) -> [f64; 2] {

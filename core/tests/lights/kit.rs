@@ -1,0 +1,86 @@
+//! Numbers that look random and are the same in every run, vectors in `f64`, a room.
+
+use lightbvh::exact::{hash, unit_f32};
+use lightbvh::{EmissiveTriangle, Lights};
+
+/// Hashes of 1, 2, 3 and so on after its seed.
+pub struct Random(pub u32);
+
+impl Random {
+    pub fn word(&mut self) -> u32 {
+        self.0 = self.0.wrapping_add(1);
+        hash(self.0)
+    }
+
+    pub fn below(&mut self, count: u32) -> u32 {
+        ((u64::from(self.word()) * u64::from(count)) >> 32) as u32
+    }
+
+    /// From 0 to 1.
+    pub fn unit(&mut self) -> f32 {
+        unit_f32(self.word())
+    }
+
+    /// From -1 to 1.
+    pub fn signed(&mut self) -> f32 {
+        2.0 * self.unit() - 1.0
+    }
+
+    pub fn vector(&mut self, scale: f32) -> [f32; 3] {
+        core::array::from_fn(|_| self.signed() * scale)
+    }
+
+    pub fn unit_vector(&mut self) -> [f32; 3] {
+        loop {
+            let v = self.vector(1.0);
+            let squared: f32 = v.iter().map(|x| x * x).sum();
+            if (0.01..=1.0).contains(&squared) {
+                return v.map(|x| x / squared.sqrt());
+            }
+        }
+    }
+}
+
+pub type Wide = [f64; 3];
+
+pub fn wide(v: [f32; 3]) -> Wide {
+    v.map(f64::from)
+}
+
+pub fn minus(a: Wide, b: Wide) -> Wide {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+pub fn dot(a: Wide, b: Wide) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub fn length(v: Wide) -> f64 {
+    dot(v, v).sqrt()
+}
+
+pub fn cross(a: Wide, b: Wide) -> Wide {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+/// 200 triangles of up to half a metre in a room of 10 m, in four meshes.
+pub fn room(random: &mut Random) -> Lights {
+    let triangle = |k: u32| {
+        let at = random.vector(5.0);
+        let mut corner = || {
+            let edge = random.vector(0.5);
+            [at[0] + edge[0], at[1] + edge[1], at[2] + edge[2]]
+        };
+        EmissiveTriangle {
+            p: [at, corner(), corner()],
+            radiance: [0.1 + 2.0 * unit_f32(hash(k)); 3],
+            mesh: k / 50,
+            flags: u32::from(k % 5 == 2) * EmissiveTriangle::TWO_SIDED,
+        }
+    };
+    Lights::new((0..200).map(triangle).collect()).expect("in the domain")
+}
