@@ -1,0 +1,252 @@
+//! Points, spots and profiles: intensity by direction, flux, mean direction.
+
+use super::*;
+
+#[test]
+fn points_and_spots_send_their_intensity() {
+    let point = PointLight {
+        p: [1.0, 2.0, -1.0],
+        intensity: SHINE,
+        range: 0.0,
+        mesh: 0,
+    };
+    for receiver in receivers() {
+        let d = minus([1.0, 2.0, -1.0], receiver.p.map(f64::from));
+        let (squared, n) = (dot(d, d), receiver.n.map(f64::from));
+        let w = times(d, 1.0 / squared.sqrt());
+        let incident = if dot(n, n) == 0.0 { 1.0 } else { dot(n, w).max(0.0) };
+        let plain = luminance() * incident / squared;
+        close("point", estimated(&point, &receiver), plain, 1e-4);
+        for [inner, outer] in [[0.9, 0.5], [1.0, -0.5], [0.2, 0.2], [-0.9, -1.0]] {
+            let own = spot(inner, outer);
+            let cosine = -dot(w, own.axis.map(f64::from));
+            let fall = f64::from(inner - outer).max(2.0_f64.powi(-20));
+            let falloff = ((cosine - f64::from(outer)) / fall).clamp(0.0, 1.0).powi(2);
+            let found = estimated(&own, &receiver);
+            assert!(
+                (found - plain * falloff).abs() <= 1e-3 * plain,
+                "spot {inner} {outer}: {found:e}, expected {:e}",
+                plain * falloff
+            );
+        }
+    }
+}
+
+/// The narrowest cones have their intensity on the axis and the falloff of their own cosines about it, placed or not.
+#[test]
+fn narrow_spots_send_what_their_cone_says() {
+    let mut random = 1_u32;
+    let mut draw = || {
+        random = exact::hash(random);
+        f64::from(exact::unit_f32(random)) * 2.0 - 1.0
+    };
+    for degrees in [0.1_f64, 0.2, 0.5, 1.0, 5.0] {
+        for sharp in [0.0, 0.8, 1.0] {
+            let (outer, inner) = (degrees.to_radians(), (degrees * sharp).to_radians());
+            for _ in 0..200 {
+                let axis = [draw(), draw(), draw()];
+                let length = dot(axis, axis).sqrt();
+                let axis = times(axis, 1.0 / length);
+                let own = SpotLight {
+                    p: [0.0; 3],
+                    intensity: [1.0; 3],
+                    range: 0.0,
+                    axis: axis.map(|x| x as f32),
+                    cos_inner: inner.cos() as f32,
+                    cos_outer: exact::min(outer.cos() as f32, 1.0 - exact::pow2(-20)),
+                    mesh: 0,
+                };
+                let own = own.checked().expect("a sound spot");
+                for light in [own, crate::Transform::IDENTITY.place(&own, 0)] {
+                    let (a, b) = (f64::from(light.cos_inner), f64::from(light.cos_outer));
+                    let fall = (a - b).max(2.0_f64.powi(-20));
+                    for off in [0.0, 0.3, 0.7, 0.95, 1.3] {
+                        // A direction so far off the axis, in units of the cone.
+                        let across = [axis[1] - axis[2], axis[2] - axis[0], axis[0] - axis[1]];
+                        let across = times(across, outer * off / dot(across, across).sqrt());
+                        let to = [0, 1, 2].map(|k| ((axis[k] + across[k]) * 3.0) as f32);
+                        let w = to.map(f64::from);
+                        let w = times(w, 1.0 / dot(w, w).sqrt());
+                        let u = light.axis.map(f64::from);
+                        let apart = minus(times(u, 1.0 / dot(u, u).sqrt()), w);
+                        let expected = (((1.0 - b) - 0.5 * dot(apart, apart)) / fall)
+                            .clamp(0.0, 1.0)
+                            .powi(2);
+                        let found = f64::from(light.point_for(Vec3::from(to), [0.5; 2]).radiance[0]);
+                        assert!(
+                            (found - expected).abs() < 2e-3,
+                            "{degrees} degrees, {sharp}, at {off}: {found}, expected {expected}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// An axis that is not quite of length 1 becomes so.
+#[test]
+fn axes_are_brought_to_length_one() {
+    for length in [0.9963_f32, 1.0037] {
+        let own = SpotLight {
+            axis: [0.0, length, 0.0],
+            ..spot(0.9999, 0.9998)
+        };
+        let own = own.checked().expect("within the tolerance");
+        assert_eq!(own.axis, [0.0, 1.0, 0.0]);
+        assert_eq!(own.checked().expect("sound"), own);
+    }
+}
+
+/// Flux and mean direction of spots over the sphere.
+#[test]
+fn spots_have_the_flux_and_the_mean_direction_of_their_falloff() {
+    for [inner, outer] in [
+        [0.9, 0.5],
+        [1.0, -0.5],
+        [0.2, 0.2],
+        [-0.9, -1.0],
+        [1.0, 0.999],
+        [0.999_99, 0.999_98],
+        [1.0, -1.0],
+    ] {
+        let own = spot(inner, outer);
+        let (a, b) = (f64::from(inner), f64::from(outer));
+        let (mut whole, mut first) = (0.0, 0.0);
+        // From the outer cosine on, in even steps of it.
+        let n = 200_000;
+        for k in 0..n {
+            let c = b + (1.0 - b) * (f64::from(k) + 0.5) / f64::from(n);
+            let falloff = ((c - b) / (a - b).max(2.0_f64.powi(-20))).clamp(0.0, 1.0).powi(2);
+            whole += falloff * (1.0 - b) / f64::from(n);
+            first += falloff * c * (1.0 - b) / f64::from(n);
+        }
+        let found = own.moments();
+        let what = format!("spot {inner} {outer}");
+        // Narrow ones count as their root mean square.
+        let flux = 2.0 * PI * whole;
+        close(
+            &what,
+            f64::from(found.phi),
+            luminance() * flux.max((flux * PI).sqrt()),
+            1e-3,
+        );
+        assert_eq!(found.phi, own.bounds().phi);
+        let length = f64::from(length_squared(found.m)).sqrt();
+        close(&what, length, (1.5 * first / whole).clamp(0.0, 1.0), 1e-3);
+    }
+}
+
+#[test]
+fn profiles_have_the_flux_of_their_table_and_are_read_by_direction() {
+    let own = profile();
+    assert_eq!(own.checked(), Ok(own));
+    let flux = 2.0 * PI * 0.25;
+    let found = own.moments();
+    close(
+        "profile",
+        f64::from(found.phi),
+        luminance() * (flux * PI).sqrt(),
+        1e-3,
+    );
+    close("profile", f64::from(length_squared(found.m)).sqrt(), 1.0, 1e-3);
+    assert_eq!(found.phi, own.bounds().phi);
+    // Along the axis the middle of the picture; a quarter turn from across towards across × axis at the horizon.
+    let p = Vec3::new(1.0, 2.0, -1.0);
+    let near = |found: [f32; 2], expected: [f32; 2]| {
+        let off = [0, 1].map(|k| exact::abs(found[k] - expected[k]));
+        assert!(off[0] < 1e-5 && off[1] < 1e-5, "{found:?}, expected {expected:?}");
+    };
+    near(own.coordinates(p + Vec3::new(0.0, -3.0, 0.0)), [0.5, 0.5]);
+    near(own.coordinates(p + Vec3::new(1.2, 0.0, 1.6)), [1.0, 0.5]);
+    let third = crate::vector::cross(Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, -1.0, 0.0));
+    near(own.coordinates(p + third * 2.0), [0.5, 1.0]);
+    near(own.coordinates(p), [0.5, 0.5]);
+    // A map that mirrors mirrors the table: where a point goes it sends what it sent there.
+    let mirror = Transform {
+        columns: [[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        translation: [3.0, 0.0, 0.0],
+    };
+    for map in [
+        mirror,
+        Transform {
+            columns: [[0.0, 2.0, 0.0], [-2.0, 0.0, 0.0], [0.0, 0.0, 2.0]],
+            translation: [5.0, -3.0, 1.0],
+        },
+    ] {
+        let instance = map.instance(1.0);
+        let there = own.in_world(&instance, 4);
+        let mut random = Random(8);
+        for _ in 0..50 {
+            let from = p + Vec3::from_array([0; 3].map(|_| 4.0 * random.signed()));
+            let seen = Vec3::from_array(instance.vertex(from.to_array()));
+            near(there.coordinates(seen), own.coordinates(from));
+            assert_eq!(
+                there.point_for(seen, [0.5; 2]).radiance,
+                own.point_for(from, [0.5; 2]).radiance
+            );
+        }
+    }
+    let inside = own.point_for(p + Vec3::new(0.0, -2.0, 1.0), [0.5; 2]);
+    assert_eq!((inside.radiance, inside.density), (SHINE, 1.0));
+    let outside = own.point_for(p + Vec3::new(0.0, -1.0, 2.0), [0.5; 2]);
+    assert_eq!(outside.radiance, [0.0; 3]);
+    // What is wrong, by name.
+    for (wrong, part) in [
+        (ProfileLight { whole: 2.5, ..own }, "integral 2.5"),
+        (
+            ProfileLight {
+                whole: f32::NAN,
+                ..own
+            },
+            "a profile of integral",
+        ),
+        (
+            ProfileLight {
+                mean_cosine: 0.4,
+                ..own
+            },
+            "mean cosine 0.4",
+        ),
+        (
+            ProfileLight {
+                cos_outer: 1.0,
+                ..own
+            },
+            "cone from cosine 1",
+        ),
+        (
+            ProfileLight {
+                across: [0.0, -0.6, 0.8],
+                ..own
+            },
+            "at right angles",
+        ),
+        (
+            ProfileLight {
+                axis: [0.0; 3],
+                ..own
+            },
+            "expected length 1",
+        ),
+        (ProfileLight { flags: 1, ..own }, "flags are 0x1"),
+        (
+            ProfileLight {
+                p: [f32::NAN, 0.0, 0.0],
+                ..own
+            },
+            "light with a profile",
+        ),
+        (
+            ProfileLight {
+                intensity: [-1.0; 3],
+                ..own
+            },
+            "intensity of a light with a profile",
+        ),
+    ] {
+        let found = format!("{}", wrong.checked().expect_err("it is wrong"));
+        assert!(found.contains(part), "{found}");
+    }
+    assert!(!ProfileLight { whole: 0.0, ..own }.has_flux());
+}

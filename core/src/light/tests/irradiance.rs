@@ -1,0 +1,142 @@
+//! Irradiance of lights with a size against integrals over them, and the points that are drawn on them.
+
+use super::*;
+
+fn check_irradiance<L: Light>(name: &str, light: &L, pieces: &[(Wide, Wide, f64)], is_two_sided: bool) {
+    let mut lit = 0;
+    for receiver in receivers() {
+        let expected = integrated(pieces, is_two_sided, &receiver);
+        let found = estimated(light, &receiver);
+        let least = luminance() * 1e-6;
+        assert!(
+            (found - expected).abs() <= 0.01 * expected + least,
+            "{name} at {receiver:?}: {found:e}, expected {expected:e}"
+        );
+        lit += u32::from(expected > least);
+    }
+    assert!(lit >= 4, "{name}: {lit} receivers are lit");
+}
+
+#[test]
+fn flat_lights_send_what_integrals_over_them_give() {
+    for flags in [0, TWO_SIDED] {
+        let (own, round) = (rectangle(flags), disc(flags));
+        let both = flags == TWO_SIDED;
+        check_irradiance("rectangle", &own, &flat_pieces(own.p, own.half, false), both);
+        check_irradiance("disc", &round, &flat_pieces(round.p, round.half, true), both);
+    }
+}
+
+#[test]
+fn spheres_send_what_integrals_over_them_give() {
+    check_irradiance("sphere", &sphere(), &sphere_pieces(&sphere()), false);
+    // From within none is seen.
+    let inside = ShadingPoint {
+        p: [1.0, 2.25, -1.0],
+        n: [0.0; 3],
+    };
+    assert_eq!(estimated(&sphere(), &inside), 0.0);
+}
+
+#[test]
+fn boxes_send_what_integrals_over_them_give() {
+    check_irradiance("box", &glow(), &box_pieces(&glow()), false);
+}
+
+/// Each point of the cap sees the receiver, however near.
+#[test]
+fn points_of_spheres_are_seen() {
+    for away in [0.750_001, 0.76, 1.0, 100.0] {
+        let from = Vec3::new(1.0, 2.0 + away, -1.0);
+        let [seen, all] = over_grid(64, |uv| {
+            let at = sphere().point_for(from, uv);
+            let d = minus(wide(from), at.p.map(f64::from));
+            let n = at.normal.map(f64::from);
+            assert!((dot(n, n) - 1.0).abs() < 1e-5, "{at:?}");
+            let cosine = dot(d, n) / dot(d, d).sqrt();
+            [f64::from(u8::from(cosine > -1e-3)), 1.0]
+        });
+        assert_eq!(seen, all, "{away} m");
+    }
+}
+
+/// The cap that is seen from distance d has the area 2 π R² (1 - R / d), all of which is as likely.
+#[test]
+fn points_of_spheres_have_the_density_of_their_cap() {
+    let radius = f64::from(sphere().radius);
+    for away in [0.8, 1.0, 3.0, 100.0, 1e6] {
+        let from = Vec3::new(1.0, 2.0 + away, -1.0);
+        // As far as it is in the sphere's own numbers.
+        let distance = f64::from(from.y) - 2.0;
+        let expected = 1.0 / (core::f64::consts::TAU * radius * radius * (1.0 - radius / distance));
+        for uv in [[0.0, 0.0], [0.5, 0.3], [0.99, 0.9]] {
+            let found = f64::from(sphere().point_for(from, uv).density);
+            assert!(
+                (found / expected - 1.0).abs() < 2e-6,
+                "{away}: {found}, expected {expected}"
+            );
+        }
+    }
+}
+
+/// A sphere's size does not ask how bright its instance is.
+#[test]
+fn a_dark_instance_has_spheres_as_large() {
+    let transform = crate::Transform {
+        columns: [[3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 3.0]],
+        translation: [1.0, 2.0, 3.0],
+    };
+    let expected = transform.place(&sphere(), 4).radius;
+    close(
+        "radius",
+        f64::from(expected),
+        3.0 * f64::from(sphere().radius),
+        1e-6,
+    );
+    for radiance in [0.0, 1e-20, 0.3, 1e20] {
+        assert_eq!(
+            sphere().in_world(&transform.instance(radiance), 4).radius,
+            expected,
+            "{radiance}"
+        );
+    }
+    let uneven = crate::Transform {
+        columns: [[1.0, 0.0, 0.0], [0.0, 10.0, 0.0], [0.0, 0.0, 10.0]],
+        translation: [0.0; 3],
+    };
+    // The root mean square of areas 100, 10 and 10.
+    let mean = ((100.0_f64.powi(2) + 2.0 * 10.0_f64.powi(2)) / 3.0).sqrt().sqrt();
+    close(
+        "uneven",
+        f64::from(uneven.place(&sphere(), 0).radius),
+        mean * f64::from(sphere().radius),
+        1e-6,
+    );
+}
+
+/// Points of a box are spread along each axis by themselves.
+#[test]
+fn points_of_a_box_fill_it() {
+    let own = BoxLight {
+        half: [[0.5, 0.0, 0.0], [0.0, 0.0, 0.75], [0.0, 0.25, 0.0]],
+        ..glow()
+    };
+    let mut products = [0.0_f64; 3];
+    let n = 128;
+    for i in 0..n * n {
+        let uv = [(i % n) as f32 + 0.37, (i / n) as f32 + 0.61].map(|x| x / n as f32);
+        let at = own.point_for(Vec3::ZERO, uv).p;
+        let d = minus(at.map(f64::from), own.p.map(f64::from));
+        let along = |k: usize| {
+            let half = own.half[k].map(f64::from);
+            dot(d, half) / dot(half, half)
+        };
+        for (k, product) in products.iter_mut().enumerate() {
+            *product += along(k) * along((k + 1) % 3) / f64::from((n * n) as u32);
+        }
+    }
+    // Of independent even numbers within 1, products have mean 0 and deviation 1/3.
+    for product in products {
+        assert!(product.abs() < 5.0 / 3.0 / f64::from(n as u32), "{products:?}");
+    }
+}
