@@ -1,0 +1,93 @@
+//! The same words on every device.
+
+use super::*;
+
+#[test]
+fn every_kind_and_paint_have_the_same_words_on_every_device() {
+    // Devices compile the kernels once for both, which takes longer than all the rest.
+    on_each_device(Options::default(), |device| {
+        for scene in [open_room(), painted_room()] {
+            same_on(device, &scene);
+        }
+    });
+}
+
+/// That a device has the CPU's words of a scene, by every sampler, directly, of several candidates, by paths and by ReSTIR.
+fn same_on(device: &Device, scene: &Scene) {
+    let settings = RenderSettings {
+        width: 40,
+        height: 25,
+        samples: 2,
+        ..SETTINGS
+    };
+    let arrays = Arc::new(arrays(scene, &settings));
+    let params = settings.params([0.2, 0.3, 0.4]);
+    let (two_level, _) = Instances::<AnyLight>::new(scene, 0, BuildParams::default()).expect("sound");
+    for sampler in Sampler::ALL {
+        let bvh: Bvh<Kinds, WIDTH> = match sampler {
+            Sampler::TwoLevel => two_level.clone(),
+            _ => build(&arrays.lights, sampler, &BuildParams::default()),
+        };
+        let mut cpu = CpuBackend::<Kinds, WIDTH>::new(bvh.clone());
+        let mut other = DeviceBackend::<Kinds, WIDTH>::new(device, &bvh).expect("a backend");
+        let candidates = [(1, 0), (6, 0), (4, 2)];
+        let direct = candidates.map(|(candidates, scattered)| (Integrator::Direct, candidates, scattered));
+        let paths = [1, 4].map(|bounces| (Integrator::Path { bounces }, 1, 0));
+        for (integrator, candidates, scattered) in direct.into_iter().chain(paths) {
+            let params = lightbvh_kernels::render::RenderParams {
+                candidates,
+                scattered,
+                ..params
+            };
+            let what = format!(
+                "{} by {}, {integrator:?}, {candidates} {scattered}",
+                device.name(),
+                sampler.name()
+            );
+            let expected = cpu
+                .render(&arrays, &params, sampler, integrator)
+                .expect("an image")
+                .value;
+            let found = other
+                .render(&arrays, &params, sampler, integrator)
+                .expect("an image")
+                .value;
+            same(&expected, &found, &what);
+        }
+        if sampler == Sampler::Uniform {
+            continue;
+        }
+        for combination in [Combination::Unbiased, Combination::Biased] {
+            let options = RestirOptions::new(sampler, combination);
+            let (mut here, mut there) = (Restir::new(options), Restir::new(options));
+            for frame in 0..3 {
+                let frame = RestirFrame {
+                    scene: &arrays,
+                    width: settings.width,
+                    height: settings.height,
+                    seed: frame,
+                    jitter: 0,
+                    background: [0.1; 3],
+                    remap: None,
+                };
+                let expected = cpu.restir(&mut here, &frame).expect("an image").value;
+                let found = other.restir(&mut there, &frame).expect("an image").value;
+                let what = format!("{} restir by {}, {combination:?}", device.name(), sampler.name());
+                same(&expected, &found, &what);
+            }
+        }
+    }
+}
+
+fn same(expected: &[[f32; 3]], found: &[[f32; 3]], what: &str) {
+    let comparison =
+        compare_words(&PIXEL_RECORD, cast_slice(expected), cast_slice(found)).expect("images of one size");
+    assert!(
+        comparison.different == 0,
+        "{what}: {} words differ, first {}",
+        comparison.different,
+        comparison.first.expect("a difference")
+    );
+    let lit = expected.iter().filter(|p| p.iter().any(|&c| c > 0.0)).count();
+    assert!(lit > expected.len() / 2, "{what}: {lit} pixels are lit");
+}

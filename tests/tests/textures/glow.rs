@@ -1,0 +1,203 @@
+//! Textured emission, and a room of everything that is painted.
+
+use super::*;
+
+/// A sheet that glows as a picture says lights the floor as the integral over it, whatever its means are.
+#[test]
+fn pictures_glow() {
+    let texels = |x: u32, y: u32| -> [u8; 4] {
+        let bright = hash(x + 4 * y) & 3 == 0;
+        let word = hash(100 + x + 4 * y);
+        let level = |shift: u32| if bright { ((word >> shift) & 255) as u8 } else { 0 };
+        [level(0), level(8), level(16), 255]
+    };
+    let paint = Paint {
+        radiance: [3.0, 5.0, 2.0],
+        glow_texture: Some(lying(0, false)),
+        ..PLAIN
+    };
+    // Without a picture of the glow each triangle has its own; another texture changes nothing of that.
+    for (opacity, covered, is_shown) in [
+        (Opacity::Opaque, 1.0, true),
+        (Opacity::Blended, 0.5, true),
+        (Opacity::Blended, 0.5, false),
+    ] {
+        let own = [[0.3_f32, 0.2, 0.1], [0.1, 0.2, 0.6]];
+        let paint = Paint {
+            glow_texture: paint.glow_texture.filter(|_| is_shown),
+            bump_texture: Some(lying(0, false)).filter(|_| !is_shown),
+            base: [0.5, 0.5, 0.5, if covered < 1.0 { 0.5 } else { 1.0 }],
+            opacity,
+            ..paint
+        };
+        let (side, h, aim) = (2.0, 1.5, 0.4);
+        let floor_paint = Paint {
+            base: [0.5, 0.5, 0.5, 1.0],
+            ..PLAIN
+        };
+        let mut data = floor(floor_paint, vec![picture(4, 4, texels)], [aim as f32, 1.0]);
+        data.materials.push(painted(paint));
+        // The mean of each triangle is any: it chooses lights, and the picture says what they send.
+        let mut lamp = sheet(side as f32, 1);
+        lamp.primitives[0].radiance = Some(own.to_vec());
+        data.meshes.push(lamp);
+        // Turned about x: its front looks down, its second coordinate grows towards -z.
+        data.nodes.push(Node {
+            transform: Transform::Trs {
+                translation: [0.0, h as f32, 0.0],
+                rotation: [1.0, 0.0, 0.0, 0.0],
+                scale: [1.0; 3],
+            },
+            mesh: Some(1),
+            ..Node::default()
+        });
+        let mut e = [0.0; 3];
+        let n = 400;
+        for i in 0..n {
+            for j in 0..n {
+                let (u, v) = ((i as f64 + 0.5) / f64::from(n), (j as f64 + 0.5) / f64::from(n));
+                let texel = texels((4.0 * u) as u32, (4.0 * v) as u32);
+                let (x, z) = (side * (u - 0.5), -side * (v - 0.5));
+                let squared = (x - aim).powi(2) + z * z + h * h;
+                let area = side * side / f64::from(n * n);
+                for k in 0..3 {
+                    let radiance = match is_shown {
+                        true => f64::from(paint.radiance[k]) * f64::from(texel[k]) / 255.0,
+                        // Places on the diagonal are half in each.
+                        false if i == j => 0.5 * f64::from(own[0][k] + own[1][k]),
+                        false => f64::from(own[usize::from(v < u)][k]),
+                    };
+                    e[k] += covered * radiance * area * h * h / (squared * squared);
+                }
+            }
+        }
+        reflects(data, e, [0.5; 3], 0.0);
+    }
+}
+
+/// The room of all kinds, with paint of every sort.
+pub fn painted_room() -> Scene {
+    let mut data = open_room().into_data();
+    let noise = picture(8, 8, |x, y| hash(x + 8 * y).to_le_bytes());
+    let bumps = picture(4, 4, |x, y| {
+        let word = hash(7 + x + 4 * y);
+        [100 + (word & 63) as u8, 100 + ((word >> 8) & 63) as u8, 230, 255]
+    });
+    data.pictures = vec![noise, bumps];
+    let smooth = |picture, is_color, wrap| Texture {
+        is_nearest: false,
+        wrap: [wrap; 2],
+        transform: [[2.4, -1.8], [1.2, 1.6], [0.1, 0.2]],
+        ..lying(picture, is_color)
+    };
+    data.materials[0].paint = Some(Paint {
+        base: [0.9, 0.8, 0.7, 1.0],
+        base_texture: Some(smooth(0, true, Wrap::Repeat)),
+        bump: 0.8,
+        bump_texture: Some(smooth(1, false, Wrap::Mirror)),
+        ..PLAIN
+    });
+    data.materials[1].paint = Some(Paint {
+        base: [1.0, 1.0, 1.0, 0.8],
+        radiance: [2.0, 3.0, 1.0],
+        base_texture: Some(smooth(0, true, Wrap::Clamp)),
+        glow_texture: Some(smooth(0, true, Wrap::Mirror)),
+        opacity: Opacity::Blended,
+        ..PLAIN
+    });
+    data.materials[2].paint = Some(Paint {
+        metallic: 1.0,
+        base_texture: Some(smooth(0, true, Wrap::Repeat)),
+        rough_texture: Some(smooth(0, false, Wrap::Repeat)),
+        opacity: Opacity::Cut(0.4),
+        ..PLAIN
+    });
+    data.materials.push(Material {
+        base_color: [0.9, 0.6, 0.5],
+        transmission: 0.9,
+        double_sided: true,
+        paint: Some(Paint {
+            base: [0.9, 0.6, 0.5, 1.0],
+            base_texture: Some(smooth(0, true, Wrap::Repeat)),
+            transmission: 0.9,
+            ..PLAIN
+        }),
+        ..Material::default()
+    });
+    for primitive in data.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
+        primitive.coordinates = Some(vec![[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]);
+    }
+    let glass = data.materials.len() as u32 - 1;
+    data.meshes.push(sheet(2.5, glass));
+    let mesh = data.meshes.len() as u32 - 1;
+    data.nodes.push(node(at([-0.5, 1.9, 0.5]), Some(mesh)));
+    data.nodes.push(node(down([0.4, 1.0, 2.0]), Some(mesh)));
+    Scene::new(data).expect("a sound scene")
+}
+
+#[test]
+fn samplers_agree_on_what_is_painted() {
+    agree(&painted_room());
+}
+
+/// The flux of a triangle that glows by a picture is that of an integral over it, to a hundredth, however it lies.
+#[test]
+fn textured_flux_is_an_integral() {
+    let (width, height) = (37_u32, 19_u32);
+    let texel = |x: u32, y: u32| hash(x + 64 * y).to_le_bytes();
+    let png = {
+        let pixels = image::RgbaImage::from_fn(width, height, |x, y| image::Rgba(texel(x, y)));
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        pixels
+            .write_to(&mut bytes, image::ImageFormat::Png)
+            .expect("encoded");
+        bytes.into_inner()
+    };
+    let linear = |byte: u8| {
+        let x = f64::from(byte) / 255.0;
+        if x <= 0.04045 {
+            x / 12.92
+        } else {
+            ((x + 0.055) / 1.055).powf(2.4)
+        }
+    };
+    for corners in [
+        [[0.1, 0.2], [0.9, 0.3], [0.2, 0.8]],
+        [[-1.3, 0.4], [2.7, 0.9], [0.3, 3.1]],
+        [[0.51, 0.52], [0.53, 0.52], [0.51, 0.55]],
+    ] {
+        let root = textured(corners, &png);
+        let mut root = root;
+        root["samplers"] = serde_json::json!([{ "magFilter": 9729 }]);
+        let scene = read_json(&root).expect("sound");
+        let found = scene.frame(0).emissive[0].radiance;
+        let mut sum = [0.0; 3];
+        let n = 1500;
+        for i in 0..n {
+            for j in 0..n - i {
+                let (v, w) = ((i as f64 + 0.5) / f64::from(n), (j as f64 + 0.5) / f64::from(n));
+                let at = |k: usize| {
+                    let [a, b, c] = corners.map(|corner| f64::from(corner[k]));
+                    a + (b - a) * v + (c - a) * w
+                };
+                let (x, y) = (at(0) * f64::from(width) - 0.5, at(1) * f64::from(height) - 0.5);
+                let (left, top) = (x.floor(), y.floor());
+                for (dx, dy) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+                    let weight = (1.0 - (x - left - dx).abs()) * (1.0 - (y - top - dy).abs());
+                    let wrap = |i: f64, size: u32| i.rem_euclid(f64::from(size)) as u32;
+                    let rgb = texel(wrap(left + dx, width), wrap(top + dy, height));
+                    for k in 0..3 {
+                        sum[k] += weight * linear(rgb[k]);
+                    }
+                }
+            }
+        }
+        let count = f64::from(n) * f64::from(n + 1) / 2.0;
+        let factor = scene.data().materials[0].radiance;
+        for k in 0..3 {
+            let expected = sum[k] / count * f64::from(factor[k]);
+            let ratio = f64::from(found[k]) / expected;
+            assert!((ratio - 1.0).abs() < 0.01, "{corners:?} channel {k}: {ratio}");
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! What is painted on surfaces: pictures against an oracle, known answers of each texture, and every device against the CPU, word for word.
+
+mod files;
+mod glow;
+mod surfaces;
+mod through;
+
+pub use glow::painted_room;
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use lightbvh::BuildParams;
+use lightbvh::exact::hash;
+use lightbvh_host::backend::{
+    Backend, Bvh, Combination, CpuBackend, Integrator, Restir, RestirFrame, RestirOptions, Sampler,
+};
+use lightbvh_host::scene::{
+    AnalyticKind, AnalyticLight, Camera, IN_PLACE, Instances, Material, Mesh, Node, Opacity, Paint, Picture,
+    Primitive, Scene, SceneData, Texture, Transform, Wrap,
+};
+use lightbvh_host::workload::build;
+use lightbvh_kernels::bvh::{Kinds, WIDTH};
+use lightbvh_kernels::shading::picture::{Picture as Words, PictureWords};
+use lightbvh_kernels::shading::skin::{HEADER_WORDS, SRGB_WORDS};
+
+use lightbvh_tests::gltf_files::read_json;
+
+use crate::gltf_surfaces::textured;
+use crate::kinds_render::{SETTINGS, agree, arrays, at, down, mean, node, open_room};
+
+/// What a painted floor reflects of the light that falls on it: its diffuse part, and at most this of gloss.
+const GLOSS: f64 = 0.04 * 7.0 / 8.0;
+
+const PLAIN: Paint = Paint::PLAIN;
+
+const fn lying(picture: u32, is_color: bool) -> Texture {
+    Texture {
+        picture,
+        is_color,
+        is_nearest: true,
+        wrap: [Wrap::Clamp; 2],
+        transform: IN_PLACE,
+    }
+}
+
+fn picture(width: u32, height: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Picture {
+    let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    Picture {
+        width,
+        height,
+        texels: Arc::new(texels.flat_map(|(x, y)| texel(x, y)).collect()),
+    }
+}
+
+fn painted(paint: Paint) -> Material {
+    Material {
+        base_color: [0.5; 3],
+        radiance: paint.radiance,
+        double_sided: true,
+        paint: Some(paint),
+        ..Material::default()
+    }
+}
+
+/// A square in the plane y = 0 with its front up, whose texture coordinates go from 0 to 1 along x and z.
+fn sheet(side: f32, material: u32) -> Mesh {
+    let s = side / 2.0;
+    Mesh {
+        name: String::from("sheet"),
+        primitives: vec![Primitive {
+            positions: vec![[-s, 0.0, -s], [-s, 0.0, s], [s, 0.0, s], [s, 0.0, -s]],
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            material,
+            coordinates: Some(vec![[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]),
+            ..Primitive::default()
+        }],
+    }
+}
+
+/// A floor that reflects half of all light diffusely, seen from straight above from height `eye`, `aim` metres from the origin along x.
+fn floor(paint: Paint, pictures: Vec<Picture>, [aim, eye]: [f32; 2]) -> SceneData {
+    let above = Transform::Matrix([
+        [1.0, 0.0, 0.0],
+        [0.0, 0.0, -1.0],
+        [0.0, 1.0, 0.0],
+        [aim, eye, 0.0],
+    ]);
+    SceneData {
+        name: String::from("painted floor"),
+        nodes: vec![node(at([0.0; 3]), Some(0)), node(above, None)],
+        meshes: vec![sheet(40.0, 0)],
+        materials: vec![painted(paint)],
+        pictures,
+        cameras: vec![Camera { node: 1, yfov: 1e-4 }],
+        ..SceneData::default()
+    }
+}
+
+fn add(data: &mut SceneData, transform: Transform, kind: AnalyticKind, intensity: f32) {
+    data.nodes.push(node(transform, None));
+    data.analytic.push(AnalyticLight {
+        name: String::from("lamp"),
+        node: data.nodes.len() as u32 - 1,
+        kind,
+        color: [1.0; 3],
+        intensity,
+        range: None,
+    });
+}
+
+/// Shines along this direction.
+pub fn along(d: [f64; 3]) -> Transform {
+    // -Z of the node points along `d`; the other axes are any.
+    let z = d.map(|x| -x);
+    let other = if z[1].abs() < 0.9 {
+        [0.0, 1.0, 0.0]
+    } else {
+        [1.0, 0.0, 0.0]
+    };
+    let cross = |a: [f64; 3], b: [f64; 3]| {
+        [
+            a[1] * b[2] - a[2] * b[1],
+            a[2] * b[0] - a[0] * b[2],
+            a[0] * b[1] - a[1] * b[0],
+        ]
+    };
+    let unit = |v: [f64; 3]| {
+        let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        v.map(|x| x / length)
+    };
+    let x = unit(cross(other, z));
+    let y = cross(z, x);
+    let column = |v: [f64; 3]| v.map(|x| x as f32);
+    Transform::Matrix([column(x), column(y), column(unit(z)), [0.0; 3]])
+}
+
+/// Every way to render the scene: the mean of each channel, and its standard error.
+fn images(scene: &Scene) -> Vec<(String, [f64; 3], [f64; 3])> {
+    let arrays = Arc::new(arrays(scene, &SETTINGS));
+    let mut found = Vec::new();
+    let mut keep = |what: String, image: &[[f32; 3]]| {
+        // Of each channel alone.
+        let of = |k: usize| mean(&image.iter().map(|p| [p[k]; 3]).collect::<Vec<_>>());
+        let (means, errors) = ([0, 1, 2].map(|k| of(k).0), [0, 1, 2].map(|k| of(k).1));
+        found.push((what, means, errors));
+    };
+    for sampler in Sampler::ALL {
+        let bvh: Bvh<Kinds, WIDTH> = match sampler {
+            Sampler::TwoLevel => Instances::new(scene, 0, BuildParams::default()).expect("sound").0,
+            _ => build(&arrays.lights, sampler, &BuildParams::default()),
+        };
+        let mut cpu = CpuBackend::<Kinds, WIDTH>::new(bvh);
+        for (integrator, candidates, scattered) in [
+            (Integrator::Direct, 1, 0),
+            (Integrator::Direct, 4, 2),
+            (Integrator::Path { bounces: 1 }, 1, 0),
+        ] {
+            let params = lightbvh_kernels::render::RenderParams {
+                candidates,
+                scattered,
+                ..SETTINGS.params([0.0; 3])
+            };
+            let image = cpu
+                .render(&arrays, &params, sampler, integrator)
+                .expect("an image");
+            keep(
+                format!("{} {integrator:?} {candidates} {scattered}", sampler.name()),
+                &image.value,
+            );
+        }
+        if sampler == Sampler::Uniform {
+            continue;
+        }
+        let options = RestirOptions {
+            // Pixels that share samples have no standard error of their own.
+            history: 0,
+            spatial_passes: 0,
+            ..RestirOptions::new(sampler, Combination::Unbiased)
+        };
+        let mut sum = vec![[0.0_f32; 3]; (SETTINGS.width * SETTINGS.height) as usize];
+        let images = 64;
+        for seed in 0..images {
+            let frame = RestirFrame {
+                scene: &arrays,
+                width: SETTINGS.width,
+                height: SETTINGS.height,
+                seed,
+                jitter: seed,
+                background: [0.0; 3],
+                remap: None,
+            };
+            let image = cpu
+                .restir(&mut Restir::new(options), &frame)
+                .expect("an image")
+                .value;
+            for (sum, pixel) in sum.iter_mut().zip(&image) {
+                *sum = [0, 1, 2].map(|k| sum[k] + pixel[k] / images as f32);
+            }
+        }
+        keep(format!("{} restir", sampler.name()), &sum);
+    }
+    found
+}
+
+/// A floor that reflects half of all light, `aim` metres from the origin along x seen from above.
+pub fn plain_floor(aim: f32) -> SceneData {
+    let mut data = floor(PLAIN, Vec::new(), [aim, 12.0]);
+    data.materials[0] = Material {
+        paint: None,
+        metallic: 0.0,
+        roughness: 1.0,
+        ..data.materials[0].clone()
+    };
+    data
+}
+
+/// That every way finds `light`, up to a `share` of it, reflected by this albedo and no more gloss than there may be, in each channel; `light`
+/// is irradiance.
+pub fn reflects(data: SceneData, light: [f64; 3], albedo: [f64; 3], share: f64) {
+    let scene = Scene::new(data).expect("a sound scene");
+    assert!(scene.has_kinds());
+    for (what, means, errors) in images(&scene) {
+        for k in 0..3 {
+            let error = errors[k];
+            let low = 0.96 * albedo[k] * light[k] / PI;
+            let high = low + GLOSS * light[k] / PI;
+            let slack = 5.0 * error + (2e-3 + share) * high + 1e-6;
+            assert!(
+                means[k] > low - slack && means[k] < high + slack,
+                "{what}: channel {k} is {} ± {error}, expected {low} to {high}",
+                means[k]
+            );
+        }
+    }
+}
