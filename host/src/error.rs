@@ -92,6 +92,16 @@ pub enum HostError {
         /// What would do.
         expected: String,
     },
+    /// A word on the command line names nothing.
+    #[error("{option} {word:?} names nothing: expected {expected}")]
+    Word {
+        /// The option.
+        option: &'static str,
+        /// What was given.
+        word: String,
+        /// What would do.
+        expected: String,
+    },
     /// An option that means nothing beside the others.
     #[error("{option} needs {needs}")]
     Usage {

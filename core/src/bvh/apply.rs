@@ -67,6 +67,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                     added.push(id.index);
                     updated.instances.push(id);
                 }
+                // Engines send all their transforms in every frame: what is set as it was is no change.
+                Edit::SetTransform { instance, transform } if self.stands_so(instance.index, &transform) => {}
                 Edit::SetTransform { instance, transform } => {
                     self.note_dark(instance.index);
                     self.placed[instance.index as usize].transform = transform;
@@ -74,6 +76,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                         moved.push(instance.index);
                     }
                 }
+                Edit::SetRadiance { instance, radiance } if self.shines_so(instance.index, radiance) => {}
                 Edit::SetRadiance { instance, radiance } => {
                     let shone = self.placed[instance.index as usize].radiance > 0.0;
                     self.placed[instance.index as usize].radiance = radiance;
@@ -132,6 +135,21 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         self.bound_changes();
         Ok(updated)
+    }
+
+    /// Whether an instance has this transform, to the bit.
+    fn stands_so(&self, index: u32, transform: &Transform) -> bool {
+        let bits = |own: &Transform| {
+            let [a, b, c] = own.columns.map(|column| column.map(f32::to_bits));
+            [a, b, c, own.translation.map(f32::to_bits)]
+        };
+        bits(&self.placed[index as usize].transform) == bits(transform)
+    }
+
+    /// Whether an instance has this radiance, and nothing is to be done for it: where many come on at once, some are not where their light belongs yet.
+    fn shines_so(&self, index: u32, radiance: f32) -> bool {
+        let is_same = self.placed[index as usize].radiance.to_bits() == radiance.to_bits();
+        is_same && !self.is_otherwise_bright(index)
     }
 
     pub(super) fn insert_mesh(&mut self, triangles: &[N::Light], topology: Topology<N>) -> MeshId {

@@ -35,7 +35,7 @@ pub(super) struct InstanceState {
     pub slot: u32,
     /// When it was put where it is in the top level, but for rebuilds.
     pub hung: u64,
-    /// Its radiance then.
+    /// Its radiance then; of one that flickers, the greatest since.
     pub hung_radiance: f32,
     /// Whether it was put in elsewhere for being dimmer before. From then on only being brighter is a reason: a lamp that flickers stays
     /// where its light belongs.
@@ -53,9 +53,21 @@ pub(super) struct InstanceState {
 }
 
 impl InstanceState {
+    /// The radiance by which its place is chosen: one that flickers is where it is bright.
+    pub fn bright(&self) -> f32 {
+        if self.flickers && self.hung_radiance > self.radiance {
+            self.hung_radiance
+        } else {
+            self.radiance
+        }
+    }
+
     /// It was put where it is in the top level as it is now.
     pub fn settle(&mut self) {
-        self.hung_radiance = self.radiance;
+        // What is off is as well off anywhere, and stays where it is bright.
+        if self.radiance > 0.0 || !self.flickers {
+            self.hung_radiance = self.radiance;
+        }
         self.hung_center = [f32::NAN; 3];
     }
 

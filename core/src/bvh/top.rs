@@ -34,6 +34,7 @@ pub(crate) use self::strayed::Looked;
 use super::ranges::Ranges;
 use super::{Bvh, Trails};
 use crate::build::{BuildParams, Topology, build_top};
+use crate::instance::Instance;
 use crate::levels::Levels;
 use crate::node::{Node, kind};
 use crate::refit;
@@ -122,6 +123,7 @@ impl Top {
     /// Bytes of its arrays.
     pub fn memory(&self) -> usize {
         size_of_val(&*self.nodes)
+            + self.strayed.len() * size_of::<u32>()
             + size_of_val(&*self.number_of)
             + size_of_val(&*self.heights)
             + size_of_val(&*self.counts)
@@ -235,6 +237,34 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     pub(super) fn in_world(&self, index: u32) -> N::Summary {
         let instance = &self.instances[index as usize];
         self.root_of(instance.blas).to_world::<N::Light>(instance)
+    }
+
+    /// The words of an instance that is dimmer now than by what its place is chosen, as it was then; `None` of others.
+    fn bright_words(&self, index: u32) -> Option<Instance> {
+        let placed = &self.placed[index as usize];
+        let bright = placed.bright();
+        (bright != placed.radiance && placed.part_of == INVALID).then(|| {
+            let own = self.instances[index as usize];
+            self.in_place(own.blas, placed.transform, bright)
+        })
+    }
+
+    /// An instance as its place is chosen.
+    fn shape_of(&self, index: u32) -> N::Summary {
+        let root = self.root_of(self.instances[index as usize].blas);
+        self.bright_words(index)
+            .map_or_else(|| self.in_world(index), |own| root.to_world::<N::Light>(&own))
+    }
+
+    /// An instance below a child: where that is which has no flux.
+    fn some_leaf(&self, to: u32, link: u32) -> Option<u32> {
+        let (mut to, mut link) = (to, link);
+        while to == kind::INNER {
+            let own = &self.nodes[link as usize];
+            let slot = (0..W).find(|&slot| own.kind(slot) != kind::EMPTY)?;
+            (to, link) = (own.kind(slot), own.link(slot));
+        }
+        (to == kind::MESH).then_some(link)
     }
 
     /// Notes all of the top level's nodes anew, which have the numbers by which `top.nodes` lists them: heights, counts, and the links

@@ -67,6 +67,9 @@ pub(super) struct Args {
     /// Vertical field of view with --look-from, degrees, 1 to 170.
     #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=170), requires = "look_from")]
     fov: u32,
+    /// Which animation is shown of those that move the same things, by name [default: the first of the file].
+    #[arg(long, value_name = "NAME")]
+    animation: Option<String>,
     /// Which axis of a .obj or .ply file points up; those formats do not say. With z, (x, y, z) of the file lies at (x, z, -y), for --look-from too.
     #[arg(long, value_enum, default_value_t = Up::Y)]
     up: Up,
@@ -262,6 +265,9 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         given("--scattered", args.scattered, 0..=MAX_SCATTERED.into()),
     ])?;
     let mut scene = args.up.turn(Scene::open(&args.scene)?)?;
+    if let Some(name) = &args.animation {
+        scene = playing(scene, name)?;
+    }
     scene = seen_by(scene, args.camera)?;
     if let (Some(from), Some(at)) = (args.look_from, args.look_at) {
         check_places(from, at)?;
@@ -350,6 +356,17 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         table::print_json(&report)?;
     }
     Ok(Outcome::Good)
+}
+
+/// The scene with the animation of that name.
+fn playing(scene: Scene, name: &str) -> Result<Scene, HostError> {
+    let mut data = scene.into_data();
+    data.play(name).map_err(|expected| HostError::Word {
+        option: "--animation",
+        word: name.to_owned(),
+        expected,
+    })?;
+    Ok(Scene::new(data)?)
 }
 
 /// The scene as its camera of that number sees it.
@@ -459,7 +476,12 @@ impl Sequence<'_> {
             if exposure.is_none()
                 && let Some(words) = film.darkness()
             {
-                news!("{}: {words}", self.scene.name());
+                let has_sky = self.scene.data().environment.is_some();
+                let advice = match has_sky {
+                    true => "",
+                    false => "; --environment FILE.hdr lights it by a sky",
+                };
+                news!("{}: {words}{advice}", self.scene.name());
             }
             let exposure = *exposure.get_or_insert_with(|| film.auto_exposure());
             let output = match &args.animate {

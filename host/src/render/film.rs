@@ -13,7 +13,9 @@ use super::tone::display;
 pub const MAX_AUTO_EXPOSURE: f32 = 1000.0;
 
 /// Share of an image below which that so little of it is lit is worth a word.
-const MIN_LIT: f64 = 0.01;
+const MIN_LIT: f64 = 0.05;
+/// Luminance, exposed, that is black on a screen: under half of its least step.
+const BLACK: f64 = 0.5 / 255.0 / 12.92;
 
 /// Why an image cannot be made, compared or written.
 #[derive(Debug, thiserror::Error)]
@@ -152,7 +154,10 @@ impl Film {
                  more would show noise; --exposure sets another one"
             ));
         }
-        (lit < MIN_LIT).then(|| format!("only {:.2} % of the image is lit", 100.0 * lit))
+        let exposure = f64::from(wanted);
+        let seen = |&&pixel: &&[f32; 3]| f64::from(luminance(pixel)) * exposure > BLACK;
+        let seen = self.pixels.iter().filter(seen).count() as f64 / self.pixels.len() as f64;
+        (seen < MIN_LIT).then(|| format!("only {:.2} % of the image is lit", 100.0 * seen))
     }
 
     /// The exposure that [`auto_exposure`](Self::auto_exposure) would take if it were not bounded, and the share of pixels that are not

@@ -10,6 +10,7 @@ use lightbvh::light::infinite::{Environment, EnvironmentError, MAX_LEVELS};
 use super::error::SceneError;
 use super::radiance_hdr;
 use super::read_file::read_file;
+use super::shrunk::shrunk;
 
 /// Most columns and rows of a picture, and bytes that it may take in memory.
 const MOST: u32 = 1 << 14;
@@ -47,6 +48,7 @@ pub fn read_environment(
     limits.max_alloc = Some(MOST_BYTES);
     reader.limits(limits);
     let picture = reader.decode().map_err(|error| unread(&error))?.into_rgb32f();
+    let picture = shrunk(picture, false);
     let (width, height) = picture.dimensions();
     if width == 0 || height == 0 {
         return Err(invalid(String::from(

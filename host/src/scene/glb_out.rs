@@ -96,7 +96,7 @@ impl Writer {
             })
             .collect();
         let mut animations = Vec::new();
-        for animation in &data.animations {
+        for animation in data.animations.iter().chain(&data.clips) {
             let moving = animation.channels.iter().map(|channel| self.sampler(channel));
             let mut samplers: Vec<Value> = moving.collect();
             samplers.extend(animation.morphs.iter().map(|channel| self.morph(channel)));

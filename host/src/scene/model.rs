@@ -39,6 +39,8 @@ pub struct SceneData {
     pub materials: Vec<Material>,
     /// All animations run at once, each looping over its own duration.
     pub animations: Vec<Animation>,
+    /// Animations that move what those do, and are left out: [`play`](Self::play) brings one in.
+    pub clips: Vec<Animation>,
     /// The first one is the one that frames are seen from.
     pub cameras: Vec<Camera>,
     /// Named by nodes.

@@ -77,6 +77,10 @@ fn header(bytes: &[u8]) -> Result<Header, String> {
             ("EXPOSURE", &[exposure]) => [exposure; 3],
             ("COLORCORR", &[r, g, b]) => [r, g, b],
             ("PRIMARIES", numbers) => {
+                // Photoshop writes zeros, which name no colours.
+                if !numbers.is_empty() && numbers.iter().all(|&x| x == 0.0) {
+                    continue;
+                }
                 let is_near = |(x, own): (&f64, &f64)| (x - own).abs() <= NEAR;
                 has_other_primaries =
                     numbers.len() < PRIMARIES.len() || !numbers.iter().zip(&PRIMARIES).all(is_near);
@@ -171,6 +175,7 @@ pub(super) mod tests {
                 "PRIMARIES=0.708 0.292 0.170 0.797 0.131 0.046 0.3127 0.3290\n",
                 true,
             ),
+            ("PRIMARIES=0 0 0 0 0 0 0 0\n", false),
             ("PRIMARIES=0.64 0.33\n", true),
         ] {
             assert_eq!(of(lines).expect("sound").has_other_primaries, expected, "{lines}");

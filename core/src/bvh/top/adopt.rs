@@ -63,7 +63,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                     self.settle_placed(name);
                 }
                 let placed = &mut self.placed[name as usize];
-                placed.hung_radiance = placed.radiance;
+                placed.hung_radiance = placed.bright();
+            }
+        }
+        for &name in &tree.dark {
+            if self.is_marked(name, found.mark) {
+                self.note_nowhere(name);
             }
         }
         for &name in &found.instances {

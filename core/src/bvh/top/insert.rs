@@ -6,7 +6,12 @@ use super::cost::{Cluster, floor};
 use crate::build::{Topology, build_top};
 use crate::bvh::{Bvh, Trails};
 use crate::node::{Node, kind};
+use crate::summary::Summary;
 use crate::trail::max_levels;
+
+/// A node of instances goes in as one where they lie no farther apart than those around it, by this factor of variance: of a batch of one in five of all
+/// that lie there each does.
+const WIDER: f64 = 1.0;
 
 /// What is put into the top level: an instance, or a node with its children.
 #[derive(Clone, Copy, Debug)]
@@ -40,8 +45,8 @@ pub(super) enum Step {
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Puts `added` instances into the top level, which has none of them. A few go in one by one, each in time in proportion to the
-    /// depth. Many are built into a tree of their own first, whose lowest nodes go in; as many as there are already, and everything is
-    /// built anew. So time is in proportion to what is added, times the depth.
+    /// depth. Many are built into a tree of their own first, whose lowest nodes go in where their instances lie as close together as those around them,
+    /// else one by one; as many as there are already, and everything is built anew. So time is in proportion to what is added, times the depth.
     pub(in crate::bvh) fn insert_instances(&mut self, added: &[u32]) {
         let root = self.top.number(self.top.root);
         let there = self.top.counts.get(root as usize).copied().unwrap_or(0) as usize;
@@ -88,13 +93,30 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 cluster: Cluster::new(&self.nodes[own as usize].merged(), leaves.len() as u32),
                 height: 1,
             };
-            if !self.insert(item) {
-                self.free_top_node(own);
-                leaves
-                    .into_iter()
-                    .for_each(|leaf| self.insert_instance_leaf(leaf));
+            match self.place_of(&item) {
+                Some((node, step)) if self.is_as_dense(own, node) => self.insert_at(node, step, &item),
+                _ => {
+                    self.free_top_node(own);
+                    leaves
+                        .into_iter()
+                        .for_each(|leaf| self.insert_instance_leaf(leaf));
+                }
             }
         }
+    }
+
+    /// Whether the instances below node `own` lie about as close together as those below `host`: so many of those, were they even in space,
+    /// have a variance of position less by a factor of (n / N)^⅔. Lamps scattered over a scene are near none of each other, and a node of theirs would
+    /// reach across all that lies between.
+    fn is_as_dense(&self, own: u32, host: u32) -> bool {
+        let of = |node: u32| {
+            let count = self.top.counts[self.top.number(node) as usize];
+            (f64::from(self.quality(node).apart()), f64::from(count))
+        };
+        let ((apart, few), (around, many)) = (of(own), of(host));
+        let share = apart / (WIDER * around);
+        // A node that has one place alone is no wider than any.
+        apart == 0.0 || share * share * share * (many * many) <= few * few
     }
 
     /// Puts one instance into the top level, in time in proportion to the depth.
@@ -117,39 +139,55 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Puts an item where it costs least, as far as a walk from the root tells that looks at one node of each level. False where the
     /// tree would get deeper than places may be; an instance always fits.
     pub(super) fn insert(&mut self, item: Item) -> bool {
-        let Some(node) = self.put(item) else {
+        let Some((node, step)) = self.place_of(&item) else {
             return false;
         };
-        self.update_path(node);
-        self.top.touched.push(node);
+        self.insert_at(node, step, &item);
         true
     }
 
-    /// The same, but that nothing is computed of the node whose children change, which is returned, and those above it.
+    fn insert_at(&mut self, node: u32, step: Step, item: &Item) {
+        self.put_at(node, step, item);
+        self.update_path(node);
+        self.top.touched.push(node);
+    }
+
+    /// The same as [`insert`](Self::insert), but that nothing is computed of the node whose children change, which is returned, and those above it.
     pub(super) fn put(&mut self, item: Item) -> Option<u32> {
+        let (node, step) = self.place_of(&item)?;
+        self.put_at(node, step, &item);
+        Some(node)
+    }
+
+    /// The node whose children an item changes, and how.
+    fn place_of(&self, item: &Item) -> Option<(u32, Step)> {
         let mut node = self.top.root;
         let mut level = 0;
         loop {
-            match self.step(node, level, &item)? {
-                Step::Place(slot) => self.hang(node, slot, item.kind, item.link),
-                Step::Enter(slot) => {
-                    node = self.nodes[node as usize].link(slot);
-                    level += 1;
-                    continue;
-                }
-                Step::Pair(slot) => {
-                    let own = &self.nodes[node as usize];
-                    let (to, link) = (own.kind(slot), own.link(slot));
-                    self.pair(node, slot, (to, link), (item.kind, item.link));
-                }
-                Step::Merge(a, b) => {
-                    let own = &self.nodes[node as usize];
-                    let [one, other] = [a, b].map(|slot| (own.kind(slot), own.link(slot)));
-                    self.pair(node, a, one, other);
-                    self.hang(node, b, item.kind, item.link);
-                }
+            match self.step(node, level, item)? {
+                Step::Enter(slot) => node = self.nodes[node as usize].link(slot),
+                step => return Some((node, step)),
             }
-            return Some(node);
+            level += 1;
+        }
+    }
+
+    fn put_at(&mut self, node: u32, step: Step, item: &Item) {
+        let own = &self.nodes[node as usize];
+        let child = |slot: usize| (own.kind(slot), own.link(slot));
+        match step {
+            Step::Place(slot) => self.hang(node, slot, item.kind, item.link),
+            Step::Pair(slot) => {
+                let there = child(slot);
+                self.pair(node, slot, there, (item.kind, item.link));
+            }
+            Step::Merge(a, b) => {
+                let (one, other) = (child(a), child(b));
+                self.pair(node, a, one, other);
+                self.hang(node, b, item.kind, item.link);
+            }
+            // That is no place yet.
+            Step::Enter(_) => {}
         }
     }
 
@@ -174,7 +212,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             .map(move |slot| {
                 let (to, link) = (own.kind(slot), own.link(slot));
                 let (height, count) = self.measured(to, link);
-                let cluster = Cluster::new(&own.summary(slot), count);
+                let known = own.summary(slot);
+                let dark = (known.phi() <= 0.0).then(|| self.some_leaf(to, link)).flatten();
+                let known = dark.map_or(known, |leaf| self.in_world(leaf));
+                let cluster = Cluster::new(&known, count);
                 let item = Item {
                     kind: to,
                     link,

@@ -76,7 +76,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.link_up(node, slot);
         if to == kind::MESH {
             let placed = &mut self.placed[link as usize];
-            placed.hung_radiance = placed.radiance;
+            placed.hung_radiance = placed.bright();
         }
         self.changes.new.written_nodes.push(node..node + 1);
         self.top.levels = None;

@@ -85,7 +85,11 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 }
                 if excess > 0.0 {
                     misplaced.push((excess, leaf));
-                } else if leaf == self.leaves_of(index).start {
+                    continue;
+                }
+                // What goes off costs nothing anywhere, and is where it is bright.
+                self.note_flicker(leaf);
+                if leaf == self.leaves_of(index).start {
                     if self.placed[index as usize].parts.is_empty() {
                         self.note_moved(index);
                     }
@@ -100,6 +104,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             for (_, index) in misplaced.split_off(most) {
                 self.note_flicker(index);
                 self.stir(self.placed[index as usize].node, STIRS);
+                if self.placed[index as usize].part_of == INVALID {
+                    self.note_moved(index);
+                }
             }
             misplaced.sort_unstable_by_key(|&(_, index)| index);
         }

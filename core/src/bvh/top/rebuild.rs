@@ -40,6 +40,8 @@ pub(crate) struct TopCopy<N> {
     roots: Vec<BlasRoot>,
     /// Their masks and beams, where nodes store any.
     limits: Vec<Limits>,
+    /// Leaves, instances before subtrees, whose place is not chosen by what they are now, by index: an instance in place of each.
+    shapes: Vec<(u32, Instance, BlasRoot)>,
     /// The subtrees that stay, with the variance of their lights' centers, and the nodes that are to be replaced, from the root down.
     kept: Vec<(Part, N, f32)>,
     inner: Vec<Part>,
@@ -71,6 +73,8 @@ pub(in crate::bvh) struct TopTree<N> {
     pub(super) names: Vec<u32>,
     pub(super) kept: Vec<Part>,
     pub(super) inner: Vec<Part>,
+    /// Those of the instances whose meshes had no flux.
+    pub(super) dark: Vec<u32>,
     /// Instances to be opened, and to be closed.
     pub(super) open: Vec<u32>,
     pub(super) close: Vec<u32>,
@@ -101,9 +105,14 @@ impl<N> TopCopy<N> {
             names: self.names,
             kept: self.kept.iter().map(|&(part, ..)| part).collect(),
             inner: self.inner,
+            dark: Vec::new(),
             open: Vec::new(),
             close: Vec::new(),
         };
+        let is_dark = |root: &BlasRoot| root.summary::<N::Summary>().phi() <= 0.0;
+        let names = tree.names.iter().zip(&self.roots);
+        tree.dark
+            .extend(names.filter(|(_, root)| is_dark(root)).map(|(&name, _)| name));
         let leaves = self.instances.iter().zip(&self.roots);
         let leaves =
             leaves.map(|(instance, root)| root.summary::<N::Summary>().to_world::<N::Light>(instance));
@@ -115,8 +124,11 @@ impl<N> TopCopy<N> {
         }
         let whole = self.whole.unwrap_or_else(|| opened::cost_of(&leaves));
         [tree.open, tree.close] = opened::wanted::<N, W>(whole, &self.openable);
-        let mut topology: Topology<N> =
-            build_top::<N, W>((0..).zip(leaves.iter().copied()), &super::in_full(params));
+        let mut shapes = leaves.clone();
+        for (index, instance, root) in &self.shapes {
+            shapes[*index as usize] = root.summary::<N::Summary>().to_world::<N::Light>(instance);
+        }
+        let mut topology: Topology<N> = build_top::<N, W>((0..).zip(shapes), &super::in_full(params));
         tree.keeps = alloc::vec![0; topology.nodes.len()];
         let mut cost = 0.0;
         let mut apart = alloc::vec![0.0; topology.nodes.len()];
@@ -227,6 +239,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             instances: Vec::with_capacity(cut.names.len()),
             roots: Vec::with_capacity(cut.names.len()),
             limits: Vec::new(),
+            shapes: Vec::new(),
             names: Vec::new(),
             kept: Vec::with_capacity(cut.kept.len()),
             inner: Vec::with_capacity(cut.inner.len()),
@@ -242,9 +255,19 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 copy.limits
                     .push(refit::limits_of_instance(&self.nodes, &root, &own));
             }
+            let bright = self.bright_words(name);
+            copy.shapes
+                .extend(bright.map(|bright| (copy.instances.len() as u32, bright, root)));
             copy.instances.push(own);
         }
         for &node in &cut.kept {
+            let is_dark = self.nodes[node as usize].merged().phi() <= 0.0;
+            if let Some(leaf) = is_dark.then(|| self.some_leaf(kind::INNER, node)).flatten() {
+                let own = self.instances[leaf as usize];
+                let index = cut.names.len() + copy.kept.len();
+                copy.shapes
+                    .push((index as u32, own, self.roots[own.blas as usize]));
+            }
             copy.kept.push((
                 self.part(node),
                 self.nodes[node as usize],

@@ -11,6 +11,7 @@ use alloc::vec::Vec;
 use crate::build::{BuildParams, Heuristic, Topology, build_top};
 use crate::bvh::{Bvh, Trails};
 use crate::node::{Node, kind};
+use crate::summary::Summary;
 use crate::trail::max_levels;
 use crate::tree::INVALID;
 
@@ -51,6 +52,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let number = self.top.number(node) as usize;
         self.top.edits[number] = 0;
         let (interior, leaves) = self.below(node);
+        let nowhere = leaves
+            .iter()
+            .filter(|(leaf, own)| own.phi() <= 0.0 && self.is_dark(*leaf));
+        let nowhere: Vec<u32> = nowhere.map(|&(leaf, _)| leaf).collect();
         let params = BuildParams {
             heuristic: match self.params.heuristic {
                 // Few instances are sorted by Ward's criterion in no time.
@@ -59,7 +64,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             },
             ..self.params
         };
-        let topology: Topology<N> = build_top::<N, W>(leaves.into_iter(), &params);
+        // What nodes know of a child without flux is not where it is.
+        let leaves = leaves.into_iter().map(|(leaf, own)| {
+            let shape = if own.phi() > 0.0 { own } else { self.shape_of(leaf) };
+            (leaf, shape)
+        });
+        let topology: Topology<N> = build_top::<N, W>(leaves, &params);
         if self.level(node) + topology.depth > max_levels(W) {
             return;
         }
@@ -86,6 +96,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if above != INVALID {
             self.update_path(above);
         }
+        nowhere.into_iter().for_each(|leaf| self.note_nowhere(leaf));
     }
 
     /// The nodes from `node` down, itself first, and the instances below it with what the nodes know of them.

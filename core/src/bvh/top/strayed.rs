@@ -8,9 +8,7 @@ use alloc::vec::Vec;
 
 use super::misplaced::{STIRS, SWAYS, distance};
 use crate::bvh::{Bvh, Trails};
-use crate::node::Node;
-#[cfg(feature = "std")]
-use crate::node::kind;
+use crate::node::{Node, kind};
 use crate::summary::Summary;
 use crate::tree::INVALID;
 
@@ -23,14 +21,33 @@ const DIM: f64 = 2.0;
 #[cfg(feature = "std")]
 const LOOKED_AT: usize = 16;
 
-/// Instances that are noted because they were moved, at most: beside more of them parts are tried in any case.
-const MOVED: usize = 1024;
+/// Instances that are noted because they were moved far, at most: beside more of them parts are tried in any case, and looking at them takes 64 frames.
+const NOTED: usize = 1024;
 /// Instances that are noted beside which those that come on are no longer.
-const LIT: usize = 4 * MOVED;
+const LIT: usize = 4 * NOTED;
+/// Part of what its node is spread by beyond which an instance is noted, in squared distance from where it was put: what sways is not.
+const LEAVES: f64 = 0.5;
 /// What lies elsewhere is farther from the others than it was, in squared distance, by this while it moves: of those that move together some are ahead of
 /// the rest for a while. Once it rests, 1.
 #[cfg(feature = "std")]
 const FARTHER: f64 = 2.0;
+/// Where fewer are noted each that rests is put in anew beside which others stayed: those may be others than they were. Where more are,
+/// until none is, parts are built anew.
+#[cfg(feature = "std")]
+const ALONE: usize = 256;
+
+/// What is asked of an instance that went far, besides.
+#[cfg(feature = "std")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Guard {
+    /// It changed since the last frame: it is far from the others.
+    Moves,
+    /// It did not: it is farther from the others than it was.
+    Rests,
+    /// Few are noted besides: or the others did not move.
+    RestsAlone,
+}
+
 /// Where an instance is said to have been put that had no flux, metres along each axis: farther off than any light.
 const NOWHERE: f32 = 1e18;
 
@@ -42,6 +59,8 @@ pub(crate) struct Looked {
     next: u32,
     /// The epoch when the last frame began.
     epoch: Option<u64>,
+    /// Whether many were noted since none was: parts are built anew then.
+    is_crowd: bool,
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
@@ -107,17 +126,37 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     fn lose_center(&mut self, blas: u32) {
         let own = &mut self.blases[blas as usize];
         let was = core::mem::replace(&mut own.center, [f32::NAN; 3]);
-        let users = &self.meshes[own.mesh as usize].users;
-        if was[0].is_nan() || users.len() > FEW {
+        let mesh = own.mesh as usize;
+        if was[0].is_nan() || self.meshes[mesh].users.len() > FEW {
             return;
         }
-        for &user in users {
+        for k in 0..self.meshes[mesh].users.len() {
+            let user = self.meshes[mesh].users[k];
             let center = self.instances[user as usize].vertex(was);
             let placed = &mut self.placed[user as usize];
             if placed.hung_center[0].is_nan() {
                 placed.hung_center = center;
             }
         }
+    }
+
+    /// What is beside an instance in its node, but for those that are nowhere themselves: they go elsewhere too.
+    fn beside(&self, index: u32) -> impl Iterator<Item = N::Summary> + '_ {
+        let placed = &self.placed[index as usize];
+        let node = &self.nodes[placed.node as usize];
+        let is_there = |slot: usize| {
+            node.kind(slot) != kind::MESH || self.placed[node.link(slot) as usize].hung_center[0] != NOWHERE
+        };
+        (0..W)
+            .filter(move |&slot| {
+                slot != placed.slot as usize && node.kind(slot) != kind::EMPTY && is_there(slot)
+            })
+            .map(move |slot| {
+                let known = node.summary(slot);
+                let is_dark = known.phi() <= 0.0;
+                let leaf = is_dark.then(|| self.some_leaf(node.kind(slot), node.link(slot)));
+                leaf.flatten().map_or(known, |leaf| self.in_world(leaf))
+            })
     }
 
     /// Before an instance is moved: where it was, where its node does not tell, for it had no flux there.
@@ -153,23 +192,57 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         is_noted
     }
 
-    /// Whether an instance was moved since it was put where it is.
+    /// A subtree was built over this leaf while its mesh had no flux, which is nowhere: it hangs anywhere. It is looked at once it shines.
+    pub(super) fn note_nowhere(&mut self, leaf: u32) {
+        let owner = self.placed[leaf as usize].part_of;
+        let index = if owner == INVALID { leaf } else { owner };
+        let blas = self.meshes[self.placed[index as usize].mesh as usize].blas;
+        if self.root_of(blas).phi() <= 0.0 {
+            self.lose_center(blas);
+        } else if self.top.strayed.len() < LIT {
+            self.top.strayed.insert(index);
+        }
+        self.placed[index as usize].hung_center = [NOWHERE; 3];
+    }
+
+    /// Whether the mesh of a leaf has no flux.
+    pub(super) fn is_dark(&self, leaf: u32) -> bool {
+        let mesh = self.placed[leaf as usize].mesh;
+        self.root_of(self.meshes[mesh as usize].blas).phi() <= 0.0
+    }
+
+    /// Whether an instance was moved far since it was put where it is.
     pub(in crate::bvh) fn has_moved(&self, index: u32) -> bool {
         let first = self.leaves_of(index).start;
-        !self.placed[first as usize].hung_center[0].is_nan()
+        let placed = &self.placed[first as usize];
+        placed.node != INVALID && !placed.hung_center[0].is_nan() && self.has_left(first)
     }
 
     /// An instance that was moved, and that lies no farther from what is beside it by a single step, is looked at as a frame begins: one that walks through a
     /// scene is never far from where it was a step before.
     pub(super) fn note_moved(&mut self, index: u32) {
-        if self.top.strayed.len() >= MOVED || self.placed[index as usize].node == INVALID {
+        if self.top.strayed.len() >= NOTED || self.placed[index as usize].node == INVALID {
             return;
         }
         // Dark ones are nowhere.
         let blas = self.blas_index(&self.placed[index as usize]);
-        if self.instances[index as usize].flux > 0.0 && self.root_of(blas).phi() > 0.0 {
+        if self.instances[index as usize].flux > 0.0 && self.root_of(blas).phi() > 0.0 && self.has_left(index)
+        {
             self.top.strayed.insert(index);
         }
+    }
+
+    /// Whether an instance is about as far from where it was put as its node is wide.
+    fn has_left(&self, index: u32) -> bool {
+        let placed = &self.placed[index as usize];
+        let above = self.parents[placed.node as usize];
+        if above == INVALID {
+            return false;
+        }
+        let around = self.nodes[above as usize].summary(self.slot_above(placed.node));
+        let is = self.in_world(index).center().to_array();
+        let squared = distance(is.map(f64::from), placed.hung_center.map(f64::from));
+        squared > LEAVES * f64::from(around.spread())
     }
 
     /// An instance is to be looked at whose mesh had its centre at `was`, in its own space.
@@ -187,6 +260,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     pub(crate) fn put_strayed_elsewhere(&mut self, most: usize, looked: &mut Looked) {
         let mut out = Vec::new();
         let mut later = Vec::new();
+        let noted = self.top.strayed.len();
+        looked.is_crowd = noted >= ALONE || looked.is_crowd && noted > 0;
         for _ in 0..LOOKED_AT {
             if out.len() >= most {
                 break;
@@ -213,8 +288,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 self.lose_center(blas);
                 continue;
             }
-            let farther = if rests { 1.0 } else { FARTHER };
-            if self.lies_elsewhere(index, farther) {
+            let guard = match (rests, !looked.is_crowd) {
+                (false, _) => Guard::Moves,
+                (true, false) => Guard::Rests,
+                (true, true) => Guard::RestsAlone,
+            };
+            if self.lies_elsewhere(index, guard) {
                 let leaves = self.leaves_of(index);
                 out.extend(leaves.filter(|&leaf| self.placed[leaf as usize].node != INVALID));
                 // Where it is opened that is not said of its parts alone.
@@ -237,10 +316,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.settle_some(crate::bvh::rebuild::ADOPTED);
     }
 
-    /// Whether an instance is farther from where it was put than its node was wide then, the others in it, and it where it was; and `farther` from the
-    /// others than it was, in squared distance: those that move together stay together. An opened one, of which each part has a node, where it is out of its own extent.
+    /// Whether an instance is farther from where it was put than its node was wide then, the others in it, and it where it was; and as `guard` says, so that
+    /// those that move together stay together. An opened one, of which each part has a node, where it is out of its own extent.
     #[cfg(feature = "std")]
-    fn lies_elsewhere(&self, index: u32, farther: f64) -> bool {
+    fn lies_elsewhere(&self, index: u32, guard: Guard) -> bool {
         let placed = &self.placed[index as usize];
         let own = self.in_world(index);
         let (was, is) = (
@@ -259,30 +338,56 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if placed.hung_center[0] == NOWHERE {
             return true;
         }
-        let node = &self.nodes[placed.node as usize];
-        // Flux, flux times centre, and flux times squared distance from where it was.
+        // Flux, flux times centre, and flux times squared distance from where it was; the instance itself is at zero.
         let mut phi = f64::from(own.phi());
         let (mut first, mut second) = ([0.0; 3], phi * f64::from(own.spread()));
-        // Those that are nowhere themselves go elsewhere too.
-        let is_there = |slot: usize| {
-            node.kind(slot) != kind::MESH || self.placed[node.link(slot) as usize].hung_center[0] != NOWHERE
-        };
-        let others = (0..W).filter(|&slot| slot != placed.slot as usize && node.kind(slot) != kind::EMPTY);
-        for slot in others.filter(|&slot| is_there(slot)) {
-            let other = node.summary(slot);
+        for other in self.beside(index) {
             let flux = f64::from(other.phi());
             let center = other.center().to_array().map(f64::from);
             phi += flux;
             (0..3).for_each(|k| first[k] += flux * (center[k] - was[k]));
             second += flux * (f64::from(other.spread()) + distance(center, was));
         }
-        // Of all about their mean; the instance itself is at zero.
-        let mean = first.map(|x| x / phi);
-        let spread = second / phi - distance(mean, [0.0; 3]);
+        // Of all about their mean.
+        let spread = second / phi - distance(first.map(|x| x / phi), [0.0; 3]);
         let others = phi - f64::from(own.phi());
         let middle = first.map(|x| if others > 0.0 { x / others } else { 0.0 });
-        let now = [0, 1, 2].map(|k| is[k] - was[k]);
-        distance(is, was) > spread && distance(now, middle) > farther * distance([0.0; 3], middle)
+        let moved = [0, 1, 2].map(|k| is[k] - was[k]);
+        let is_farther = |by: f64| distance(moved, middle) > by * distance([0.0; 3], middle);
+        distance(is, was) > spread
+            && match guard {
+                Guard::Moves => is_farther(FARTHER),
+                Guard::Rests => is_farther(1.0),
+                Guard::RestsAlone => is_farther(1.0) || !self.moves_with_others(index, distance(is, was)),
+            }
+    }
+
+    /// Whether three in four of those beside an instance, and of those beside its node, went about as far since they were put where they are: then parts are
+    /// built anew where that is due. A few that travel together among others are a node in the wrong place.
+    #[cfg(feature = "std")]
+    fn moves_with_others(&self, index: u32, squared: f64) -> bool {
+        let placed = &self.placed[index as usize];
+        let above = self.parents[placed.node as usize];
+        self.move_too(placed.node, placed.slot as usize, squared)
+            && self.move_too(above, self.slot_above(placed.node), squared)
+    }
+
+    /// Whether three in four of the children of a node but for one, of each an instance, went at least a quarter as far; in squared distance.
+    #[cfg(feature = "std")]
+    fn move_too(&self, node: u32, but: usize, squared: f64) -> bool {
+        let own = &self.nodes[node as usize];
+        let (mut count, mut moved) = (0, 0);
+        for slot in (0..W).filter(|&slot| slot != but) {
+            let Some(leaf) = self.some_leaf(own.kind(slot), own.link(slot)) else {
+                continue;
+            };
+            let was = self.placed[leaf as usize].hung_center.map(f64::from);
+            let is = self.in_world(leaf).center().to_array().map(f64::from);
+            count += 1;
+            // Of one that never moved that is no number.
+            moved += u32::from(16.0 * distance(is, was) >= squared);
+        }
+        4 * moved >= 3 * count
     }
 }
 

@@ -123,6 +123,7 @@ impl Scene {
         data.animations = animation::read(&document, &order)?;
         data.pictures = document.pictures.take().into_kept();
         data.warnings = document.into_warnings();
+        data.part_clips();
         Self::new(data)
     }
 }

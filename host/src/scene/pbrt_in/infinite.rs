@@ -7,6 +7,7 @@ use image::Rgb32FImage;
 use lightbvh::light::infinite::{Environment, MAX_LEVELS};
 
 use super::super::picture_file::{from_srgb, is_linear};
+use super::super::shrunk::shrunk;
 use super::super::transform::{Affine, unit_or};
 use super::params::Params;
 use super::state::Loader;
@@ -43,7 +44,7 @@ impl Picture {
         };
         let pixel = |part: f64, count: u32| ((part * f64::from(count)) as u32).min(count - 1);
         let pixel = self.pixels.get_pixel(pixel(u, width), pixel(v, height));
-        pixel.0.map(|x| usable(f64::from(x)))
+        pixel.0.map(f64::from)
     }
 
     /// Irradiance of a patch that faces the picture's +z, W/m² where its numbers are W/(m² sr): the sum over the half of the sphere there.
@@ -62,7 +63,7 @@ impl Picture {
                 let theta = std::f64::consts::PI * square[1];
                 (libm::cos(theta), libm::sin(theta))
             };
-            let [r, g, b] = pixel.0.map(|x| usable(f64::from(x)));
+            let [r, g, b] = pixel.0.map(f64::from);
             sum += z.max(0.0) * angle * (0.2126 * r + 0.7152 * g + 0.0722 * b);
             all += angle;
         }
@@ -71,7 +72,7 @@ impl Picture {
 }
 
 /// Negative light and what is none count as none.
-fn usable(x: f64) -> f64 {
+fn usable(x: f32) -> f32 {
     if x > 0.0 && x.is_finite() { x } else { 0.0 }
 }
 
@@ -148,9 +149,13 @@ impl Loader<'_> {
                 pixel.0 = pixel.0.map(|x| from_srgb(f64::from(x)) as f32);
             }
         }
+        let is_equal_area = pixels.width() == pixels.height();
+        pixels
+            .pixels_mut()
+            .for_each(|pixel| pixel.0 = pixel.0.map(usable));
         Ok(Picture {
-            is_equal_area: pixels.width() == pixels.height(),
-            pixels,
+            is_equal_area,
+            pixels: shrunk(pixels, is_equal_area),
             to_picture,
         })
     }

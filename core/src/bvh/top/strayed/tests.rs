@@ -4,7 +4,7 @@ extern crate std;
 
 use std::vec::Vec;
 
-use super::{FARTHER, FEW, Looked, distance};
+use super::{FARTHER, FEW, Guard, Looked, distance};
 use crate::bvh::{RebuilderParams, Swap};
 use crate::kit::{Random, cross, dot, minus};
 use crate::node::{Node, kind};
@@ -12,6 +12,7 @@ use crate::rebuilder::Rebuilder;
 use crate::summary::Summary;
 use crate::{Edit, EmissiveTriangle, InstanceId, LightBvh, MeshId, MomentNode, ShadingPoint, Transform};
 
+mod batches;
 mod dark;
 mod paths;
 
@@ -251,7 +252,7 @@ fn what_stays_where_it_belongs_stays() {
     assert!(bvh.top.strayed.is_empty());
 }
 
-/// What moves must be twice as far from the others as it was, in squared distance; once it rests, farther by any distance.
+/// What moves must be twice as far from the others as where it was, in squared distance; once it rests, it need not.
 #[test]
 fn what_rests_is_put_in_elsewhere_sooner_than_what_moves() {
     let (still, _) = scene(8);
@@ -266,13 +267,16 @@ fn what_rests_is_put_in_elsewhere_sooner_than_what_moves() {
         bvh
     };
     let between = (1..200).map(moved).find(|bvh| {
-        bvh.top.strayed.contains(&3) && bvh.lies_elsewhere(3, 1.0) && !bvh.lies_elsewhere(3, FARTHER)
+        bvh.top.strayed.contains(&3)
+            && bvh.lies_elsewhere(3, Guard::RestsAlone)
+            && !bvh.lies_elsewhere(3, Guard::Moves)
     });
-    let mut bvh = between.expect("a place that is farther, and not by much");
+    let mut bvh = between.expect("a place where its node is looser, and not by much");
     let stamp = bvh.epoch;
     let looked = &mut Looked {
         next: 0,
         epoch: Some(still.epoch),
+        ..Looked::default()
     };
     bvh.put_strayed_elsewhere(2, looked);
     assert!(
@@ -287,9 +291,9 @@ fn what_rests_is_put_in_elsewhere_sooner_than_what_moves() {
     bvh.validate().expect("valid");
 }
 
-/// [`lies_elsewhere`](LightBvh) by its definition: farther from where it was than its node was wide, itself there, about the mean of all; and farther from
-/// the mean of the others than it was.
-fn lies_elsewhere_by_definition(bvh: &LightBvh, index: usize, farther: f64) -> bool {
+/// [`lies_elsewhere`](LightBvh) by its definition: farther from where it was than its node was wide, itself there, about the mean of all; and as the guard
+/// says: while it moves twice as far from the mean of the others, in squared distance; at rest farther than where it was.
+fn lies_elsewhere_by_definition(bvh: &LightBvh, index: usize, guard: Guard) -> bool {
     let placed = &bvh.placed[index];
     let own = bvh.in_world(index as u32);
     let was = placed.hung_center.map(f64::from);
@@ -318,7 +322,14 @@ fn lies_elsewhere_by_definition(bvh: &LightBvh, index: usize, farther: f64) -> b
         .map(|one| one.0 * (one.2 + distance(one.1, middle)))
         .sum();
     let beside = mean(&others);
-    distance(is, was) > wide / phi && distance(is, beside) > farther * distance(was, beside)
+    let is_farther = |by: f64| distance(is, beside) > by * distance(was, beside);
+    distance(is, was) > wide / phi
+        && match guard {
+            Guard::Moves => is_farther(FARTHER),
+            Guard::Rests => is_farther(1.0),
+            // It alone moved.
+            Guard::RestsAlone => true,
+        }
 }
 
 #[test]
@@ -337,11 +348,11 @@ fn what_lies_elsewhere_does_so_by_its_definition() {
             if !bvh.top.strayed.contains(&index) {
                 continue;
             }
-            for farther in [1.0, FARTHER] {
-                let is = bvh.lies_elsewhere(index, farther);
+            for guard in [Guard::Moves, Guard::Rests, Guard::RestsAlone] {
+                let is = bvh.lies_elsewhere(index, guard);
                 assert_eq!(
                     is,
-                    lies_elsewhere_by_definition(&bvh, index as usize, farther),
+                    lies_elsewhere_by_definition(&bvh, index as usize, guard),
                     "{index} {k}"
                 );
                 found[usize::from(is)] += 1;

@@ -1,6 +1,6 @@
 //! Lamps that walk, and those that wait beside others: a sample beside them is as good as in a new tree once they rest.
 
-use super::super::MOVED;
+use super::super::NOTED;
 use super::*;
 
 /// From corner to corner of a cube, the `k`-th of 44 steps of 2 m along each of some ways.
@@ -61,15 +61,14 @@ fn those_that_move_together_stay_together() {
         let to = |p: &[f32; 3]| [p[0] + 3.0 * f32::from(k), p[1], p[2]];
         let edits = all.iter().zip(&at).map(|(&instance, p)| place(instance, to(p)));
         frame(&mut bvh, own, edits.collect());
-        assert!(bvh.top.strayed.len() <= MOVED, "{}", bvh.top.strayed.len());
+        assert!(bvh.top.strayed.len() <= NOTED, "{}", bvh.top.strayed.len());
     }
     let hung = put_since(&bvh, stamp);
     // Two in each frame, 120, but for that; those at the edge of what is beside them are put in anew while they have not gone farther.
     assert!(hung <= 60, "{hung}");
     let stamp = bvh.epoch;
     rest(&mut bvh, own);
-    let hung = put_since(&bvh, stamp);
-    assert_eq!(hung, 0, "at rest");
+    assert_eq!(put_since(&bvh, stamp), 0, "at rest");
 }
 
 /// Twenty meshes go round and round; one of a higher index jumps once, and waited for all of them to rest.
@@ -159,6 +158,11 @@ fn what_is_set_as_it_was_rests() {
     (1..=44).for_each(|k| frame(&mut bvh, own, at(k)));
     (0..REST).for_each(|_| frame(&mut bvh, own, at(44)));
     assert!(bvh.top.strayed.is_empty());
+    // Nor is there anything to refit or to copy.
+    let epoch = bvh.epoch;
+    bvh.apply([at(44), [shine(id, 25.0)].to_vec()].concat())
+        .expect("its own");
+    assert!(bvh.changes.new.is_empty() && bvh.epoch == epoch);
     let found = over_new(&bvh, way(1, 44));
     assert!(found < 1.1, "{found}");
 }
