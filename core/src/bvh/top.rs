@@ -249,13 +249,6 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         })
     }
 
-    /// An instance as its place is chosen.
-    fn shape_of(&self, index: u32) -> N::Summary {
-        let root = self.root_of(self.instances[index as usize].blas);
-        self.bright_words(index)
-            .map_or_else(|| self.in_world(index), |own| root.to_world::<N::Light>(&own))
-    }
-
     /// An instance below a child: where that is which has no flux.
     fn some_leaf(&self, to: u32, link: u32) -> Option<u32> {
         let (mut to, mut link) = (to, link);

@@ -42,6 +42,8 @@ pub(crate) struct TopCopy<N> {
     limits: Vec<Limits>,
     /// Leaves, instances before subtrees, whose place is not chosen by what they are now, by index: an instance in place of each.
     shapes: Vec<(u32, Instance, BlasRoot)>,
+    /// Instances that were brighter, and are taken as they are: they have been off, or dim, for a while.
+    resting: Vec<u32>,
     /// The subtrees that stay, with the variance of their lights' centers, and the nodes that are to be replaced, from the root down.
     kept: Vec<(Part, N, f32)>,
     inner: Vec<Part>,
@@ -73,8 +75,9 @@ pub(in crate::bvh) struct TopTree<N> {
     pub(super) names: Vec<u32>,
     pub(super) kept: Vec<Part>,
     pub(super) inner: Vec<Part>,
-    /// Those of the instances whose meshes had no flux.
+    /// Those of the instances whose meshes had no flux, and those that were brighter and rest.
     pub(super) dark: Vec<u32>,
+    pub(super) resting: Vec<u32>,
     /// Instances to be opened, and to be closed.
     pub(super) open: Vec<u32>,
     pub(super) close: Vec<u32>,
@@ -106,6 +109,7 @@ impl<N> TopCopy<N> {
             kept: self.kept.iter().map(|&(part, ..)| part).collect(),
             inner: self.inner,
             dark: Vec::new(),
+            resting: self.resting,
             open: Vec::new(),
             close: Vec::new(),
         };
@@ -219,6 +223,19 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
+    /// A copy where what has not changed since an epoch is at rest: what is off since then is no more where it is bright.
+    #[cfg(feature = "std")]
+    pub(super) fn at_rest(&self, mut copy: TopCopy<N>, rests_since: u64) -> TopCopy<N> {
+        let (names, resting) = (&copy.names, &mut copy.resting);
+        copy.shapes.retain(|&(index, ..)| {
+            let name = names.get(index as usize).copied();
+            let rests = name.filter(|&name| self.placed[name as usize].changed <= rests_since);
+            resting.extend(rests);
+            rests.is_none()
+        });
+        copy
+    }
+
     /// The instances that leaves belong to, each once.
     #[cfg(feature = "std")]
     fn owners(&self, leaves: &[u32]) -> Vec<u32> {
@@ -240,6 +257,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             roots: Vec::with_capacity(cut.names.len()),
             limits: Vec::new(),
             shapes: Vec::new(),
+            resting: Vec::new(),
             names: Vec::new(),
             kept: Vec::with_capacity(cut.kept.len()),
             inner: Vec::with_capacity(cut.inner.len()),

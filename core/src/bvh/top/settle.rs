@@ -66,7 +66,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         };
         // What nodes know of a child without flux is not where it is.
         let leaves = leaves.into_iter().map(|(leaf, own)| {
-            let shape = if own.phi() > 0.0 { own } else { self.shape_of(leaf) };
+            let shape = if own.phi() > 0.0 { own } else { self.in_world(leaf) };
             (leaf, shape)
         });
         let topology: Topology<N> = build_top::<N, W>(leaves, &params);
