@@ -53,7 +53,7 @@ pub(super) struct InstanceState {
 }
 
 impl InstanceState {
-    /// The radiance by which its place is chosen: one that flickers is where it is bright.
+    /// The radiance that its place is for: one that flickers stays where it is bright.
     pub fn bright(&self) -> f32 {
         if self.flickers && self.hung_radiance > self.radiance {
             self.hung_radiance

@@ -34,7 +34,6 @@ pub(crate) use self::strayed::Looked;
 use super::ranges::Ranges;
 use super::{Bvh, Trails};
 use crate::build::{BuildParams, Topology, build_top};
-use crate::instance::Instance;
 use crate::levels::Levels;
 use crate::node::{Node, kind};
 use crate::refit;
@@ -237,16 +236,6 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     pub(super) fn in_world(&self, index: u32) -> N::Summary {
         let instance = &self.instances[index as usize];
         self.root_of(instance.blas).to_world::<N::Light>(instance)
-    }
-
-    /// The words of an instance that is dimmer now than by what its place is chosen, as it was then; `None` of others.
-    fn bright_words(&self, index: u32) -> Option<Instance> {
-        let placed = &self.placed[index as usize];
-        let bright = placed.bright();
-        (bright != placed.radiance && placed.part_of == INVALID).then(|| {
-            let own = self.instances[index as usize];
-            self.in_place(own.blas, placed.transform, bright)
-        })
     }
 
     /// An instance below a child: where that is which has no flux.

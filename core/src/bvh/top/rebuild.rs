@@ -40,9 +40,9 @@ pub(crate) struct TopCopy<N> {
     roots: Vec<BlasRoot>,
     /// Their masks and beams, where nodes store any.
     limits: Vec<Limits>,
-    /// Leaves, instances before subtrees, whose place is not chosen by what they are now, by index: an instance in place of each.
+    /// Subtrees without flux, by their index among the leaves: an instance of each, for they are nowhere themselves.
     shapes: Vec<(u32, Instance, BlasRoot)>,
-    /// Instances that were brighter, and are taken as they are: they have been off, or dim, for a while.
+    /// Instances that were brighter, and have been off, or dim, for a while.
     resting: Vec<u32>,
     /// The subtrees that stay, with the variance of their lights' centers, and the nodes that are to be replaced, from the root down.
     kept: Vec<(Part, N, f32)>,
@@ -223,16 +223,15 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// A copy where what has not changed since an epoch is at rest: what is off since then is no more where it is bright.
+    /// A copy where what has not changed since an epoch is at rest: what is off, or dimmer, since then is no more where it is bright.
     #[cfg(feature = "std")]
     pub(super) fn at_rest(&self, mut copy: TopCopy<N>, rests_since: u64) -> TopCopy<N> {
-        let (names, resting) = (&copy.names, &mut copy.resting);
-        copy.shapes.retain(|&(index, ..)| {
-            let name = names.get(index as usize).copied();
-            let rests = name.filter(|&name| self.placed[name as usize].changed <= rests_since);
-            resting.extend(rests);
-            rests.is_none()
-        });
+        let rests = |name: &&u32| {
+            let placed = &self.placed[**name as usize];
+            // A rebuilder that is new has seen no frame yet, and files do not tell when an instance changed.
+            rests_since > 0 && placed.changed <= rests_since && placed.bright() != placed.radiance
+        };
+        copy.resting = copy.names.iter().filter(rests).copied().collect();
         copy
     }
 
@@ -273,9 +272,6 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 copy.limits
                     .push(refit::limits_of_instance(&self.nodes, &root, &own));
             }
-            let bright = self.bright_words(name);
-            copy.shapes
-                .extend(bright.map(|bright| (copy.instances.len() as u32, bright, root)));
             copy.instances.push(own);
         }
         for &node in &cut.kept {

@@ -241,3 +241,51 @@ fn a_car_of_lamps_is_where_it_stops() {
         assert!(found < 1.7, "{seed}: {found}");
     }
 }
+
+/// When an instance changed is not in a file, and of what blinks a tree depends on it: what was read went on otherwise.
+#[test]
+fn what_blinks_goes_on_from_a_file() {
+    let random = &mut Random(110);
+    let (mut bvh, _, ids, side) = lamps(1500, random);
+    let own = &mut rebuilder();
+    let mut turn = 0;
+    let mut edits = |random: &mut Random| {
+        turn += 1;
+        let mut all: Vec<_> = (0..40)
+            .map(|k| {
+                (
+                    (k * 7 + turn * 13) % 1500,
+                    Err(f32::from(u8::from((k + turn) % 2 == 0))),
+                )
+            })
+            .collect();
+        let to = somewhere(60, side, random);
+        all.extend(to.into_iter().enumerate().map(|(k, at)| (k * 23, Ok(at))));
+        all
+    };
+    let told = |bvh: &LightBvh, all: &[(usize, Result<[f32; 3], f32>)]| -> Vec<Edit> {
+        let of = |&(k, what): &(usize, Result<[f32; 3], f32>)| {
+            let id = bvh.instance_id(ids[k].index()).expect("there");
+            match what {
+                Ok(at) => place(id, at),
+                Err(radiance) => shine(id, radiance),
+            }
+        };
+        all.iter().map(of).collect()
+    };
+    for _ in 0..50 {
+        let all = edits(random);
+        let all = told(&bvh, &all);
+        frame(&mut bvh, own, all);
+    }
+    let mut read = LightBvh::from_words(&bvh.to_words()).expect("its own");
+    let mut rebuilders = [rebuilder(), rebuilder()];
+    for k in 0..60 {
+        let all = edits(random);
+        for (bvh, own) in [&mut bvh, &mut read].into_iter().zip(&mut rebuilders) {
+            let all = told(bvh, &all);
+            frame(bvh, own, all);
+        }
+        assert!(bvh.to_words() == read.to_words(), "{k}");
+    }
+}
