@@ -66,14 +66,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 placed.hung_radiance = placed.bright();
             }
         }
-        for &name in &tree.resting {
-            if self.is_marked(name, found.mark) {
-                let placed = &mut self.placed[name as usize];
-                placed.hung_radiance = placed.radiance;
-            }
-        }
+        // Of a whole top level that is told above.
         for &name in &tree.dark {
-            if self.is_marked(name, found.mark) {
+            if above.is_some() && self.is_marked(name, found.mark) {
                 self.note_nowhere(name);
             }
         }

@@ -42,8 +42,6 @@ pub(crate) struct TopCopy<N> {
     limits: Vec<Limits>,
     /// Subtrees without flux, by their index among the leaves: an instance of each, for they are nowhere themselves.
     shapes: Vec<(u32, Instance, BlasRoot)>,
-    /// Instances that were brighter, and have been off, or dim, for a while.
-    resting: Vec<u32>,
     /// The subtrees that stay, with the variance of their lights' centers, and the nodes that are to be replaced, from the root down.
     kept: Vec<(Part, N, f32)>,
     inner: Vec<Part>,
@@ -75,9 +73,8 @@ pub(in crate::bvh) struct TopTree<N> {
     pub(super) names: Vec<u32>,
     pub(super) kept: Vec<Part>,
     pub(super) inner: Vec<Part>,
-    /// Those of the instances whose meshes had no flux, and those that were brighter and rest.
+    /// Those of the instances whose meshes had no flux.
     pub(super) dark: Vec<u32>,
-    pub(super) resting: Vec<u32>,
     /// Instances to be opened, and to be closed.
     pub(super) open: Vec<u32>,
     pub(super) close: Vec<u32>,
@@ -109,7 +106,6 @@ impl<N> TopCopy<N> {
             kept: self.kept.iter().map(|&(part, ..)| part).collect(),
             inner: self.inner,
             dark: Vec::new(),
-            resting: self.resting,
             open: Vec::new(),
             close: Vec::new(),
         };
@@ -223,18 +219,6 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// A copy where what has not changed since an epoch is at rest: what is off, or dimmer, since then is no more where it is bright.
-    #[cfg(feature = "std")]
-    pub(super) fn at_rest(&self, mut copy: TopCopy<N>, rests_since: u64) -> TopCopy<N> {
-        let rests = |name: &&u32| {
-            let placed = &self.placed[**name as usize];
-            // A rebuilder that is new has seen no frame yet, and files do not tell when an instance changed.
-            rests_since > 0 && placed.changed <= rests_since && placed.bright() != placed.radiance
-        };
-        copy.resting = copy.names.iter().filter(rests).copied().collect();
-        copy
-    }
-
     /// The instances that leaves belong to, each once.
     #[cfg(feature = "std")]
     fn owners(&self, leaves: &[u32]) -> Vec<u32> {
@@ -256,7 +240,6 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             roots: Vec::with_capacity(cut.names.len()),
             limits: Vec::new(),
             shapes: Vec::new(),
-            resting: Vec::new(),
             names: Vec::new(),
             kept: Vec::with_capacity(cut.kept.len()),
             inner: Vec::with_capacity(cut.inner.len()),

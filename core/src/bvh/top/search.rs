@@ -97,12 +97,6 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// What the next parts are built from that are worse than when they were built by the factor `worse` or more, `most` instances in
     /// all, or [`PART`] where that is more; time in proportion to them.
     pub(crate) fn copy_worn_parts(&self, worse: f64, most: u32, search: &mut Search) -> Vec<TopCopy<N>> {
-        let rests_since = search.rests_since();
-        let copies = self.copy_worn(worse, most, search).into_iter();
-        copies.map(|copy| self.at_rest(copy, rests_since)).collect()
-    }
-
-    fn copy_worn(&self, worse: f64, most: u32, search: &mut Search) -> Vec<TopCopy<N>> {
         let asked = Asked {
             worse,
             rests_since: search.rests_since(),
