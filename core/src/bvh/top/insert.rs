@@ -9,10 +9,6 @@ use crate::node::{Node, kind};
 use crate::summary::Summary;
 use crate::trail::max_levels;
 
-/// A node of instances goes in as one where they lie no farther apart than those around it, by this factor of variance: of a batch of one in five of all
-/// that lie there each does.
-const WIDER: f64 = 1.0;
-
 /// What is put into the top level: an instance, or a node with its children.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Item {
@@ -114,7 +110,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             (f64::from(self.quality(node).apart()), f64::from(count))
         };
         let ((apart, few), (around, many)) = (of(own), of(host));
-        let share = apart / (WIDER * around);
+        let share = apart / around;
         // A node that has one place alone is no wider than any.
         apart == 0.0 || share * share * share * (many * many) <= few * few
     }
