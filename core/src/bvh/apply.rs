@@ -83,10 +83,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                     self.place(instance.index);
                     let has_moved_dark = !shone && radiance > 0.0 && self.has_moved(instance.index);
                     let is_looked_at_now = has_moved_dark && !self.note_lit(instance.index);
-                    if is_looked_at_now || self.is_otherwise_bright(instance.index) {
+                    let (is_otherwise, is_brighter) = self.shines_otherwise(instance.index);
+                    if is_looked_at_now || is_otherwise {
                         moved.push(instance.index);
-                        let placed = &self.placed[instance.index as usize];
-                        if placed.radiance > placed.hung_radiance {
+                        if is_brighter {
                             brightened.push(instance.index);
                         }
                     }
@@ -149,7 +149,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// Whether an instance has this radiance, and nothing is to be done for it: where many come on at once, some are not where their light belongs yet.
     fn shines_so(&self, index: u32, radiance: f32) -> bool {
         let is_same = self.placed[index as usize].radiance.to_bits() == radiance.to_bits();
-        is_same && !self.is_otherwise_bright(index)
+        is_same && !self.shines_otherwise(index).0
     }
 
     pub(super) fn insert_mesh(&mut self, triangles: &[N::Light], topology: Topology<N>) -> MeshId {

@@ -311,6 +311,27 @@ fn opened_instances_that_moved_are_read_as_they_were() {
     }
 }
 
+/// Whatever became of an opened instance's radiance, it is as it was once that is sent again.
+#[test]
+fn the_radiance_of_an_opened_instance_sent_again_is_no_change() {
+    let random = &mut Random(11);
+    let (mut bvh, _, ids) = rides::<MomentNode<8>, Moments, 8>(random);
+    let is_opened = |bvh: &Bvh<_, _, 8>, id: &InstanceId| !bvh.placed[id.index as usize].parts.is_empty();
+    for radiance in [3.0, 1.0, 0.1, 0.0, 0.1, 20.0] {
+        let some: Vec<InstanceId> = ids.iter().copied().filter(|id| is_opened(&bvh, id)).collect();
+        assert!(!some.is_empty(), "{radiance}");
+        for &id in &some {
+            bvh.set_radiance(id, radiance).expect("there");
+        }
+        bvh.refit();
+        let epoch = bvh.epoch;
+        for &id in &some {
+            bvh.set_radiance(id, radiance).expect("there");
+        }
+        assert!(bvh.epoch == epoch, "{radiance}");
+    }
+}
+
 /// An instance that is opened among so few others that the top level is built anew, which closes it again: nothing is asked of what it was.
 #[test]
 fn what_is_closed_as_it_is_opened_is_left_alone() {

@@ -94,6 +94,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                         self.note_moved(index);
                     }
                     // An opened instance's first part stands for all: they move together.
+                    for other in self.leaves_of(index) {
+                        self.note_flicker(other);
+                    }
                     break;
                 }
             }
@@ -272,10 +275,21 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Whether an instance's radiance is another than when it was put where it is, by a factor that matters. One that was dimmer before,
     /// as a lamp that flickers is in every other frame, costs nothing among brighter ones: it stays until it is brighter.
-    pub(in crate::bvh) fn is_otherwise_bright(&self, index: u32) -> bool {
+    fn is_otherwise_bright(&self, index: u32) -> bool {
         let placed = &self.placed[index as usize];
         let (was, is) = (placed.hung_radiance, placed.radiance);
         is > FACTOR * was || (was > FACTOR * is && !placed.flickers)
+    }
+
+    /// Whether that is so of an instance, or of a part of an opened one; and whether one is brighter at all.
+    pub(in crate::bvh) fn shines_otherwise(&self, index: u32) -> (bool, bool) {
+        let (mut is_otherwise, mut is_brighter) = (false, false);
+        for leaf in self.leaves_of(index) {
+            let placed = &self.placed[leaf as usize];
+            is_otherwise |= self.is_otherwise_bright(leaf);
+            is_brighter |= placed.radiance > placed.hung_radiance;
+        }
+        (is_otherwise, is_brighter)
     }
 
     /// Notes where an instance was before it moved for the first time since it was put where it is, as the last refit saw it.

@@ -78,10 +78,7 @@ fn lamps_that_come_on_at_once_get_a_tree() {
         }
         assert!(swaps > 0 && !rebuilder.is_busy());
         // A tree that is built as a whole knows all of them; parts come in where they pay.
-        let bright = ids
-            .iter()
-            .filter(|id| scene.is_otherwise_bright(id.index))
-            .count();
+        let bright = ids.iter().filter(|id| scene.shines_otherwise(id.index).0).count();
         assert!(bright == 0 || count > super::rebuild::PART, "{bright} of {count}");
     }
 }
