@@ -17,6 +17,17 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(_: &Context, args: &Args) -> Result<Outcome, HostError> {
+    if args
+        .output
+        .extension()
+        .is_none_or(|own| !own.eq_ignore_ascii_case("glb"))
+    {
+        return Err(HostError::Word {
+            option: "--output",
+            word: args.output.display().to_string(),
+            expected: String::from("a file that ends in .glb: binary glTF is what is written"),
+        });
+    }
     let scene = Scene::open(&args.scene)?;
     let known = |kind| {
         matches!(

@@ -55,9 +55,9 @@ pub(super) struct Args {
     /// ReSTIR, 1].
     #[arg(long)]
     spp: Option<u32>,
-    /// Which of the scene's cameras looks, counted from 0.
-    #[arg(long, default_value_t = 0)]
-    camera: usize,
+    /// Which of the scene's cameras looks, counted from 0; `auto`: one chosen by what is lit, as where the scene has none.
+    #[arg(long, default_value = "0", value_name = "N|auto", value_parser = camera)]
+    camera: CameraName,
     /// Look from this place, metres, in place of any camera of the scene.
     #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true, requires = "look_at", conflicts_with = "camera")]
     look_from: Option<[f32; 3]>,
@@ -67,8 +67,8 @@ pub(super) struct Args {
     /// Vertical field of view with --look-from, degrees, 1 to 170.
     #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=170), requires = "look_from")]
     fov: u32,
-    /// Which animation is shown of those that move the same things, by name [default: the first of the file].
-    #[arg(long, value_name = "NAME")]
+    /// Which animation is shown of those that move the same things, by its name, or by its number in the file from 0 [default: the first].
+    #[arg(long, value_name = "NAME|NUMBER")]
     animation: Option<String>,
     /// Which axis of a .obj or .ply file points up; those formats do not say. With z, (x, y, z) of the file lies at (x, z, -y), for --look-from too.
     #[arg(long, value_enum, default_value_t = Up::Y)]
@@ -265,8 +265,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         given("--scattered", args.scattered, 0..=MAX_SCATTERED.into()),
     ])?;
     let mut scene = args.up.turn(Scene::open(&args.scene)?)?;
-    if let Some(name) = &args.animation {
-        scene = playing(scene, name)?;
+    if let Some(word) = &args.animation {
+        scene = playing(scene, word)?;
     }
     scene = seen_by(scene, args.camera)?;
     if let (Some(from), Some(at)) = (args.look_from, args.look_at) {
@@ -358,23 +358,48 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     Ok(Outcome::Good)
 }
 
-/// The scene with the animation of that name.
-fn playing(scene: Scene, name: &str) -> Result<Scene, HostError> {
+/// The scene with the animation of that name or number.
+fn playing(scene: Scene, word: &str) -> Result<Scene, HostError> {
     let mut data = scene.into_data();
-    data.play(name).map_err(|expected| HostError::Word {
+    data.play(word).map_err(|expected| HostError::Word {
         option: "--animation",
-        word: name.to_owned(),
+        word: word.to_owned(),
         expected,
     })?;
     Ok(Scene::new(data)?)
 }
 
-/// The scene as its camera of that number sees it.
-fn seen_by(scene: Scene, camera: usize) -> Result<Scene, HostError> {
-    let cameras = scene.data().cameras.len();
-    if camera == 0 {
-        return Ok(scene);
+/// A camera of a scene.
+#[derive(Clone, Copy, Debug)]
+enum CameraName {
+    /// By its number.
+    Own(usize),
+    /// Chosen by what there is to see.
+    Auto,
+}
+
+fn camera(word: &str) -> Result<CameraName, String> {
+    match word {
+        "auto" => Ok(CameraName::Auto),
+        _ => word
+            .parse()
+            .map(CameraName::Own)
+            .map_err(|_| String::from("give a number from 0, or auto")),
     }
+}
+
+/// The scene as that camera sees it.
+fn seen_by(scene: Scene, camera: CameraName) -> Result<Scene, HostError> {
+    let cameras = scene.data().cameras.len();
+    let camera = match camera {
+        CameraName::Own(0) => return Ok(scene),
+        CameraName::Own(number) => number,
+        CameraName::Auto => {
+            let mut data = scene.into_data();
+            data.cameras.clear();
+            return Ok(Scene::new(data)?);
+        }
+    };
     if camera >= cameras {
         return Err(HostError::Range {
             option: "--camera",
@@ -553,7 +578,7 @@ mod tests {
     fn cameras_that_are_not_there_are_named() {
         let street = || Scene::open("street").expect("built in");
         let of = |scene: Scene, camera| {
-            seen_by(scene, camera)
+            seen_by(scene, CameraName::Own(camera))
                 .map(|_| ())
                 .map_err(|error| error.to_string())
         };

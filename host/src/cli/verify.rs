@@ -20,7 +20,7 @@ use serde::Serialize;
 
 use super::{Context, Outcome, devices, progress, table};
 use crate::backend::Sampler;
-use crate::cli::table::say;
+use crate::cli::table::{news, say};
 use crate::error::HostError;
 use crate::method::{Importance, MethodLight, Target};
 use crate::scene::{BUILT_IN, Scene};
@@ -112,6 +112,11 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         .iter()
         .map(|name| Scene::open(name))
         .collect::<Result<Vec<_>, _>>()?;
+    for scene in &scenes {
+        for warning in scene.warnings() {
+            news!("{}: {warning}", scene.name());
+        }
+    }
     let opened = devices::open(context)?;
     let mut tallies = Tallies {
         devices: vec![Tally::default(); opened.len()],

@@ -222,9 +222,10 @@ impl SceneBuilder {
     }
 
     pub fn finish(mut self) -> Result<Scene, SceneError> {
-        for (period, channels) in self.channels {
+        for (place, (period, channels)) in (0..).zip(self.channels) {
             self.data.animations.push(Animation {
                 name: format!("{period} frames"),
+                place,
                 channels,
                 morphs: Vec::new(),
             });

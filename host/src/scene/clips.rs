@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::model::{Animation, Property, SceneData};
+use super::error::SceneError;
+use super::model::{Animation, Property, Scene, SceneData};
 
 /// Most names that a message has.
 const NAMED: usize = 8;
@@ -40,16 +41,20 @@ impl SceneData {
         self.warnings.extend(self.clip_words());
     }
 
-    /// Shows the animation of this name, and of the others those that move other things.
+    /// Shows the first animation of this name, or that at this place in the file, from 0; and of the others those that move other things.
     ///
     /// # Errors
     /// The names that there are, where none is this.
-    pub fn play(&mut self, name: &str) -> Result<(), String> {
+    pub fn play(&mut self, word: &str) -> Result<(), String> {
         let mut all: Vec<Animation> = self.animations.drain(..).collect();
         let said = self.clip_words();
         self.warnings.retain(|warning| said.as_ref() != Some(warning));
         all.append(&mut self.clips);
-        let Some(chosen) = all.iter().position(|animation| animation.name == name) else {
+        all.sort_by_key(|animation| animation.place);
+        let place: Option<u32> = word.parse().ok();
+        let by_name = all.iter().position(|animation| animation.name == word);
+        let by_place = || all.iter().position(|animation| Some(animation.place) == place);
+        let Some(chosen) = by_name.or_else(by_place) else {
             return Err(match all.len() {
                 0 => String::from("a scene with animations, and it has none; leave the option out"),
                 _ => format!("one of {}", names(&all)),
@@ -61,6 +66,27 @@ impl SceneData {
         Ok(())
     }
 
+    /// Shows one after the other each animation that is left out, and calls `with` for the scene then.
+    ///
+    /// # Errors
+    /// Those of `with`, and of [`Scene::new`].
+    pub fn each_clip<E: From<SceneError>>(
+        mut self,
+        mut with: impl FnMut(&Scene) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let places: Vec<u32> = self.clips.iter().map(|own| own.place).collect();
+        for place in places {
+            self.animations.append(&mut self.clips);
+            // The one that is shown excludes others.
+            self.animations.sort_by_key(|own| (own.place != place, own.place));
+            self.part_clips();
+            let scene = Scene::new(self)?;
+            with(&scene)?;
+            self = scene.into_data();
+        }
+        Ok(())
+    }
+
     /// What is left out, in words.
     fn clip_words(&self) -> Option<String> {
         let (is, are) = match self.clips.len() {
@@ -69,18 +95,18 @@ impl SceneData {
             _ => ("animations", "move what others do, and are left out"),
         };
         Some(format!(
-            "{is} {} {are}: --animation NAME of `render` shows one of them",
+            "{is} {} {are}: `render --animation NAME|NUMBER` shows one of them",
             names(&self.clips)
         ))
     }
 }
 
-/// The first names, and how many more there are.
+/// The first numbers and names, and how many more there are.
 fn names(of: &[Animation]) -> String {
     let some: Vec<String> = of
         .iter()
         .take(NAMED)
-        .map(|own| format!("\"{}\"", own.name))
+        .map(|own| format!("{} \"{}\"", own.place, own.name))
         .collect();
     match of.len().saturating_sub(NAMED) {
         0 => some.join(", "),
@@ -93,7 +119,7 @@ mod tests {
     use super::super::model::{Channel, Interpolation};
     use super::*;
 
-    fn clip(name: &str, nodes: &[u32], property: Property) -> Animation {
+    fn clip(place: u32, name: &str, nodes: &[u32], property: Property) -> Animation {
         let channel = |&node: &u32| Channel {
             node,
             property,
@@ -103,6 +129,7 @@ mod tests {
         };
         Animation {
             name: String::from(name),
+            place,
             channels: nodes.iter().map(channel).collect(),
             ..Animation::default()
         }
@@ -116,26 +143,46 @@ mod tests {
     fn clips_of_one_thing_exclude_each_other() {
         let mut data = SceneData {
             animations: vec![
-                clip("idle", &[0, 1], Property::Rotation),
-                clip("walk", &[1, 2], Property::Rotation),
-                clip("door", &[3], Property::Rotation),
-                clip("bob", &[0], Property::Translation),
+                clip(0, "idle", &[0, 1], Property::Rotation),
+                clip(1, "walk", &[1, 2], Property::Rotation),
+                clip(2, "door", &[3], Property::Rotation),
+                clip(3, "bob", &[0], Property::Translation),
             ],
             ..SceneData::default()
         };
         data.part_clips();
         assert_eq!(shown(&data), ["idle", "door", "bob"]);
         assert_eq!(data.warnings.len(), 1);
-        assert!(data.warnings[0].starts_with("animation \"walk\" moves what another does"));
+        assert!(data.warnings[0].starts_with("animation 1 \"walk\" moves what another does"));
         data.play("walk").expect("there");
         assert_eq!(shown(&data), ["walk", "door", "bob"]);
         assert_eq!(data.warnings.len(), 1);
-        assert!(data.warnings[0].starts_with("animation \"idle\""));
+        assert!(data.warnings[0].starts_with("animation 0 \"idle\""));
         let mut other = data.clone();
         assert_eq!(
             other.play("run"),
-            Err(String::from("one of \"walk\", \"door\", \"bob\", \"idle\""))
+            Err(String::from(
+                "one of 0 \"idle\", 1 \"walk\", 2 \"door\", 3 \"bob\""
+            ))
         );
         assert!(SceneData::default().play("run").is_err());
+        // Two of one name are told apart by their places.
+        let mut twins = SceneData {
+            animations: vec![
+                clip(2, "idle", &[0], Property::Rotation),
+                clip(5, "idle", &[0], Property::Rotation),
+                clip(6, "5", &[0], Property::Rotation),
+            ],
+            ..SceneData::default()
+        };
+        let mut plays = |word: &str| {
+            twins.play(word).expect("there");
+            twins.animations[0].place
+        };
+        assert_eq!(["2", "idle", "5", "6"].map(&mut plays), [2, 2, 6, 6]);
+        twins.animations.retain(|own| own.name != "5");
+        twins.clips.retain(|own| own.name != "5");
+        twins.play("5").expect("by its place");
+        assert_eq!(twins.animations[0].place, 5);
     }
 }

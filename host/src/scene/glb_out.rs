@@ -96,7 +96,10 @@ impl Writer {
             })
             .collect();
         let mut animations = Vec::new();
-        for animation in data.animations.iter().chain(&data.clips) {
+        // As the file had them: engines choose by number.
+        let mut all: Vec<_> = data.animations.iter().chain(&data.clips).collect();
+        all.sort_by_key(|animation| animation.place);
+        for animation in all {
             let moving = animation.channels.iter().map(|channel| self.sampler(channel));
             let mut samplers: Vec<Value> = moving.collect();
             samplers.extend(animation.morphs.iter().map(|channel| self.morph(channel)));

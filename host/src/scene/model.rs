@@ -168,8 +168,10 @@ impl Material {
 /// Channels that share a clock.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Animation {
-    /// For messages.
+    /// For messages, and to choose it by.
     pub name: String,
+    /// Its place in the file, from 0.
+    pub place: u32,
     /// What moves.
     pub channels: Vec<Channel>,
     /// What bends.

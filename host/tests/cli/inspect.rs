@@ -343,3 +343,81 @@ fn what_does_not_fit_is_refused() {
         assert!(said.contains(words), "{options}: {said}");
     }
 }
+
+/// The same animation twice, and before them one of the same name that keeps all where it is.
+fn with_clips(folder: &Folder) -> String {
+    let room = Room {
+        moves: true,
+        ..Room::default()
+    };
+    let path = room.write(folder, "clips");
+    let mut root: Value = serde_json::from_slice(&std::fs::read(&path).expect("a scene")).expect("JSON");
+    let moving = root["animations"][0].clone();
+    let still = &mut root["accessors"];
+    let first = still.as_array().expect("a list").len();
+    // One key each of the same times and places.
+    for own in [first - 2, first - 1] {
+        let mut one = still[own].clone();
+        one["count"] = json!(1);
+        one["max"] = one["min"].clone();
+        still.as_array_mut().expect("a list").push(one);
+    }
+    let mut clips = vec![moving.clone(), moving.clone(), moving];
+    clips[0]["samplers"] = json!([{ "input": first, "output": first + 1 }]);
+    for (clip, name) in clips.iter_mut().zip(["Idle", "Walk", "Idle"]) {
+        clip["name"] = json!(name);
+    }
+    root["animations"] = json!(clips);
+    std::fs::write(&path, root.to_string()).expect("a scene");
+    path
+}
+
+/// A file does not say which of its animations is shown: what a later one moves does move.
+#[test]
+fn each_animation_is_looked_at() {
+    let folder = Folder::new("clips");
+    let path = with_clips(&folder);
+    let report = report(&format!("inspect {path} --points 16 --json"));
+    let motion = &report["motion"];
+    assert_eq!((&motion["rounds"], &motion["moving"]), (&json!(3), &json!(1)));
+    let said = String::from_utf8(run(&format!("inspect {path} --points 16")).stdout).expect("text");
+    assert!(said.contains("of 50 frames of 3 animations"), "{said}");
+}
+
+/// By a name or by a number, and as many and in the order as the file has them in a file that is written.
+#[test]
+fn an_animation_is_chosen_and_all_are_kept() {
+    let folder = Folder::new("chosen");
+    let path = with_clips(&folder);
+    let image = |options: &str| {
+        let file = folder.file("image.exr");
+        let small = "--width 48 --height 27 --spp 2 --frame 12 --look-from 0,4,9 --look-at 0,1,0";
+        let output = run(&format!("render {path} {small} {options} -o {file}"));
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{said}");
+        (std::fs::read(&file).expect("an image"), said)
+    };
+    let (idle, said) = image("");
+    assert!(said.contains("animations 1 \"Walk\", 2 \"Idle\""), "{said}");
+    assert!(image("--animation Idle").0 == idle && image("--animation 0").0 == idle);
+    let walks = image("--animation Walk").0;
+    assert!(walks != idle && image("--animation 2").0 == walks);
+    let said = refused(&format!(
+        "render {path} --animation 3 -o {}",
+        folder.file("no.png")
+    ));
+    assert!(said.contains("0 \"Idle\", 1 \"Walk\", 2 \"Idle\""), "{said}");
+
+    for other in ["clips.gltf", "clips.png", "clips"] {
+        let said = refused(&format!("export {path} -o {}", folder.file(other)));
+        assert!(said.contains("ends in .glb"), "{said}");
+    }
+    let written = folder.file("written.glb");
+    assert!(run(&format!("export {path} -o {written}")).status.success());
+    let bytes = std::fs::read(&written).expect("a scene");
+    let length = u32::from_le_bytes(bytes[12..16].try_into().expect("four")) as usize;
+    let root: Value = serde_json::from_slice(&bytes[20..20 + length]).expect("JSON");
+    let clips = root["animations"].as_array().expect("a list");
+    let names: Vec<&Value> = clips.iter().map(|clip| &clip["name"]).collect();
+    assert_eq!(names, ["Idle", "Walk", "Idle"]);
+}

@@ -164,6 +164,12 @@ fn a_camera_of_ones_own() {
         images.push(std::fs::read(&file).expect("an image"));
     }
     assert!(images[0] != images[1] && images[1] != images[2]);
+    // One that is chosen for what is lit in place of the scene's.
+    let file = folder.file("auto.exr");
+    let output = run(&format!("render street --camera auto -o {file} {small}"));
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success() && said.contains("--look-from"), "{said}");
+    assert!(std::fs::read(&file).expect("an image") != images[0]);
     for wrong in [
         "--look-from 1,2,3",
         "--look-at 1,2,3",
@@ -172,6 +178,7 @@ fn a_camera_of_ones_own() {
         "--look-from 1,2,3 --look-at 1,2,3,4",
         "--look-from 1,2,3 --look-at 0,0,0 --camera 0",
         "--fov 40",
+        "--camera first",
         "--look-from nan,2,3 --look-at 0,0,0",
     ] {
         let output = run(&format!(

@@ -1,4 +1,4 @@
-//! What moves in a scene: its instances over one round of its longest animation.
+//! What moves in a scene: its instances over one round of its longest animation, and of each that is left out beside others.
 
 use lightbvh::node::{Holds, Node};
 use lightbvh::{BuildParams, Edit};
@@ -6,9 +6,9 @@ use lightbvh_kernels::bvh::WIDTH;
 use serde::Serialize;
 
 use crate::error::HostError;
-use crate::scene::{FRAMES_PER_SECOND, Instances, Scene, SceneLight};
+use crate::scene::{FRAMES_PER_SECOND, Instances, Scene, SceneError, SceneLight};
 
-/// Frames looked at, at most.
+/// Frames looked at in each round, at most; none is begun after so many in all.
 const MOST_FRAMES: u32 = 1000;
 
 /// Which instances move, and whose meshes bend. Scenes of the host do not vary what they emit.
@@ -16,6 +16,8 @@ const MOST_FRAMES: u32 = 1000;
 pub(super) struct Motion {
     /// Frames looked at, the first not counted.
     pub frames: u32,
+    /// Rounds: one, and one more for each animation that moves what another does.
+    pub rounds: u32,
     pub instances: usize,
     /// Instances that move at all.
     pub moving: usize,
@@ -35,7 +37,7 @@ pub(super) struct Track {
 }
 
 /// Frames of one round of the longest animation.
-fn frames(scene: &Scene) -> u32 {
+fn round(scene: &Scene) -> u32 {
     let animations = scene.data().animations.iter();
     let longest = animations
         .map(|animation| f64::from(animation.duration()))
@@ -54,26 +56,37 @@ fn names<L: SceneLight>(scene: &Scene) -> Vec<String> {
 impl Motion {
     /// Of the lights that the nodes of a tree hold.
     pub fn of<N: Node<WIDTH> + Holds<Light: SceneLight>>(scene: &Scene) -> Result<Self, HostError> {
-        let frames = frames(scene);
+        let (mut frames, mut rounds) = (0, 0);
         let names = names::<N::Light>(scene);
         let (_, mut instances) = Instances::<N::Light>::new::<N, (), WIDTH>(scene, 0, BuildParams::FAST)
             .map_err(|error| HostError::in_frame(scene.name(), 0, error))?;
         let mut moves = vec![0_u32; names.len()];
         let mut bends = vec![false; names.len()];
-        for frame in 1..=frames {
-            for edit in instances.edits(scene, frame) {
-                match edit {
-                    Edit::SetTransform { instance, .. } => moves[instance.index() as usize] += 1,
-                    Edit::SetTriangles { mesh, .. } => {
-                        let instance = instances.of_bent(mesh);
-                        if let Some(instance) = instance {
-                            bends[instance.index() as usize] = true;
+        let mut look = |scene: &Scene| {
+            if frames >= MOST_FRAMES {
+                return Ok::<(), SceneError>(());
+            }
+            let own = round(scene);
+            // Of the first round frame 0 is where the instances are.
+            for frame in u32::from(rounds == 0)..=own {
+                for edit in instances.edits(scene, frame) {
+                    match edit {
+                        Edit::SetTransform { instance, .. } => moves[instance.index() as usize] += 1,
+                        Edit::SetTriangles { mesh, .. } => {
+                            if let Some(instance) = instances.of_bent(mesh) {
+                                bends[instance.index() as usize] = true;
+                            }
                         }
+                        _ => {}
                     }
-                    _ => {}
                 }
             }
-        }
+            frames += own;
+            rounds += 1;
+            Ok(())
+        };
+        look(scene)?;
+        scene.data().clone().each_clip(look)?;
         let named = (0..).zip(names.iter().zip(&moves));
         let tracks: Vec<Track> = named
             .filter(|(_, (_, moves))| **moves > 0)
@@ -85,6 +98,7 @@ impl Motion {
             .collect();
         Ok(Self {
             frames,
+            rounds,
             instances: names.len(),
             moving: tracks.len(),
             bending: bends.into_iter().filter(|bends| *bends).count(),
@@ -96,6 +110,7 @@ impl Motion {
     pub fn said(&self) -> String {
         let Self {
             frames,
+            rounds,
             instances,
             moving,
             bending,
@@ -104,20 +119,24 @@ impl Motion {
         if *frames == 0 {
             return "no: nothing is animated".to_owned();
         }
+        let frames = match rounds {
+            1 => format!("{frames} frames"),
+            _ => format!("{frames} frames of {rounds} animations"),
+        };
         if *bending > 0 {
             return format!(
-                "yes: meshes of {bending} of {instances} instances bend in {frames} frames, {moving} move"
+                "yes: meshes of {bending} of {instances} instances bend in {frames}, {moving} move"
             );
         }
         let moves = tracks.iter().map(|track| track.moves);
         let (Some(least), Some(most)) = (moves.clone().min(), moves.max()) else {
-            return format!("no: in {frames} frames of animation no instance that emits moves");
+            return format!("no: in {frames} no instance that emits moves");
         };
         let often = if least == most {
             format!("{most}")
         } else {
             format!("{least} to {most}")
         };
-        format!("yes: {moving} of {instances} instances, in {often} of {frames} frames")
+        format!("yes: {moving} of {instances} instances, in {often} of {frames}")
     }
 }

@@ -22,9 +22,6 @@ const BACK_COUNTS: f64 = 0.2;
 /// Lamps that may be found to be shut in, at most: those with the brightest share.
 const ASKED: usize = 1024;
 
-/// Light that is no more than this part of all is none to see by.
-const FAINT: f64 = 1e-3;
-
 /// Lamps that stand off, at most: those with the brightest share.
 const FAR: usize = 16;
 
@@ -48,8 +45,8 @@ pub(super) fn fluxes(frame: &Frame, room: &Room, size: f64, is_under_sky: bool) 
             open[index] = 0.0;
         }
     }
-    let [left, sent] = [&open, &all].map(|fluxes| fluxes.iter().sum::<f64>());
-    if is_under_sky || left > FAINT * sent {
+    // However faint: nobody means an image from within a bulb.
+    if is_under_sky || open.iter().any(|&flux| flux > 0.0) {
         open
     } else {
         all

@@ -25,6 +25,7 @@ pub(super) fn read(document: &Document<'_>, place: &[Option<u32>]) -> Result<Vec
             let name = animation.name.clone().unwrap_or_else(|| format!("animation {a}"));
             animations.push(Animation {
                 name,
+                place: a as u32,
                 channels,
                 morphs,
             });

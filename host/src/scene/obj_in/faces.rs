@@ -389,6 +389,17 @@ impl Reading<'_> {
                 ..Material::default()
             }));
         }
+        // Programs write `d 0` for what a picture's alpha cuts out.
+        let is_left_out = |own: &Material| own.is_clear() && !emits(own.radiance);
+        if data.materials.iter().all(is_left_out) && !data.materials.is_empty() {
+            notes.add(
+                &place,
+                "all surfaces let half of the light through or more: they are taken as opaque",
+            );
+            for material in &mut data.materials {
+                material.transmission = 0.0;
+            }
+        }
         for material in data.materials.iter().filter(|material| material.is_clear()) {
             if !emits(material.radiance) {
                 notes.add(

@@ -131,6 +131,20 @@ fn materials_of_all_kinds() {
     ));
 }
 
+/// What would be an empty picture is taken as opaque; a lamp of clear glass is none.
+#[test]
+fn a_file_that_is_clear_throughout_is_opaque() {
+    let obj = "mtllib room.mtl\nusemtl one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl two\nf 3 2 1\n";
+    let of = |mtl: &str| {
+        let scene = read("clear", obj, mtl).expect("valid");
+        (scene.triangle_count(), scene.warnings().join("\n"))
+    };
+    let (count, said) = of("newmtl one\nd 0\nnewmtl two\nd 0\n");
+    assert!(count == 2 && said.contains("taken as opaque"), "{count}: {said}");
+    let (count, said) = of("newmtl one\nd 0\nnewmtl two\nd 0\nKe 1 1 1\n");
+    assert!(count == 1 && said.contains("are left out"), "{count}: {said}");
+}
+
 #[test]
 fn maps_count_by_their_means() {
     // Half white, half black: 0.5 of light.
