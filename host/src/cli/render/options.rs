@@ -1,0 +1,197 @@
+//! What `lightbvh render` is told.
+
+use std::ops::Range;
+use std::path::PathBuf;
+
+use super::view::{CameraName, Up, camera};
+use crate::backend::{Combination, Integrator};
+use crate::cli::frames;
+use crate::error::HostError;
+use crate::method::{Builder, Importance, Method, Recipe, SampleBudget};
+
+/// Most reflections of a path.
+const DEFAULT_BOUNCES: u32 = 8;
+
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// A built-in scene (street, square, carousel, stage) or a .gltf, .glb, .pbrt, .obj or .ply file.
+    pub(super) scene: String,
+    /// Frame of the animation, 25 per second.
+    #[arg(long, default_value_t = 0)]
+    pub(super) frame: u32,
+    /// Render frames A to B (B left out) into files numbered by frame: FILE-0000.png and so on. A light BVH is built for
+    /// the first frame and follows the lights from there on: a single level is refitted, of two levels the upper one is
+    /// also rebuilt beside each frame and swapped in at the next.
+    #[arg(long, value_name = "A..B", value_parser = frames::parse, conflicts_with = "frame")]
+    pub(super) animate: Option<Range<u32>>,
+    /// Columns, 1 to 16384.
+    #[arg(long, default_value_t = 640)]
+    pub(super) width: u32,
+    /// Rows, 1 to 16384.
+    #[arg(long, default_value_t = 360)]
+    pub(super) height: u32,
+    /// Light samples per pixel, 1 to 65536; of ReSTIR, final samples with a history each, 1 to 64 [default: 16; of
+    /// ReSTIR, 1].
+    #[arg(long)]
+    pub(super) spp: Option<u32>,
+    /// Which of the scene's cameras looks, counted from 0; `auto`: one chosen by what is lit, as where the scene has none.
+    #[arg(long, default_value = "0", value_name = "N|auto", value_parser = camera)]
+    pub(super) camera: CameraName,
+    /// Look from this place, metres, in place of any camera of the scene.
+    #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true, requires = "look_at", conflicts_with = "camera")]
+    pub(super) look_from: Option<[f32; 3]>,
+    /// Look at this place, which is in the middle of the image then; +Y is up.
+    #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true, requires = "look_from")]
+    pub(super) look_at: Option<[f32; 3]>,
+    /// Vertical field of view with --look-from, degrees, 1 to 170.
+    #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=170), requires = "look_from")]
+    pub(super) fov: u32,
+    /// Which animation is shown of those that move the same things, by its name, or by its number in the file from 0 [default: the first].
+    #[arg(long, value_name = "NAME|NUMBER")]
+    pub(super) animation: Option<String>,
+    /// Which axis of a .obj or .ply file points up; those formats do not say. With z, (x, y, z) of the file lies at (x, z, -y), for --look-from too.
+    #[arg(long, value_enum, default_value_t = Up::Y)]
+    pub(super) up: Up,
+    /// An environment map that lights the scene: a .hdr or .exr picture by longitude and latitude.
+    #[arg(long, value_name = "FILE.hdr|FILE.exr")]
+    pub(super) environment: Option<PathBuf>,
+    /// Factor on the environment map's radiance.
+    #[arg(long, default_value_t = 1.0, value_parser = exposure, requires = "environment")]
+    pub(super) environment_scale: f32,
+    /// Show the mean of each texture in its place, and neither glass nor what is cut out: as all commands but this and `verify` do.
+    #[arg(long)]
+    pub(super) no_textures: bool,
+    /// How lights are chosen. ReSTIR runs through up to 8 earlier frames before the first one shown.
+    #[arg(long, value_enum, default_value_t = Method::TwoLevelMoments)]
+    pub(super) sampler: Method,
+    /// Candidates that each light sample is one of, 1 to 256, chosen by what they would contribute; one shadow ray as ever
+    /// [default: 1; of two-level-moments-resampled, 8].
+    #[arg(long)]
+    pub(super) candidates: Option<u32>,
+    /// Directions that the surface reflects into, 0 to 16, one ray each: lights that lie there join the candidates of each light sample.
+    /// For lights seen in glossy surfaces.
+    #[arg(long, default_value_t = 0)]
+    pub(super) scattered: u32,
+    /// How ReSTIR combines samples of other pixels and frames: without bias, or biased (darker where pixels do not see the
+    /// same lights) with fewer shadow rays [default: unbiased].
+    #[arg(long, value_enum)]
+    pub(super) restir_mode: Option<Combination>,
+    /// Light reflected once, or along whole paths.
+    #[arg(long, value_enum, default_value_t = IntegratorName::Direct)]
+    pub(super) integrator: IntegratorName,
+    /// Most reflections of a path, 1 to 64, with --integrator path; 1 is direct lighting [default: 8].
+    #[arg(long)]
+    pub(super) bounces: Option<u32>,
+    /// What lights of a BVH are chosen by: moments, or the paper's Eq. 4 [default: that of the sampler].
+    #[arg(long, value_enum)]
+    pub(super) importance: Option<Importance>,
+    /// How the light BVH is built [default: that of the sampler; with --importance, ward or, for eq4, saoh as in the paper].
+    #[arg(long, value_enum)]
+    pub(super) heuristic: Option<Builder>,
+    /// What renders.
+    #[arg(long, value_enum, default_value_t = BackendName::Cpu)]
+    pub(super) backend: BackendName,
+    /// Seed of the random numbers.
+    #[arg(long, default_value_t = 0)]
+    pub(super) seed: u32,
+    /// Exposure as a factor on radiance; by default chosen from the image, up to 1000. EXR files are linear and take none.
+    #[arg(long, value_parser = exposure)]
+    pub(super) exposure: Option<f32>,
+    /// The file to write: .png (tone-mapped) or .exr (linear).
+    #[arg(short, long, value_name = "FILE.png|FILE.exr")]
+    pub(super) output: PathBuf,
+}
+
+/// Three coordinates.
+fn place(text: &str) -> Result<[f32; 3], String> {
+    let numbers: Vec<f32> = text
+        .split(',')
+        .filter_map(|part| part.trim().parse().ok())
+        .collect();
+    let count = text.split(',').count();
+    match numbers[..] {
+        [x, y, z] if count == 3 && [x, y, z].iter().all(|x| x.is_finite()) => Ok([x, y, z]),
+        _ => Err(format!("{text} is no place; write three numbers, as 1,2.5,-3")),
+    }
+}
+
+/// A factor above zero.
+fn exposure(text: &str) -> Result<f32, String> {
+    let number = text.parse().ok();
+    number
+        .filter(|&number: &f32| number.is_finite() && number > 0.0)
+        .ok_or_else(|| format!("{text} is no finite number above 0"))
+}
+
+/// What light is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum IntegratorName {
+    /// Light reflected once.
+    Direct,
+    /// Light along whole paths.
+    Path,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum BackendName {
+    Cpu,
+    Vulkan,
+}
+
+/// What the options say of the method; the other ones are those of its name.
+pub(super) fn recipe(args: &Args) -> Result<Recipe, HostError> {
+    let mut recipe = Recipe {
+        budget: SampleBudget::CameraRays,
+        ..args.sampler.recipe()
+    };
+    if let Some(importance) = args.importance {
+        (recipe.importance, recipe.builder) = (importance, importance.builder());
+    }
+    recipe.builder = args.heuristic.unwrap_or(recipe.builder);
+    if let Some(combination) = args.restir_mode {
+        if recipe.reuse.is_none() {
+            return Err(HostError::Usage {
+                option: "--restir-mode",
+                needs: "--sampler restir, two-level-restir or two-level-moments-restir",
+            });
+        }
+        recipe.reuse = Some(combination);
+    }
+    let usage = |option, needs| Err(HostError::Usage { option, needs });
+    if let Some(candidates) = args.candidates {
+        if recipe.reuse.is_some() {
+            return usage("--candidates", "a --sampler without ReSTIR");
+        }
+        recipe.candidates = candidates;
+    }
+    if args.scattered > 0 {
+        if recipe.reuse.is_some() {
+            return usage("--scattered", "a --sampler without ReSTIR");
+        }
+        if args.integrator == IntegratorName::Path {
+            return usage(
+                "--scattered",
+                "--integrator direct: paths find such lights by themselves",
+            );
+        }
+        recipe.scattered = args.scattered;
+    }
+    if args.integrator == IntegratorName::Path {
+        if recipe.reuse.is_some() {
+            return usage("--integrator path", "a --sampler without ReSTIR");
+        }
+        if recipe.candidates > 1 {
+            return usage(
+                "--integrator path",
+                "a --sampler without candidates, and no --candidates",
+            );
+        }
+        recipe.integrator = Integrator::Path {
+            bounces: args.bounces.unwrap_or(DEFAULT_BOUNCES),
+        };
+    } else if args.bounces.is_some() {
+        return usage("--bounces", "--integrator path");
+    }
+    Ok(recipe)
+}

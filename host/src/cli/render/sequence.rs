@@ -1,0 +1,139 @@
+//! The frames of `lightbvh render`, one after the other.
+
+use std::sync::Arc;
+
+use lightbvh::EmissiveTriangle;
+use lightbvh::light::AnyLight;
+use serde_json::{Value, json};
+
+use super::options::Args;
+use super::view::camera_words;
+use crate::backend::SceneArrays;
+use crate::cli::table::{news, say};
+use crate::cli::{Context, frames};
+use crate::error::HostError;
+use crate::method::{MethodLight, Recipe, SequenceId, Step, Target};
+use crate::render::Film;
+use crate::scene::{Scene, SceneLight};
+use crate::vulkan::Device;
+use crate::workload::{RenderSettings, arrays_lit_by};
+
+/// Frames that ReSTIR runs through before the first one shown, where there are as many before it.
+const WARM_UP: u32 = 8;
+/// All images are of one sequence.
+const SEQUENCE: SequenceId = 0;
+
+/// What is to be rendered.
+pub(super) struct Sequence<'a> {
+    pub(super) args: &'a Args,
+    pub(super) recipe: Recipe,
+    pub(super) samples: u32,
+    pub(super) scene: &'a Scene,
+}
+
+impl Sequence<'_> {
+    /// Renders and writes all frames, by lights of the type that the scene needs; returns what the report says of each.
+    pub(super) fn render(&self, context: &Context, device: Option<&Device>) -> Result<Vec<Value>, HostError> {
+        if self.scene.has_kinds() {
+            self.render_by::<AnyLight>(context, device)
+        } else {
+            self.render_by::<EmissiveTriangle>(context, device)
+        }
+    }
+
+    fn render_by<L: MethodLight>(
+        &self,
+        context: &Context,
+        device: Option<&Device>,
+    ) -> Result<Vec<Value>, HostError> {
+        let args = self.args;
+        let shown = args
+            .animate
+            .clone()
+            .unwrap_or(args.frame..args.frame.saturating_add(1));
+        let warm_up = if self.recipe.reuse.is_some() { WARM_UP } else { 0 };
+        let start = shown.start.saturating_sub(warm_up);
+        let first = self.arrays::<L>(start)?;
+        let target = device.map_or(Target::Cpu, Target::Device);
+        let mut runner = self.recipe.runner(&self.step(start, &first), target)?;
+        let mut exposure = args.exposure;
+        let mut reports = Vec::new();
+        let mut arrays = Some(first);
+        for frame in start..shown.end {
+            let arrays = match arrays.take() {
+                Some(first) => first,
+                None => self.arrays(frame)?,
+            };
+            let settings = RenderSettings {
+                frame,
+                width: args.width,
+                height: args.height,
+                samples: self.samples,
+                seed: args.seed,
+            };
+            let step = self.step(frame, &arrays);
+            if frame > start {
+                runner.advance(&step)?;
+            }
+            let image = runner.image(&step, &arrays, &settings, SEQUENCE)?;
+            if frame < shown.start {
+                continue;
+            }
+            // All frames of a sequence are exposed as its first one.
+            let film = Film::new(args.width, args.height, image.value)?;
+            if exposure.is_none()
+                && let Some(words) = film.darkness()
+            {
+                let has_sky = self.scene.data().environment.is_some();
+                let advice = match has_sky {
+                    true => "",
+                    false => "; --environment FILE.hdr lights it by a sky",
+                };
+                news!("{}: {words}{advice}", self.scene.name());
+            }
+            let exposure = *exposure.get_or_insert_with(|| film.auto_exposure());
+            let output = match &args.animate {
+                Some(_) => frames::numbered(&args.output, frame),
+                None => args.output.clone(),
+            };
+            film.write(&output, exposure)?;
+            let ms = image.time.as_secs_f64() * 1e3;
+            if !context.json {
+                let on = target.name();
+                let factor = match exposure {
+                    0.001..1000.5 => format!("{exposure:.3}"),
+                    _ => format!("{exposure:e}"),
+                };
+                say!("{}: {ms:.1} ms on {on}, exposure {factor}", output.display())?;
+            }
+            if reports.is_empty()
+                && let Some(words) = camera_words(self.scene)
+                && !context.json
+            {
+                say!("  camera chosen: {words}")?;
+            }
+            let mut report = json!({
+                "frame": frame, "render_ms": ms, "exposure": exposure, "output": output,
+            });
+            if let Some(rays) = runner.shadow_rays(SEQUENCE) {
+                let pixels = f64::from(args.width) * f64::from(args.height);
+                report["shadow_rays_per_pixel"] = (rays as f64 / pixels).into();
+            }
+            reports.push(report);
+        }
+        Ok(reports)
+    }
+
+    fn step<'b, L>(&'b self, frame: u32, arrays: &'b SceneArrays<L>) -> Step<'b, L> {
+        Step {
+            scene: self.scene,
+            frame,
+            lights: &arrays.lights,
+        }
+    }
+
+    fn arrays<L: SceneLight>(&self, frame: u32) -> Result<Arc<SceneArrays<L>>, HostError> {
+        let arrays = arrays_lit_by(self.scene, frame, self.args.width, self.args.height)?;
+        Ok(Arc::new(arrays))
+    }
+}

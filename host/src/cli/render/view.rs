@@ -1,0 +1,161 @@
+//! What of a scene is shown, and from where.
+
+use crate::error::HostError;
+use crate::scene::Scene;
+
+/// An axis that points up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(super) enum Up {
+    Y,
+    Z,
+}
+
+impl Up {
+    /// The scene of a file whose axis this is.
+    pub(super) fn turn(self, scene: Scene) -> Result<Scene, HostError> {
+        let name = scene.name().to_ascii_lowercase();
+        let name = name.strip_suffix(".gz").unwrap_or(&name);
+        match self {
+            Self::Y => Ok(scene),
+            Self::Z if name.ends_with(".obj") || name.ends_with(".ply") => Ok(scene.from_z_up()?),
+            Self::Z => Err(HostError::Usage {
+                option: "--up z",
+                needs: "a .obj or .ply file; in others it is known which way is up",
+            }),
+        }
+    }
+}
+
+/// The scene with the animation of that name or number.
+pub(super) fn playing(scene: Scene, word: &str) -> Result<Scene, HostError> {
+    let mut data = scene.into_data();
+    data.play(word).map_err(|expected| HostError::Word {
+        option: "--animation",
+        word: word.to_owned(),
+        expected,
+    })?;
+    Ok(Scene::new(data)?)
+}
+
+/// A camera of a scene.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum CameraName {
+    /// By its number.
+    Own(usize),
+    /// Chosen by what there is to see.
+    Auto,
+}
+
+pub(super) fn camera(word: &str) -> Result<CameraName, String> {
+    match word {
+        "auto" => Ok(CameraName::Auto),
+        _ => word
+            .parse()
+            .map(CameraName::Own)
+            .map_err(|_| String::from("give a number from 0, or auto")),
+    }
+}
+
+/// The scene as that camera sees it.
+pub(super) fn seen_by(scene: Scene, camera: CameraName) -> Result<Scene, HostError> {
+    let cameras = scene.data().cameras.len();
+    let camera = match camera {
+        CameraName::Own(0) => return Ok(scene),
+        CameraName::Own(number) => number,
+        CameraName::Auto => {
+            let mut data = scene.into_data();
+            data.cameras.clear();
+            return Ok(Scene::new(data)?);
+        }
+    };
+    if camera >= cameras {
+        return Err(HostError::Range {
+            option: "--camera",
+            value: camera as u64,
+            expected: match cameras {
+                0 => String::from(
+                    "a scene with cameras, and it has none; leave the option out, or give --look-from and --look-at",
+                ),
+                _ => format!("0 to {}: the scene has {cameras}", cameras - 1),
+            },
+        });
+    }
+    let mut data = scene.into_data();
+    data.cameras.swap(0, camera);
+    Ok(Scene::new(data)?)
+}
+
+/// Refuses a view of the place that the eye is at.
+pub(super) fn check_places(from: [f32; 3], at: [f32; 3]) -> Result<(), HostError> {
+    if from == at {
+        return Err(HostError::Usage {
+            option: "--look-at",
+            needs: "another place than --look-from",
+        });
+    }
+    Ok(())
+}
+
+/// The options that stand for the camera that was chosen for a scene without one.
+pub(super) fn camera_words(scene: &Scene) -> Option<String> {
+    let (from, at, yfov) = scene.chosen_camera()?;
+    let place = |p: [f32; 3]| p.map(|x| x.to_string()).join(",");
+    let fov = yfov.to_degrees().round();
+    Some(format!(
+        "--look-from {} --look-at {} --fov {fov}",
+        place(from),
+        place(at)
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_files_that_do_not_say_are_turned() {
+        let street = || Scene::open("street").expect("built in");
+        let error = Up::Z
+            .turn(street())
+            .expect_err("a built-in scene is upright")
+            .to_string();
+        assert!(
+            error.contains("--up z") && error.contains(".obj or .ply"),
+            "{error}"
+        );
+        let same = Up::Y.turn(street()).expect("as it is");
+        assert_eq!(same.data(), street().data());
+    }
+
+    #[test]
+    fn cameras_that_are_not_there_are_named() {
+        let street = || Scene::open("street").expect("built in");
+        let of = |scene: Scene, camera| {
+            seen_by(scene, CameraName::Own(camera))
+                .map(|_| ())
+                .map_err(|error| error.to_string())
+        };
+        let cameras = street().data().cameras.len();
+        assert!(cameras > 0 && of(street(), cameras - 1).is_ok());
+        let error = of(street(), cameras).expect_err("one too many");
+        assert!(error.contains(&format!("the scene has {cameras}")), "{error}");
+        let mut data = street().into_data();
+        data.cameras.clear();
+        let blind = Scene::new(data).expect("a scene");
+        assert!(of(blind.clone(), 0).is_ok());
+        let error = of(blind, 3).expect_err("there is none");
+        assert!(
+            error.contains("--camera 3") && error.contains("it has none"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn a_view_of_the_eye_is_refused() {
+        assert!(check_places([1.0; 3], [1.0, 1.0, 1.5]).is_ok());
+        let error = check_places([1.0; 3], [1.0; 3])
+            .expect_err("no direction")
+            .to_string();
+        assert!(error.contains("--look-at needs another place"), "{error}");
+    }
+}
