@@ -1,5 +1,6 @@
 //! Trees that come to nothing, and those that must not.
 
+use super::parts::clusters;
 use super::*;
 
 /// What came to nothing, as where building panicked, is begun again: the mesh is as worn as it was.
