@@ -29,6 +29,9 @@ pub(super) fn run(_: &Context, args: &Args) -> Result<Outcome, HostError> {
         });
     }
     let scene = Scene::open(&args.scene)?;
+    for warning in scene.warnings() {
+        news!("{}: {warning}", scene.name());
+    }
     let known = |kind| {
         matches!(
             kind,

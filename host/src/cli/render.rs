@@ -53,8 +53,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         given("--scattered", args.scattered, 0..=MAX_SCATTERED.into()),
     ])?;
     let mut scene = args.up.turn(Scene::open(&args.scene)?)?;
-    if let Some(word) = &args.animation {
-        scene = playing(scene, word)?;
+    if !args.animation.is_empty() {
+        scene = playing(scene, &args.animation)?;
     }
     scene = seen_by(scene, args.camera)?;
     if let (Some(from), Some(at)) = (args.look_from, args.look_at) {

@@ -138,6 +138,11 @@ impl Film {
         self.wanted_exposure().0.min(MAX_AUTO_EXPOSURE)
     }
 
+    /// Whether nothing is lit at all: no exposure helps.
+    pub fn is_black(&self) -> bool {
+        self.wanted_exposure().1 == 0.0
+    }
+
     /// What there is to say of an image that is dark although it is exposed: nothing is lit, hardly anything, or so faintly that
     /// more exposure would show noise.
     pub fn darkness(&self) -> Option<String> {
@@ -150,8 +155,8 @@ impl Film {
         }
         if wanted > MAX_AUTO_EXPOSURE {
             return Some(format!(
-                "what is seen is so faintly lit that an exposure of {wanted:.0} would be needed, and {MAX_AUTO_EXPOSURE:.0} is taken: \
-                 more would show noise; --exposure sets another one"
+                "what is seen is so faintly lit that an exposure of {wanted:.0} would be needed, and {MAX_AUTO_EXPOSURE:.0} is taken, \
+                 as more shows mostly noise; --exposure sets another one"
             ));
         }
         let exposure = f64::from(wanted);

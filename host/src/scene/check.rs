@@ -10,7 +10,7 @@ use super::error::SceneError;
 use super::flush::flush_tiny;
 use super::frame::emits;
 use super::lamps::Facets;
-use super::model::{Channel, Counts, Interpolation, Material, Primitive, Scene, SceneData};
+use super::model::{Animation, Channel, Counts, Interpolation, Material, Primitive, Scene, SceneData};
 use super::motion_bounds;
 use super::paint::{MAX_SIDE, Opacity, Paint, Picture};
 use super::transform::Transform;
@@ -76,6 +76,19 @@ impl Scene {
         let counts = check.count(&data)?;
         motion_bounds::check(&data)?;
         Ok(Self::from_checked(data, counts))
+    }
+
+    /// Shows these animations and no others, where they are sound; else all stays as it was.
+    pub(super) fn show(&mut self, animations: Vec<Animation>) -> Result<(), SceneError> {
+        let mut data = std::mem::take(&mut self.data);
+        let old = std::mem::replace(&mut data.animations, animations);
+        let check = Check { scene: &data.name };
+        let found = check.animations(&data).and_then(|()| motion_bounds::check(&data));
+        if found.is_err() {
+            data.animations = old;
+        }
+        self.data = data;
+        found
     }
 }
 

@@ -2,11 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use super::error::SceneError;
 use super::model::{Animation, Property, Scene, SceneData};
 
 /// Most names that a message has.
 const NAMED: usize = 8;
+/// How a message of what is left out ends.
+const ADVICE: &str = "`render --animation NAME|NUMBER` shows one of them";
 
 impl Animation {
     /// Nodes that it moves, with what of them: 0 to 2, and 3 for the weights of morph targets.
@@ -26,8 +27,7 @@ impl Animation {
 impl SceneData {
     /// Leaves out each animation that moves what one before it does, and says so.
     pub fn part_clips(&mut self) {
-        let said = self.clip_words();
-        self.warnings.retain(|warning| said.as_ref() != Some(warning));
+        self.warnings.retain(|warning| !warning.ends_with(ADVICE));
         let mut touched = BTreeSet::new();
         let all = std::mem::take(&mut self.animations);
         for animation in all.into_iter().chain(std::mem::take(&mut self.clips)) {
@@ -41,63 +41,60 @@ impl SceneData {
         self.warnings.extend(self.clip_words());
     }
 
-    /// Shows the first animation of this name, or that at this place in the file, from 0; and of the others those that move other things.
+    /// Shows the first animation of this name, or that at this place in the file, from 0, and the others that are named likewise; none besides. Of
+    /// those that move the same things the first.
     ///
     /// # Errors
-    /// The names that there are, where none is this.
-    pub fn play(&mut self, word: &str) -> Result<(), String> {
-        let mut all: Vec<Animation> = self.animations.drain(..).collect();
-        let said = self.clip_words();
-        self.warnings.retain(|warning| said.as_ref() != Some(warning));
+    /// The word that names none, and the names that there are.
+    pub fn play(&mut self, words: &[String]) -> Result<(), (String, String)> {
+        self.warnings.retain(|warning| !warning.ends_with(ADVICE));
+        let mut all = std::mem::take(&mut self.animations);
         all.append(&mut self.clips);
         all.sort_by_key(|animation| animation.place);
-        let place: Option<u32> = word.parse().ok();
-        let by_name = all.iter().position(|animation| animation.name == word);
-        let by_place = || all.iter().position(|animation| Some(animation.place) == place);
-        let Some(chosen) = by_name.or_else(by_place) else {
-            return Err(match all.len() {
-                0 => String::from("a scene with animations, and it has none; leave the option out"),
-                _ => format!("one of {}", names(&all)),
-            });
-        };
-        all[..=chosen].rotate_right(1);
-        self.animations = all;
-        self.part_clips();
-        Ok(())
-    }
-
-    /// Shows one after the other each animation that is left out, and calls `with` for the scene then.
-    ///
-    /// # Errors
-    /// Those of `with`, and of [`Scene::new`].
-    pub fn each_clip<E: From<SceneError>>(
-        mut self,
-        mut with: impl FnMut(&Scene) -> Result<(), E>,
-    ) -> Result<(), E> {
-        let places: Vec<u32> = self.clips.iter().map(|own| own.place).collect();
-        for place in places {
-            self.animations.append(&mut self.clips);
-            // The one that is shown excludes others.
-            self.animations.sort_by_key(|own| (own.place != place, own.place));
-            self.part_clips();
-            let scene = Scene::new(self)?;
-            with(&scene)?;
-            self = scene.into_data();
+        let mut chosen = Vec::new();
+        for word in words {
+            let place: Option<u32> = word.parse().ok();
+            let by_name = all.iter().position(|animation| animation.name == *word);
+            let by_place = || all.iter().position(|animation| Some(animation.place) == place);
+            let Some(index) = by_name.or_else(by_place) else {
+                let expected = match (all.len(), chosen.is_empty()) {
+                    (0, true) => {
+                        String::from("a scene with animations, and it has none; leave the option out")
+                    }
+                    (0, false) => String::from("no more: all that there are are named"),
+                    _ => format!("one of {}", names(&all)),
+                };
+                return Err((word.clone(), expected));
+            };
+            chosen.push(all.remove(index));
         }
+        self.animations = chosen;
+        self.part_clips();
+        self.clips.extend(all);
         Ok(())
     }
 
-    /// What is left out, in words.
+    /// What moves what another does, and is left out for that, in words.
     fn clip_words(&self) -> Option<String> {
         let (is, are) = match self.clips.len() {
             0 => return None,
             1 => ("animation", "moves what another does, and is left out"),
             _ => ("animations", "move what others do, and are left out"),
         };
-        Some(format!(
-            "{is} {} {are}: `render --animation NAME|NUMBER` shows one of them",
-            names(&self.clips)
-        ))
+        Some(format!("{is} {} {are}: {ADVICE}", names(&self.clips)))
+    }
+}
+
+impl Scene {
+    /// Shows one after the other each animation that is left out, alone, the first `most` of them, and calls `with` for the scene then. Those that
+    /// [`Scene::new`] would refuse are passed.
+    pub fn each_clip(&self, most: usize, mut with: impl FnMut(&Self)) {
+        let mut scene = self.clone();
+        for clip in self.data().clips.iter().take(most) {
+            if scene.show(vec![clip.clone()]).is_ok() {
+                with(&scene);
+            }
+        }
     }
 }
 
@@ -106,7 +103,7 @@ fn names(of: &[Animation]) -> String {
     let some: Vec<String> = of
         .iter()
         .take(NAMED)
-        .map(|own| format!("{} \"{}\"", own.place, own.name))
+        .map(|own| format!("{} \"{}\"", own.place, own.name.escape_debug()))
         .collect();
     match of.len().saturating_sub(NAMED) {
         0 => some.join(", "),
@@ -154,19 +151,23 @@ mod tests {
         assert_eq!(shown(&data), ["idle", "door", "bob"]);
         assert_eq!(data.warnings.len(), 1);
         assert!(data.warnings[0].starts_with("animation 1 \"walk\" moves what another does"));
-        data.play("walk").expect("there");
-        assert_eq!(shown(&data), ["walk", "door", "bob"]);
-        assert_eq!(data.warnings.len(), 1);
+        let play = |data: &mut SceneData, words: &[&str]| {
+            let words: Vec<String> = words.iter().copied().map(String::from).collect();
+            data.play(&words)
+        };
+        // What is named moves alone.
+        play(&mut data, &["walk"]).expect("there");
+        assert_eq!(shown(&data), ["walk"]);
+        assert_eq!((data.warnings.len(), data.clips.len()), (0, 3));
+        play(&mut data, &["bob", "walk", "idle"]).expect("there");
+        assert_eq!(shown(&data), ["bob", "walk"]);
         assert!(data.warnings[0].starts_with("animation 0 \"idle\""));
-        let mut other = data.clone();
-        assert_eq!(
-            other.play("run"),
-            Err(String::from(
-                "one of 0 \"idle\", 1 \"walk\", 2 \"door\", 3 \"bob\""
-            ))
-        );
-        assert!(SceneData::default().play("run").is_err());
-        // Two of one name are told apart by their places.
+        let all = "one of 0 \"idle\", 1 \"walk\", 2 \"door\", 3 \"bob\"";
+        let error = play(&mut data.clone(), &["run"]).expect_err("there is none");
+        assert_eq!(error, (String::from("run"), String::from(all)));
+        assert!(play(&mut data.clone(), &["walk", "walk"]).is_err());
+        assert!(play(&mut SceneData::default(), &["run"]).is_err());
+        // Two of one name are told apart by their places; names come first.
         let mut twins = SceneData {
             animations: vec![
                 clip(2, "idle", &[0], Property::Rotation),
@@ -175,14 +176,15 @@ mod tests {
             ],
             ..SceneData::default()
         };
-        let mut plays = |word: &str| {
-            twins.play(word).expect("there");
-            twins.animations[0].place
-        };
-        assert_eq!(["2", "idle", "5", "6"].map(&mut plays), [2, 2, 6, 6]);
-        twins.animations.retain(|own| own.name != "5");
-        twins.clips.retain(|own| own.name != "5");
-        twins.play("5").expect("by its place");
-        assert_eq!(twins.animations[0].place, 5);
+        for (word, place) in [("2", 2), ("idle", 2), ("5", 6), ("6", 6)] {
+            play(&mut twins, &[word]).expect("there");
+            assert_eq!(twins.animations[0].place, place, "{word}");
+        }
+        play(&mut twins, &["5", "5"]).expect("one by its name, one by its place");
+        assert_eq!((twins.animations[0].place, twins.warnings.len()), (6, 1));
+        assert_eq!(
+            names(&[clip(0, "a\n\u{1b}[1m", &[], Property::Scale)]),
+            r#"0 "a\n\u{1b}[1m""#
+        );
     }
 }

@@ -10,7 +10,7 @@ use lightbvh::light::infinite::{Environment, EnvironmentError, MAX_LEVELS};
 use super::error::SceneError;
 use super::radiance_hdr;
 use super::read_file::read_file;
-use super::shrunk::shrunk;
+use super::shrunk::{clean, shrunk};
 
 /// Most columns and rows of a picture, and bytes that it may take in memory.
 const MOST: u32 = 1 << 14;
@@ -47,7 +47,9 @@ pub fn read_environment(
     limits.max_image_height = Some(MOST);
     limits.max_alloc = Some(MOST_BYTES);
     reader.limits(limits);
-    let picture = reader.decode().map_err(|error| unread(&error))?.into_rgb32f();
+    let mut picture = reader.decode().map_err(|error| unread(&error))?.into_rgb32f();
+    let said = clean(&mut picture).map(|said| format!("{}: {said}", path.display()));
+    warnings.extend(said);
     let picture = shrunk(picture, false);
     let (width, height) = picture.dimensions();
     if width == 0 || height == 0 {

@@ -18,7 +18,7 @@ use super::transform::Transform;
 /// A scene that passed every check of [`Scene::new`]: finite, in range, references whole.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    data: SceneData,
+    pub(super) data: SceneData,
     /// Camera for scenes that bring none, made from frame 0 when it is asked for.
     pub(super) default_camera: OnceLock<View>,
     /// What is painted on it, made when it is asked for.

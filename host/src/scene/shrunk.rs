@@ -6,14 +6,32 @@ use image::Rgb32FImage;
 const COLUMNS: u32 = 2048;
 const ROWS: u32 = 1024;
 
+/// Numbers that are no light, negative, infinite or none, count as 0: filters leave negative ones, half floats make suns infinite. What is said of them.
+pub(super) fn clean(picture: &mut Rgb32FImage) -> Option<String> {
+    let is_light = |x: f32| (0.0..=f32::MAX).contains(&x);
+    let mut first = None;
+    let mut count = 0_u64;
+    for (x, y, pixel) in picture.enumerate_pixels_mut() {
+        let Some(&wrong) = pixel.0.iter().find(|&&own| !is_light(own)) else {
+            continue;
+        };
+        count += 1;
+        first.get_or_insert((x, y, wrong));
+        pixel.0 = pixel.0.map(|own| if is_light(own) { own } else { 0.0 });
+    }
+    let (x, y, wrong) = first?;
+    Some(format!(
+        "{count} of its pixels have a number that is no light and counts as 0, the first in column {x}, row {y}: {wrong:e}"
+    ))
+}
+
 /// The picture in at most 2048 columns, and as many rows or half of them: each pixel's light goes to those of the smaller picture that it lies in, by solid
-/// angle. One with a number that is no light stays as it is, for those who look at it to refuse.
+/// angle. All its numbers are [`clean`].
 pub(super) fn shrunk(picture: Rgb32FImage, is_equal_area: bool) -> Rgb32FImage {
     let (width, height) = picture.dimensions();
     let rows = if is_equal_area { COLUMNS } else { ROWS };
     let (to_width, to_height) = (width.min(COLUMNS), height.min(rows));
-    let is_light = |x: &f32| (0.0..=f32::MAX).contains(x);
-    if (to_width, to_height) == (width, height) || !picture.as_raw().iter().all(is_light) {
+    if (to_width, to_height) == (width, height) {
         return picture;
     }
     let angle = |y: u32| match is_equal_area {
@@ -96,8 +114,23 @@ mod tests {
         );
         let small = Rgb32FImage::from_fn(300, 150, |x, y| image::Rgb([x as f32, y as f32, 1.0]));
         assert_eq!(shrunk(small.clone(), false), small);
-        let mut broken = Rgb32FImage::new(4096, 2048);
-        broken.put_pixel(5, 5, image::Rgb([f32::NAN, 0.0, 0.0]));
-        assert_eq!(shrunk(broken, false).dimensions(), (4096, 2048));
+    }
+
+    #[test]
+    fn what_is_no_light_counts_as_none_and_is_named() {
+        let mut picture = Rgb32FImage::from_pixel(4096, 2048, image::Rgb([1.0; 3]));
+        assert_eq!(clean(&mut picture), None);
+        for (x, y, number) in [(7, 9, -1e-6), (5, 10, f32::NAN), (3, 2000, f32::INFINITY)] {
+            picture.put_pixel(x, y, image::Rgb([2.0, number, 3.0]));
+        }
+        let said = clean(&mut picture).expect("three are none");
+        assert!(
+            said.starts_with("3 of its pixels") && said.ends_with("column 7, row 9: -1e-6"),
+            "{said}"
+        );
+        for (x, y) in [(7, 9), (5, 10), (3, 2000)] {
+            assert_eq!(picture.get_pixel(x, y).0, [2.0, 0.0, 3.0]);
+        }
+        assert_eq!(clean(&mut picture), None);
     }
 }

@@ -6,10 +6,12 @@ use lightbvh_kernels::bvh::WIDTH;
 use serde::Serialize;
 
 use crate::error::HostError;
-use crate::scene::{FRAMES_PER_SECOND, Instances, Scene, SceneError, SceneLight};
+use crate::scene::{FRAMES_PER_SECOND, Instances, Scene, SceneLight};
 
-/// Frames looked at in each round, at most; none is begun after so many in all.
+/// Frames looked at of what is shown, at most, and as many of all that is left out: of what is longer some, evenly over it.
 const MOST_FRAMES: u32 = 1000;
+/// Animations looked at of those that are left out: the first.
+const MOST_CLIPS: usize = 250;
 
 /// Which instances move, and whose meshes bend. Scenes of the host do not vary what they emit.
 #[derive(Clone, Debug, Serialize)]
@@ -42,7 +44,7 @@ fn round(scene: &Scene) -> u32 {
     let longest = animations
         .map(|animation| f64::from(animation.duration()))
         .fold(0.0, f64::max);
-    ((longest * f64::from(FRAMES_PER_SECOND)).ceil() as u32).min(MOST_FRAMES)
+    (longest * f64::from(FRAMES_PER_SECOND)).ceil() as u32
 }
 
 /// Node and mesh of each instance, or the name of the light that it is.
@@ -62,13 +64,15 @@ impl Motion {
             .map_err(|error| HostError::in_frame(scene.name(), 0, error))?;
         let mut moves = vec![0_u32; names.len()];
         let mut bends = vec![false; names.len()];
-        let mut look = |scene: &Scene| {
-            if frames >= MOST_FRAMES {
-                return Ok::<(), SceneError>(());
-            }
-            let own = round(scene);
+        let mut look = |scene: &Scene, most: u32| {
+            let whole = round(scene);
+            let own = whole.min(most);
             // Of the first round frame 0 is where the instances are.
-            for frame in u32::from(rounds == 0)..=own {
+            for step in u32::from(rounds == 0)..=own {
+                let frame = match own {
+                    0 => 0,
+                    _ => (u64::from(step) * u64::from(whole) / u64::from(own)) as u32,
+                };
                 for edit in instances.edits(scene, frame) {
                     match edit {
                         Edit::SetTransform { instance, .. } => moves[instance.index() as usize] += 1,
@@ -83,10 +87,11 @@ impl Motion {
             }
             frames += own;
             rounds += 1;
-            Ok(())
         };
-        look(scene)?;
-        scene.data().clone().each_clip(look)?;
+        look(scene, MOST_FRAMES);
+        let clips = scene.data().clips.len().min(MOST_CLIPS);
+        let most = MOST_FRAMES / clips.max(1) as u32;
+        scene.each_clip(clips, |alone| look(alone, most));
         let named = (0..).zip(names.iter().zip(&moves));
         let tracks: Vec<Track> = named
             .filter(|(_, (_, moves))| **moves > 0)

@@ -46,9 +46,10 @@ pub struct Args {
     /// Vertical field of view with --look-from, degrees, 1 to 170.
     #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=170), requires = "look_from")]
     pub(super) fov: u32,
-    /// Which animation is shown of those that move the same things, by its name, or by its number in the file from 0 [default: the first].
+    /// Which animation is shown, alone, by its name or by its number in the file from 0; may be repeated [default: all, of those that move the
+    /// same things the first].
     #[arg(long, value_name = "NAME|NUMBER")]
-    pub(super) animation: Option<String>,
+    pub(super) animation: Vec<String>,
     /// Which axis of a .obj or .ply file points up; those formats do not say. With z, (x, y, z) of the file lies at (x, z, -y), for --look-from too.
     #[arg(long, value_enum, default_value_t = Up::Y)]
     pub(super) up: Up,

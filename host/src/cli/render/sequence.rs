@@ -57,6 +57,7 @@ impl Sequence<'_> {
         let target = device.map_or(Target::Cpu, Target::Device);
         let mut runner = self.recipe.runner(&self.step(start, &first), target)?;
         let mut exposure = args.exposure;
+        let mut was_black = false;
         let mut reports = Vec::new();
         let mut arrays = Some(first);
         for frame in start..shown.end {
@@ -79,19 +80,19 @@ impl Sequence<'_> {
             if frame < shown.start {
                 continue;
             }
-            // All frames of a sequence are exposed as its first one.
             let film = Film::new(args.width, args.height, image.value)?;
-            if exposure.is_none()
-                && let Some(words) = film.darkness()
-            {
-                let has_sky = self.scene.data().environment.is_some();
-                let advice = match has_sky {
-                    true => "",
-                    false => "; --environment FILE.hdr lights it by a sky",
-                };
-                news!("{}: {words}{advice}", self.scene.name());
+            let is_black = film.is_black();
+            // Once of what any exposure shows as black, and of what is exposed by itself.
+            if is_black && !was_black || exposure.is_none() && !is_black {
+                self.tell_of_darkness(frame, &film);
             }
-            let exposure = *exposure.get_or_insert_with(|| film.auto_exposure());
+            was_black |= is_black;
+            // All frames of a sequence are exposed as its first one that is lit.
+            let exposure = match exposure {
+                Some(exposure) => exposure,
+                None if is_black => film.auto_exposure(),
+                None => *exposure.insert(film.auto_exposure()),
+            };
             let output = match &args.animate {
                 Some(_) => frames::numbered(&args.output, frame),
                 None => args.output.clone(),
@@ -122,6 +123,19 @@ impl Sequence<'_> {
             reports.push(report);
         }
         Ok(reports)
+    }
+
+    fn tell_of_darkness(&self, frame: u32, film: &Film) {
+        let Some(words) = film.darkness() else { return };
+        let of = match self.args.animate {
+            Some(_) => format!("frame {frame}: "),
+            None => String::new(),
+        };
+        let advice = match self.scene.data().environment {
+            Some(_) => "",
+            None => "; --environment FILE.hdr lights it by a sky",
+        };
+        news!("{}: {of}{words}{advice}", self.scene.name());
     }
 
     fn step<'b, L>(&'b self, frame: u32, arrays: &'b SceneArrays<L>) -> Step<'b, L> {

@@ -26,12 +26,12 @@ impl Up {
     }
 }
 
-/// The scene with the animation of that name or number.
-pub(super) fn playing(scene: Scene, word: &str) -> Result<Scene, HostError> {
+/// The scene with the animations of these names or numbers.
+pub(super) fn playing(scene: Scene, words: &[String]) -> Result<Scene, HostError> {
     let mut data = scene.into_data();
-    data.play(word).map_err(|expected| HostError::Word {
+    data.play(words).map_err(|(word, expected)| HostError::Word {
         option: "--animation",
-        word: word.to_owned(),
+        word,
         expected,
     })?;
     Ok(Scene::new(data)?)

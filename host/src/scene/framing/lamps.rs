@@ -31,8 +31,9 @@ const RAYS: usize = 8;
 /// And rays towards surfaces, where those miss.
 const AIMED: usize = 32;
 
-/// What lies farther away than this part of the scene's size is no bulb.
+/// What lies farther away than this part of the scene's size is no bulb: of the backs of surfaces, and of fronts, which are also the walls of a small room.
 const BULB: f64 = 0.05;
+const THICK_BULB: f64 = 0.01;
 
 /// What each lamp sends out, W but for a factor of π; zero where it is shut in and there is other light.
 pub(super) fn fluxes(frame: &Frame, room: &Room, size: f64, is_under_sky: bool) -> Vec<f64> {
@@ -135,7 +136,7 @@ fn is_out_of_range(frame: &Frame, room: &Room, size: f64, index: usize) -> bool 
         })
 }
 
-/// Whether a lamp is a point that sends every ray to the back of something close by.
+/// Whether a lamp is a point that sends every ray to the back of something close by, or to something very close: bulbs may have walls of two sides.
 fn is_shut_in(frame: &Frame, room: &Room, size: f64, index: usize) -> bool {
     let own = index.checked_sub(frame.emissive.len());
     let Some(light) = own.and_then(|own| frame.others.get(own)) else {
@@ -146,7 +147,7 @@ fn is_shut_in(frame: &Frame, room: &Room, size: f64, index: usize) -> bool {
         && (0..RAYS).all(|i| {
             let (p, d) = (light.centroid().map(f64::from), anywhere(i));
             let met = room.meet(along(p, 1e-9 * size, d), d);
-            met.is_some_and(|met| met.is_back(d) && met.t < BULB * size)
+            met.is_some_and(|met| met.t < if met.is_back(d) { BULB } else { THICK_BULB } * size)
         })
 }
 

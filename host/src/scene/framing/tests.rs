@@ -432,19 +432,25 @@ fn a_range_that_reaches_what_is_small_counts() {
 /// A lamp shut in a bulb counts where there is nothing else, however faint: programs give lamps in glowing bulbs 10^5 cd.
 #[test]
 fn lamps_in_bulbs_count_where_nothing_else_shines() {
-    let bulb = globe([0.0, 2.0, 0.0], 0.1, GREY);
+    // A wall of two sides in front of the lamp, or one.
+    let bulb = globe([0.0, 2.0, 0.0], 0.05, GREY);
+    let mut inner = globe([0.0, 2.0, 0.0], 0.04, GREY);
+    inner.triangles.iter_mut().for_each(|own| own.swap(0, 1));
     let floor = sheet([-3.0, 0.0, 3.0], [6.0, 0.0, 0.0], [0.0, 0.0, -6.0], GREY);
-    for (intensity, counts) in [(0.0, true), (1e-6, false), (10.0, false)] {
-        // The second lamp stands in the open.
-        let lamps = [[0.0, 2.0, 0.0], [2.0, 1.0, 0.0]];
-        let mut data = scene_with(vec![bulb.clone(), floor.clone()], &lamps, false).into_data();
-        data.analytic[1].intensity = intensity;
-        let scene = Scene::new(data).expect("a sound scene");
-        let frame = scene.frame(0);
-        let room = Room::new(&frame.triangles, &scene.data().materials).expect("rays");
-        let fluxes = lamps::fluxes(&frame, &room, 8.0, false);
-        assert_eq!(fluxes[0] > 0.0, counts, "{intensity}: {fluxes:?}");
-        assert_eq!(fluxes[1] > 0.0, intensity > 0.0, "{fluxes:?}");
+    for walls in [vec![bulb.clone()], vec![bulb, inner]] {
+        for (intensity, counts) in [(0.0, true), (1e-6, false), (10.0, false)] {
+            // The second lamp stands in the open.
+            let lamps = [[0.0, 2.0, 0.0], [2.0, 1.0, 0.0]];
+            let parts = [&walls[..], std::slice::from_ref(&floor)].concat();
+            let mut data = scene_with(parts, &lamps, false).into_data();
+            data.analytic[1].intensity = intensity;
+            let scene = Scene::new(data).expect("a sound scene");
+            let frame = scene.frame(0);
+            let room = Room::new(&frame.triangles, &scene.data().materials).expect("rays");
+            let fluxes = lamps::fluxes(&frame, &room, 8.0, false);
+            assert_eq!(fluxes[0] > 0.0, counts, "{intensity}: {fluxes:?}");
+            assert_eq!(fluxes[1] > 0.0, intensity > 0.0, "{fluxes:?}");
+        }
     }
 }
 

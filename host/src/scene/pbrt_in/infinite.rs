@@ -6,8 +6,9 @@ use std::sync::Arc;
 use image::Rgb32FImage;
 use lightbvh::light::infinite::{Environment, MAX_LEVELS};
 
+use super::super::notes::Place;
 use super::super::picture_file::{from_srgb, is_linear};
-use super::super::shrunk::shrunk;
+use super::super::shrunk::{clean, shrunk};
 use super::super::transform::{Affine, unit_or};
 use super::params::Params;
 use super::state::Loader;
@@ -71,11 +72,6 @@ impl Picture {
     }
 }
 
-/// Negative light and what is none count as none.
-fn usable(x: f32) -> f32 {
-    if x > 0.0 && x.is_finite() { x } else { 0.0 }
-}
-
 /// Where versions before the fourth have a direction: z up, columns counter-clockwise from +x.
 fn longitude_latitude([x, y, z]: [f64; 3]) -> [f64; 2] {
     let turns = libm::atan2(y, x) / std::f64::consts::TAU;
@@ -105,7 +101,7 @@ impl Loader<'_> {
             Some(_) if self.pictures_of_sky() >= MAX_PICTURES => {
                 Err(format!("a scene may have {MAX_PICTURES}"))
             }
-            Some(path) => self.sky_picture(&path),
+            Some(path) => self.sky_picture(&path, &params.place),
         };
         match found {
             Ok(picture) => {
@@ -138,7 +134,7 @@ impl Loader<'_> {
             .count()
     }
 
-    fn sky_picture(&mut self, path: &Path) -> Result<Picture, String> {
+    fn sky_picture(&mut self, path: &Path, place: &Place) -> Result<Picture, String> {
         let map = &self.graphics.ctm;
         let to_picture = matrix::inverse(map).ok_or_else(|| String::from("its transform flattens space"))?;
         let picture = self.pictures.decode(path)?;
@@ -150,9 +146,9 @@ impl Loader<'_> {
             }
         }
         let is_equal_area = pixels.width() == pixels.height();
-        pixels
-            .pixels_mut()
-            .for_each(|pixel| pixel.0 = pixel.0.map(usable));
+        if let Some(said) = clean(&mut pixels) {
+            self.note(place, format!("a picture of an infinite light: {said}"));
+        }
         Ok(Picture {
             is_equal_area,
             pixels: shrunk(pixels, is_equal_area),
