@@ -73,7 +73,7 @@ pub(in crate::bvh) struct TopTree<N> {
     pub(super) names: Vec<u32>,
     pub(super) kept: Vec<Part>,
     pub(super) inner: Vec<Part>,
-    /// Those of the instances whose meshes had no flux.
+    /// Those of the instances that had no flux.
     pub(super) dark: Vec<u32>,
     /// Instances to be opened, and to be closed.
     pub(super) open: Vec<u32>,
@@ -109,10 +109,6 @@ impl<N> TopCopy<N> {
             open: Vec::new(),
             close: Vec::new(),
         };
-        let is_dark = |root: &BlasRoot| root.summary::<N::Summary>().phi() <= 0.0;
-        let names = tree.names.iter().zip(&self.roots);
-        tree.dark
-            .extend(names.filter(|(_, root)| is_dark(root)).map(|(&name, _)| name));
         let leaves = self.instances.iter().zip(&self.roots);
         let leaves =
             leaves.map(|(instance, root)| root.summary::<N::Summary>().to_world::<N::Light>(instance));
@@ -122,6 +118,8 @@ impl<N> TopCopy<N> {
         if leaves.is_empty() {
             return tree;
         }
+        let dark = tree.names.iter().zip(&leaves).filter(|(_, own)| own.phi() <= 0.0);
+        tree.dark = dark.map(|(&name, _)| name).collect();
         let whole = self.whole.unwrap_or_else(|| opened::cost_of(&leaves));
         [tree.open, tree.close] = opened::wanted::<N, W>(whole, &self.openable);
         let mut shapes = leaves.clone();

@@ -52,9 +52,13 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let number = self.top.number(node) as usize;
         self.top.edits[number] = 0;
         let (interior, leaves) = self.below(node);
-        let nowhere = leaves
-            .iter()
-            .filter(|(leaf, own)| own.phi() <= 0.0 && self.is_dark(*leaf));
+        // What nodes know of a child without flux is not where it is.
+        let shape = |(leaf, own): (u32, N::Summary)| match own.phi() > 0.0 {
+            true => (leaf, own),
+            false => (leaf, self.in_world(leaf)),
+        };
+        let leaves: Vec<_> = leaves.into_iter().map(shape).collect();
+        let nowhere = leaves.iter().filter(|(_, own)| own.phi() <= 0.0);
         let nowhere: Vec<u32> = nowhere.map(|&(leaf, _)| leaf).collect();
         let params = BuildParams {
             heuristic: match self.params.heuristic {
@@ -64,12 +68,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             },
             ..self.params
         };
-        // What nodes know of a child without flux is not where it is.
-        let leaves = leaves.into_iter().map(|(leaf, own)| {
-            let shape = if own.phi() > 0.0 { own } else { self.in_world(leaf) };
-            (leaf, shape)
-        });
-        let topology: Topology<N> = build_top::<N, W>(leaves, &params);
+        let topology: Topology<N> = build_top::<N, W>(leaves.into_iter(), &params);
         if self.level(node) + topology.depth > max_levels(W) {
             return;
         }

@@ -190,13 +190,18 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         is_noted
     }
 
-    /// This leaf was put where it is while its mesh had no flux, which is nowhere: it hangs anywhere. It is looked at once it shines.
+    /// This leaf was put where it is while it had no flux: a tree is built by what shines, and it hangs anywhere. It is looked at once it shines.
     pub(super) fn note_nowhere(&mut self, leaf: u32) {
         let owner = self.placed[leaf as usize].part_of;
         let index = if owner == INVALID { leaf } else { owner };
         let blas = self.meshes[self.placed[index as usize].mesh as usize].blas;
         if self.root_of(blas).phi() <= 0.0 {
             self.lose_center(blas);
+        } else if self.instances[index as usize].flux <= 0.0 {
+            // The parts of an opened one are as large as what is around them.
+            if owner != INVALID {
+                return;
+            }
         } else if self.top.strayed.len() < LIT {
             self.top.strayed.insert(index);
         }
