@@ -56,7 +56,7 @@ impl Transform {
     }
 
     /// `light` as it stands in the world where this map puts its mesh, as part of mesh light `mesh`: what a light BVH over instances makes of
-    /// it, to the bit.
+    /// it, to the bit, but for the instance's factor on radiance.
     #[must_use]
     pub fn place<L: Light>(&self, light: &L, mesh: u32) -> L {
         light.in_world(&self.instance_by(1.0, light.flux_power()), mesh)

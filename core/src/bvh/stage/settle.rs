@@ -11,7 +11,7 @@ use crate::sweep;
 
 /// Bytes that take about the time of a node, of one that is computed after its neighbour, and of a path down to a triangle.
 const NODE: usize = 2048;
-const SWEPT: usize = 512;
+const SWEPT: usize = 1024;
 const PATH: usize = 4096;
 /// Neighbours are so near.
 const NEAR: u32 = 8;

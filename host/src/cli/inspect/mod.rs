@@ -43,7 +43,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     if scene.emissive_count() == 0 {
         return kinds::run(context, args, &scene);
     }
-    if let Some(left_out) = scene.unknown_lights() {
+    if let Some(left_out) = scene.unknown_in_figures() {
         news!("{}: {left_out}", scene.name());
     }
     let motion = Motion::of::<Node>(&scene)?;

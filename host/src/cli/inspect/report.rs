@@ -78,7 +78,7 @@ impl Report<'_> {
 
     pub fn print(&self) -> Result<(), HostError> {
         let mut text = format!(
-            "{} in frame {}, {} lights\n\nwhat it requires\n",
+            "{} in frame {}, {} emissive triangles\n\nwhat it requires\n",
             self.args.scene, self.args.frame, self.requirements.lights
         );
         let [gloss, masks] = self.surfaces.said();

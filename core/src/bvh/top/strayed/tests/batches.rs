@@ -310,12 +310,14 @@ fn what_walks_in_the_dark_is_where_it_shines() {
         let (mut bvh, _, _, side) = lamps(2000, random);
         let ends = somewhere(2, side, random);
         let mesh = bvh.add_mesh(eight([0.0; 3], 1.0)).expect("a mesh");
-        let id = walker(&mut bvh, mesh, 25.0, ends[0]);
+        // A dim one is missed by the parts that are built.
+        let share = [25.0, 0.3][turn % 2];
+        let id = walker(&mut bvh, mesh, share, ends[0]);
         let own = &mut rebuilder();
         (0..20).for_each(|_| frame(&mut bvh, own, Vec::new()));
-        let mut set = |bvh: &mut LightBvh, own: &mut Own, radiance: f32| {
+        let set = |bvh: &mut LightBvh, own: &mut Own, radiance: f32| {
             let edits = match turn % 2 {
-                0 => [shine(id, 25.0 * radiance)].to_vec(),
+                0 => [shine(id, share * radiance)].to_vec(),
                 _ => halves(mesh, &eight([0.0; 3], radiance)).to_vec(),
             };
             edits
