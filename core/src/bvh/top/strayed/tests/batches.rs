@@ -198,7 +198,7 @@ fn what_was_dark_as_parts_were_built_is_looked_at() {
         (0..REST).for_each(|_| frame(&mut bvh, own, Vec::new()));
         frame(&mut bvh, own, set(1.0));
         rest(&mut bvh, own);
-        beyond[usize::from(by_radiance)] += at.iter().filter(|&&at| over_new(&bvh, at) > 1.7).count();
+        beyond[usize::from(by_radiance)] += at.iter().filter(|&&at| over_new(&bvh, at) > 1.4).count();
     }
     assert!(beyond.iter().all(|&count| count <= 3), "{beyond:?} of 160");
 }
@@ -345,6 +345,10 @@ fn what_came_in_off_and_walked_is_where_it_shines() {
         let random = &mut Random(140 + seed);
         let (mut bvh, lamp, ids, side) = lamps(2000, random);
         let own = &mut rebuilder();
+        let stood: Vec<_> = ids
+            .iter()
+            .map(|id| bvh.instances()[id.index() as usize].translation)
+            .collect();
         let mut at = somewhere(60, side, random);
         let add = at.iter().map(|&at| Edit::AddInstance {
             mesh: lamp,
@@ -360,14 +364,17 @@ fn what_came_in_off_and_walked_is_where_it_shines() {
                 edits.push(place(id, *at));
             }
             // Others mix, so that parts are built.
-            let mix = ids.iter().skip(100 * (k % 20)).take(100);
-            edits.extend(mix.map(|&id| place(id, (random.vector() * side).to_array())));
+            edits.extend((0..100).map(|other| {
+                let other = (7 * k + 131 * other) % 2000;
+                let at = glam::Vec3::from(stood[other]) + random.vector() * 20.0;
+                place(ids[other], at.to_array())
+            }));
             frame(&mut bvh, own, edits);
         }
         (0..REST).for_each(|_| frame(&mut bvh, own, Vec::new()));
         frame(&mut bvh, own, off.iter().map(|&id| shine(id, 1.0)).collect());
         rest(&mut bvh, own);
-        beyond += at.iter().filter(|&&at| over_new(&bvh, at) > 1.7).count();
+        beyond += at.iter().filter(|&&at| over_new(&bvh, at) > 1.4).count();
     }
-    assert!(beyond <= 2, "{beyond} of 180");
+    assert!(beyond <= 3, "{beyond} of 180");
 }
