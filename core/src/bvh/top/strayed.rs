@@ -198,7 +198,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if self.root_of(blas).phi() <= 0.0 {
             self.lose_center(blas);
         } else if self.instances[index as usize].flux <= 0.0 {
-            // The parts of an opened one are as large as what is around them.
+            // Of an opened one all parts would be put in elsewhere, and none was seen to need it.
             if owner != INVALID {
                 return;
             }
@@ -247,7 +247,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         squared > LEAVES * f64::from(around.spread())
     }
 
-    /// The centre of an instance, metres: a quarter of the time that all of [`in_world`](Self::in_world) takes.
+    /// The centre of an instance, metres, without the rest of [`in_world`](Self::in_world).
     fn center_now(&self, index: u32) -> [f64; 3] {
         let instance = &self.instances[index as usize];
         let center = self.root_of(instance.blas).center().to_array();

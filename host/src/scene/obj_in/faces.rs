@@ -400,13 +400,11 @@ impl Reading<'_> {
                 material.transmission = 0.0;
             }
         }
-        for material in data.materials.iter().filter(|material| material.is_clear()) {
-            if !emits(material.radiance) {
-                notes.add(
-                    &place,
-                    "surfaces that let half of the light through or more are left out",
-                );
-            }
+        for _ in data.materials.iter().filter(|own| is_left_out(own)) {
+            notes.add(
+                &place,
+                "surfaces that let half of the light through or more are left out",
+            );
         }
         let mut meshes: Vec<Mesh> = self
             .groups
