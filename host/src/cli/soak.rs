@@ -78,6 +78,8 @@ fn soak(context: &Context, args: &Args, opened: &[devices::Opened]) -> Result<Re
         let start = start?;
         counts.adopted += u32::from(start.swapped);
         counts.waited += u32::from(!start.waited.is_zero());
+        counts.inline += u32::from(start.inline);
+        counts.copied = counts.copied.max(start.copied);
         let (edit, added) = Timed::of(|| {
             bvh.apply(edits)
                 .expect("edits of what is there, within the domain")
@@ -122,6 +124,7 @@ fn soak(context: &Context, args: &Args, opened: &[devices::Opened]) -> Result<Re
         instances: world.size_now().0,
         lights: world.size_now().1,
         edits: counts,
+        bytes: RebuilderParams::default().bytes,
         rows: times.rows(),
         beyond: beyond.count,
         first_beyond: beyond.first,

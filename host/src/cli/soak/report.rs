@@ -30,6 +30,10 @@ pub(super) struct Counts {
     pub adopted: u32,
     /// Frames that waited for one, by the deterministic rule.
     pub waited: u32,
+    /// Frames whose own thread built, since no other could be started.
+    pub inline: u32,
+    /// Most bytes that the start of a frame put into meshes that are built anew, of [`Report::bytes`].
+    pub copied: u32,
     /// Frames in which all was checked.
     pub checked: u32,
     /// Instances touched, once for each frame, and nodes of the top level computed.
@@ -95,6 +99,8 @@ pub(super) struct Report {
     pub instances: usize,
     pub lights: usize,
     pub edits: Counts,
+    /// Most bytes that the start of a frame may put into meshes that are built anew.
+    pub bytes: u32,
     pub rows: Vec<Row>,
     /// Parts of frames that took longer than their bound, by the thread's clock.
     pub beyond: usize,
@@ -112,11 +118,13 @@ impl Report {
         self.edits.nodes as f64 / self.edits.touched.max(1) as f64
     }
 
-    /// Whether every frame kept its bound, memory is flat, and no word of a device differs.
+    /// Whether every frame kept its bounds, of time and of what was counted, memory is flat, and no word of a device differs.
     pub fn is_good(&self) -> bool {
         let equal = self.devices.iter().all(|device| device.different == 0);
         self.invalid.is_none()
             && self.beyond == 0
+            && self.edits.inline == 0
+            && self.edits.copied <= self.bytes
             && self.nodes_each() <= NODES
             && self.memory.flat
             && self.process.flat
@@ -159,6 +167,12 @@ pub(super) fn print(context: &Context, report: &Report) -> Result<(), HostError>
     say!(
         "nodes of the top level computed for each instance touched: {:.1}, at most {NODES}",
         report.nodes_each()
+    )?;
+    say!(
+        "bytes put into meshes by the start of a frame: {} at most, of {}; frames that built on their own thread: {}",
+        edits.copied,
+        report.bytes,
+        edits.inline
     )?;
     for (what, means) in [("scene", &report.memory), ("process", &report.process)] {
         say!(
