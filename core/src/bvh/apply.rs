@@ -139,11 +139,11 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Whether an instance has this transform, to the bit.
     fn stands_so(&self, index: u32, transform: &Transform) -> bool {
-        let bits = |own: &Transform| {
-            let [a, b, c] = own.columns.map(|column| column.map(f32::to_bits));
-            [a, b, c, own.translation.map(f32::to_bits)]
+        let words = |own: &Transform| {
+            let [a, b, c] = own.columns;
+            bytemuck::cast([a, b, c, own.translation])
         };
-        bits(&self.placed[index as usize].transform) == bits(transform)
+        is_same::<12>(words(&self.placed[index as usize].transform), words(transform))
     }
 
     /// Whether an instance has this radiance, and nothing is to be done for it: where many come on at once, some are not where their light belongs yet.
@@ -307,7 +307,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             ..self.in_place(blas, placed.transform, placed.radiance)
         };
         // What is set as it was rests: engines send all their transforms in every frame.
-        let is_other = bytemuck::bytes_of(&new) != bytemuck::bytes_of(&old);
+        let is_other = !is_same::<{ size_of::<Instance>() / 4 }>(bytemuck::cast(new), bytemuck::cast(old));
         if is_other {
             self.placed[index as usize].changed = self.epoch;
         }
@@ -331,6 +331,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         self.update_parts(blas);
     }
+}
+
+/// Whether all words are the same, without a branch for each: they are few, and compared several at a time.
+#[inline(always)]
+fn is_same<const COUNT: usize>(a: [u32; COUNT], b: [u32; COUNT]) -> bool {
+    a.iter().zip(&b).fold(0, |all, (a, b)| all | (a ^ b)) == 0
 }
 
 /// The words of an instance that is not in use.

@@ -74,27 +74,22 @@ impl Quality {
     #[inline(always)]
     fn of<N: Node<W>, const W: usize>(nodes: &[N], known: &[Self], index: u32, is_new: bool) -> Self {
         let node = &nodes[index as usize];
-        let (mut lost, mut levels) = (0.0, 0.0);
-        let mut is_last = true;
-        for slot in (0..W).filter(|&slot| node.kind(slot) == kind::INNER) {
-            let (below, flux) = (
-                &known[node.link(slot) as usize],
-                f64::from(node.summary(slot).phi()),
-            );
-            is_last = false;
-            lost += flux * f64::from(below.lost);
-            levels += flux * f64::from(below.levels);
-        }
-        let spread = Spread::of(node, |slot| known[node.link(slot) as usize].apart);
-        let per_phi = if spread.phi > 0.0 { 1.0 / spread.phi } else { 0.0 };
-        let apart = (spread.apart() * per_phi).min(f64::from(f32::MAX)) as f32;
         // A node of lights alone tells all of them apart.
-        if is_last {
+        if (0..W).all(|slot| node.kind(slot) != kind::INNER) {
+            let about = About::of(node);
             return Self {
-                apart,
+                apart: about.mean(about.between),
                 ..Self::default()
             };
         }
+        let spread = Spread::of(node, |slot| known[node.link(slot) as usize].apart);
+        let (mut lost, mut levels) = (0.0, 0.0);
+        for slot in (0..W).filter(|&slot| node.kind(slot) == kind::INNER) {
+            let (below, flux) = (&known[node.link(slot) as usize], spread.about.flux[slot]);
+            lost += flux * f64::from(below.lost);
+            levels += flux * f64::from(below.levels);
+        }
+        let per_phi = spread.about.per_phi();
         let total = spread.apart() + spread.extents;
         let share = if total > 0.0 {
             (spread.within / total).min(1.0) as f32
@@ -112,46 +107,90 @@ impl Quality {
             own,
             lost: own + (lost * per_phi) as f32,
             levels: 1.0 + (levels * per_phi) as f32,
-            apart,
+            apart: spread.about.mean(spread.apart()),
         }
+    }
+}
+
+/// Flux of a node's children, and flux times variance of their centers, W m².
+#[derive(Clone, Copy, Debug)]
+struct About<const W: usize> {
+    flux: [f64; W],
+    phi: f64,
+    between: f64,
+}
+
+impl<const W: usize> About<W> {
+    #[inline(always)]
+    fn of<N: Node<W>>(node: &N) -> Self {
+        // Component by component, each an array over the slots: processors compute several at a time, but for the sums, whose order counts.
+        let (mut flux, mut from) = ([0.0; W], [[0.0; W]; 3]);
+        // Positions from the first child's, for the differences of `f32` are exact.
+        let first = node.summary(0).center().to_array().map(f64::from);
+        for slot in 0..W {
+            let child = node.summary(slot);
+            // Without flux no distance counts.
+            let is_there = node.kind(slot) != kind::EMPTY;
+            flux[slot] = f64::from(if is_there { child.phi() } else { 0.0 });
+            let center = child.center().to_array();
+            for axis in 0..3 {
+                from[axis][slot] = f64::from(center[axis]) - first[axis];
+            }
+        }
+        let (mut firsts, mut seconds) = ([[0.0; W]; 3], [[0.0; W]; 3]);
+        for axis in 0..3 {
+            for slot in 0..W {
+                firsts[axis][slot] = flux[slot] * from[axis][slot];
+                seconds[axis][slot] = firsts[axis][slot] * from[axis][slot];
+            }
+        }
+        let (mut phi, mut moved, mut squares) = (0.0, [0.0; 3], 0.0);
+        for slot in 0..W {
+            phi += flux[slot];
+            for axis in 0..3 {
+                moved[axis] += firsts[axis][slot];
+                squares += seconds[axis][slot];
+            }
+        }
+        let per_phi = if phi > 0.0 { 1.0 / phi } else { 0.0 };
+        let mean = moved.map(|sum| sum * per_phi);
+        let between = (squares - (moved[0] * mean[0] + moved[1] * mean[1] + moved[2] * mean[2])).max(0.0);
+        Self { flux, phi, between }
+    }
+
+    fn per_phi(self) -> f64 {
+        if self.phi > 0.0 { 1.0 / self.phi } else { 0.0 }
+    }
+
+    /// A mean by flux, given its sum.
+    fn mean(self, sum: f64) -> f32 {
+        (sum * self.per_phi()).min(f64::from(f32::MAX)) as f32
     }
 }
 
 /// Flux times variance of position of a node's lights, W m², by where it lies.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spread {
-    pub phi: f64,
-    /// Of the centers of the lights of each inner child, and of the children's means.
+pub(super) struct Spread<const W: usize> {
+    /// Of the children's means.
+    about: About<W>,
+    /// Of the centers of the lights of each inner child.
     within: f64,
-    between: f64,
     /// Of the lights themselves.
     extents: f64,
 }
 
-impl Spread {
+impl<const W: usize> Spread<W> {
     /// That of a node, given the variance of the lights' centers of each slot that holds a node.
     #[inline(always)]
-    pub fn of<N: Node<W>, const W: usize>(node: &N, apart_of: impl Fn(usize) -> f32) -> Self {
-        let (mut within, mut extents, mut phi) = (0.0, 0.0, 0.0);
-        // Positions from the first child's, for the differences of `f32` are exact.
-        let first = node.summary(0).center();
-        let (mut moved, mut squares) = ([0.0; 3], 0.0);
+    pub fn of<N: Node<W>>(node: &N, apart_of: impl Fn(usize) -> f32) -> Self {
+        let about = About::of(node);
+        let mut spreads = [0.0; W];
         for slot in 0..W {
-            if node.kind(slot) == kind::EMPTY {
-                continue;
-            }
-            let child = node.summary(slot);
-            let (flux, spread, c) = (f64::from(child.phi()), f64::from(child.spread()), child.center());
-            let from = [
-                f64::from(c.x) - f64::from(first.x),
-                f64::from(c.y) - f64::from(first.y),
-                f64::from(c.z) - f64::from(first.z),
-            ];
-            phi += flux;
-            for axis in 0..3 {
-                moved[axis] += flux * from[axis];
-                squares += flux * from[axis] * from[axis];
-            }
+            spreads[slot] = node.summary(slot).spread();
+        }
+        let (mut within, mut extents) = (0.0, 0.0);
+        for slot in (0..W).filter(|&slot| node.kind(slot) != kind::EMPTY) {
+            let (flux, spread) = (about.flux[slot], f64::from(spreads[slot]));
             if node.kind(slot) == kind::INNER {
                 let apart = f64::from(apart_of(slot));
                 within += flux * apart;
@@ -160,20 +199,21 @@ impl Spread {
                 extents += flux * spread;
             }
         }
-        let per_phi = if phi > 0.0 { 1.0 / phi } else { 0.0 };
-        let mean = moved.map(|sum| sum * per_phi);
-        let between = (squares - (moved[0] * mean[0] + moved[1] * mean[1] + moved[2] * mean[2])).max(0.0);
         Self {
-            phi,
+            about,
             within,
-            between,
             extents,
         }
     }
 
+    /// Flux of all lights, W.
+    pub fn phi(&self) -> f64 {
+        self.about.phi
+    }
+
     /// What a node costs that has these lights below: all but what no tree could help.
     pub fn apart(&self) -> f64 {
-        self.within + self.between
+        self.within + self.about.between
     }
 }
 

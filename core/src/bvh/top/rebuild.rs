@@ -160,7 +160,7 @@ impl<N> TopCopy<N> {
             node.set_limits(&limits);
             topology.nodes[index as usize] = node;
             let spread = Spread::of(&node, |slot| below[slot]);
-            apart[index as usize] = (spread.apart() / spread.phi.max(f64::MIN_POSITIVE)) as f32;
+            apart[index as usize] = (spread.apart() / spread.phi().max(f64::MIN_POSITIVE)) as f32;
             cost += if index > 0 { spread.apart() } else { 0.0 };
         }
         tree.cost = if self.cost > 0.0 { cost / self.cost } else { 1.0 };
