@@ -119,18 +119,15 @@ fn edits() {
         Edit::AddMesh {
             triangles: Vec::new(),
         },
-        &["without emissive triangles"],
+        &["without lights"],
     );
     let mut triangles = vec![LAMP; 3];
     triangles[1].radiance[2] = f32::NAN;
-    refused(
-        Edit::AddMesh { triangles },
-        &["emissive triangle 1", "blue", "NaN"],
-    );
+    refused(Edit::AddMesh { triangles }, &["light 1", "blue", "NaN"]);
     let triangles = vec![LAMP; 2];
     let count = refused(
         Edit::SetTriangles { mesh, triangles },
-        &["2 triangles for a mesh of 3"],
+        &["2 lights for a mesh of 3"],
     );
     assert_eq!(
         count,
@@ -146,7 +143,7 @@ fn edits() {
             first,
             triangles,
         },
-        &["triangles 2 to 4 of a mesh of 3", "within it"],
+        &["lights 2 to 4 of a mesh of 3", "within it"],
     );
     refused(
         add(here, 2.0f32.powi(61)),
@@ -262,7 +259,7 @@ fn files() {
     };
     says(
         &ReadError::Light { triangle: 4, error },
-        &["emissive triangle 4: coordinate y of vertex 2"],
+        &["light 4: coordinate y of vertex 2"],
     );
     let reason = EditReason::Radiance { value: -1.0 };
     says(

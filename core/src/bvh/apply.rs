@@ -22,7 +22,7 @@ pub struct Added {
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Does a batch of edits, all or none. Sampling is as good as before after the next [`refit`](Self::refit); until then
+    /// Does a batch of edits in their order, all or none. Sampling is as good as before after the next [`refit`](Self::refit); until then
     /// probabilities are exact and no light that is gone is returned, but there may be none where one was removed, and lights that
     /// were added may have the uniform share alone.
     ///
@@ -246,6 +246,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             self.close(index);
         }
         self.top.strayed.remove(&index);
+        self.top.lit.remove(&index);
         let placed = &mut self.placed[index as usize];
         placed.live = false;
         placed.node = INVALID;

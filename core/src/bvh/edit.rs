@@ -237,8 +237,8 @@ impl fmt::Display for EditReason {
                  read has ids of its own: `instance_id`)",
                 id.index
             ),
-            Self::EmptyMesh => write!(f, "a mesh without emissive triangles; leave it out"),
-            Self::Light { index, error } => write!(f, "emissive triangle {index}: {error}"),
+            Self::EmptyMesh => write!(f, "a mesh without lights; leave it out"),
+            Self::Light { index, error } => write!(f, "light {index}: {error}"),
             Self::Transform(error) => write!(f, "{error}"),
             Self::Radiance { value } => write!(
                 f,
@@ -247,7 +247,7 @@ impl fmt::Display for EditReason {
             ),
             Self::Count { expected, found } => write!(
                 f,
-                "{found} triangles for a mesh of {expected}; add a mesh of its own instead"
+                "{found} lights for a mesh of {expected}; add a mesh of its own instead"
             ),
             Self::Range {
                 first,
@@ -255,7 +255,7 @@ impl fmt::Display for EditReason {
                 triangles,
             } => write!(
                 f,
-                "triangles {first} to {} of a mesh of {triangles}; name a range within it",
+                "lights {first} to {} of a mesh of {triangles}; name a range within it",
                 u64::from(*first) + *count as u64
             ),
             Self::InUse { instances } => {

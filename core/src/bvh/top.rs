@@ -80,6 +80,8 @@ pub(super) struct Top {
     pub counted: Vec<u32>,
     /// Instances whose meshes went elsewhere, to be looked at.
     pub strayed: BTreeSet<u32>,
+    /// Instances that were put anywhere while they had no flux and shine now, to be put in where they are.
+    pub lit: BTreeSet<u32>,
     /// Nodes whose children edits have changed; they may be gone.
     pub touched: Vec<u32>,
     /// By number: the last search that came by. Instances have theirs.
@@ -122,7 +124,7 @@ impl Top {
     /// Bytes of its arrays.
     pub fn memory(&self) -> usize {
         size_of_val(&*self.nodes)
-            + self.strayed.len() * size_of::<u32>()
+            + (self.strayed.len() + self.lit.len()) * size_of::<u32>()
             + size_of_val(&*self.number_of)
             + size_of_val(&*self.heights)
             + size_of_val(&*self.counts)
@@ -183,6 +185,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             self.settle_placed(index);
             for part in self.placed[index as usize].parts.clone() {
                 self.placed[part as usize].settle();
+            }
+            if self.is_off(index) {
+                self.note_nowhere(index);
             }
         }
         self.index_top();

@@ -5,12 +5,13 @@ use std::path::Path;
 
 use image::{ImageFormat, ImageReader, Limits};
 use lightbvh::light::MAX_RADIANCE;
-use lightbvh::light::infinite::{Environment, EnvironmentError, MAX_LEVELS};
+use lightbvh::light::infinite::Environment;
 
 use super::error::SceneError;
 use super::radiance_hdr;
 use super::read_file::read_file;
 use super::shrunk::{clean, shrunk};
+use super::texels::{Texels, size_for};
 
 /// Most columns and rows of a picture, and bytes that it may take in memory.
 const MOST: u32 = 1 << 14;
@@ -57,41 +58,47 @@ pub fn read_environment(
             "has no pixels; export the environment map again",
         )));
     }
-    // About as many texels as pixels.
-    let side = (f64::from(width) * f64::from(height)).sqrt().ceil() as u32;
-    let size = side.next_power_of_two().clamp(1, 1 << MAX_LEVELS);
-    let numbers = |direction| {
-        let [x, y] = place(direction, [width, height]);
-        picture.get_pixel(x, y).0
+    let light = |numbers| match &header {
+        Some(header) => header.light_of(numbers),
+        None => numbers,
     };
-    let light = |direction| match &header {
-        Some(header) => header.light_of(numbers(direction)),
-        None => numbers(direction),
-    };
-    let map = Environment::from_fn(size, |direction| light(direction).map(|channel| channel * scale));
-    let map = map.map_err(|error| {
-        let EnvironmentError::Radiance {
-            direction, channel, ..
-        } = error
-        else {
-            return invalid(error.to_string());
+    let is_sound = |x: &f32| (0.0..=MAX_RADIANCE).contains(x);
+    for (x, y, pixel) in picture.enumerate_pixels() {
+        let own = light(pixel.0);
+        let Some(channel) = own.iter().position(|x| !is_sound(&(x * scale))) else {
+            continue;
         };
         // Of what makes it too much, the first.
-        let is_sound = |x: f32| (0.0..=MAX_RADIANCE).contains(&x);
-        let [number, light] = [numbers(direction), light(direction)].map(|pixel| pixel[channel]);
-        invalid(if is_sound(light) {
+        let at = format!("column {x}, row {y} of {width} × {height}");
+        let [number, own] = [pixel.0[channel], own[channel]];
+        return Err(invalid(if is_sound(&own) {
             format!(
-                "its radiance of {light:e} W/(m² sr) times the factor {scale:e} of --environment-scale (in a list of `gallery`, \
+                "its radiance of {own:e} W/(m² sr) in {at} times the factor {scale:e} of --environment-scale (in a list of `gallery`, \
                  environment_scale) is more than 2^100 (1.3e30); give a smaller factor"
             )
-        } else if is_sound(number) {
+        } else if is_sound(&number) {
             format!(
-                "its pixel of {number:e}, divided by its EXPOSURE and COLORCORR, is more than 2^100 W/(m² sr) (1.3e30); repair those lines"
+                "its pixel of {number:e} in {at}, divided by its EXPOSURE and COLORCORR, is more than 2^100 W/(m² sr) (1.3e30); repair those lines"
             )
         } else {
-            error.to_string()
-        })
-    })?;
+            format!(
+                "its pixel of {number:e} in {at} is more than 2^100 W/(m² sr) (1.3e30); repair the picture"
+            )
+        }));
+    }
+    let size = size_for([width, height]);
+    let mut texels = Texels::new(size);
+    texels.add_longitude_latitude(
+        [width, height],
+        |x, y| light(picture.get_pixel(x, y).0).map(|own| f64::from(own * scale)),
+        of_picture,
+    );
+    let map = Environment::from_fn(size, |direction| {
+        // Every texel has a place, so nothing else is asked.
+        let own = texels.radiance(direction.map(f64::from), || [0.0; 3]);
+        own.map(|x| x as f32)
+    });
+    let map = map.map_err(|error| invalid(error.to_string()))?;
     let name = path.display();
     if header.is_some_and(|header| header.has_other_primaries) {
         warnings.push(format!(
@@ -106,27 +113,34 @@ pub fn read_environment(
     Ok(map)
 }
 
-/// The pixel of a picture by longitude and latitude that a unit direction lies in.
-fn place([x, y, z]: [f32; 3], [width, height]: [u32; 2]) -> [u32; 2] {
-    let turns = libm::atan2(f64::from(x), f64::from(-z)) / std::f64::consts::TAU + 0.5;
-    let down = libm::acos(f64::from(y.clamp(-1.0, 1.0))) / std::f64::consts::PI;
-    let pixel = |part: f64, count: u32| ((part * f64::from(count)) as u32).min(count - 1);
-    [pixel(turns, width), pixel(down, height)]
+/// The direction of what lies in direction (x, y, z) of a picture whose first row is about +z and whose first column goes from +x to +y.
+fn of_picture([x, y, z]: [f64; 3]) -> [f64; 3] {
+    [-y, z, x]
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::radiance_hdr::tests::picture;
+    use super::super::radiance_hdr::tests::{picture, picture_of};
     use super::*;
 
     #[test]
     fn directions_lie_where_the_picture_has_them() {
-        let size = [400, 200];
-        assert_eq!(place([0.0, 0.0, -1.0], size), [200, 100]);
-        assert_eq!(place([1.0, 0.0, 0.0], size), [300, 100]);
-        assert_eq!(place([-1.0, 0.0, 0.0], size), [100, 100]);
-        assert_eq!(place([0.0, 1.0, 0.0], size)[1], 0);
-        assert_eq!(place([0.0, -1.0, 0.0], size)[1], 199);
+        // A picture of 4 columns and 2 rows, each pixel of a light of its own.
+        let pixels: Vec<[u8; 4]> = (0..8).map(|k| [16 * (k + 1), 0, 0, 129]).collect();
+        let (found, _) = read("places.hdr", &picture_of("", [4, 2], &pixels), 1.0);
+        let map = found.expect("a map");
+        for (direction, pixel) in [
+            // The middle of the third column of four lies an eighth of a turn from −Z towards +X.
+            ([1.0, 0.5, -1.0], 2),
+            ([1.0, 0.5, 1.0], 3),
+            ([-1.0, 0.5, -1.0], 1),
+            ([-1.0, 0.5, 1.0], 0),
+            ([1.0, -0.5, -1.0], 6),
+            ([-1.0, -0.5, 1.0], 4),
+        ] {
+            let expected = f32::from(pixels[pixel][0]) / 128.0;
+            assert_eq!(map.radiance(direction)[0], expected, "{direction:?}");
+        }
     }
 
     /// A file with these bytes as an environment map, and what is said of it.

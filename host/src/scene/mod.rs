@@ -55,6 +55,7 @@ mod shrunk;
 mod skin_words;
 mod sky;
 mod srgb;
+mod texels;
 mod track;
 mod transform;
 mod upright;

@@ -111,11 +111,13 @@ pub(super) mod tests {
 
     /// A picture with these lines in its header and these pixels in a row: mantissas, and the exponent of 2 plus 128.
     pub fn picture(lines: &str, pixels: &[[u8; 4]]) -> Vec<u8> {
-        let mut bytes = format!(
-            "#?RADIANCE\n{lines}FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X {}\n",
-            pixels.len()
-        )
-        .into_bytes();
+        picture_of(lines, [pixels.len(), 1], pixels)
+    }
+
+    /// One of so many columns and rows.
+    pub fn picture_of(lines: &str, [width, height]: [usize; 2], pixels: &[[u8; 4]]) -> Vec<u8> {
+        let mut bytes =
+            format!("#?RADIANCE\n{lines}FORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n").into_bytes();
         bytes.extend(pixels.as_flattened());
         bytes
     }

@@ -111,7 +111,7 @@ impl fmt::Display for ReadError {
             Self::Places { what } => {
                 write!(f, "places of {what} overlap or lie outside; the file is damaged")
             }
-            Self::Light { triangle, error } => write!(f, "emissive triangle {triangle}: {error}"),
+            Self::Light { triangle, error } => write!(f, "light {triangle}: {error}"),
             Self::Instance { instance, reason } => write!(f, "instance {instance}: {reason}"),
             Self::Tree(violation) => write!(f, "{violation}; the file is damaged"),
         }

@@ -76,7 +76,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         bvh.restore_top_quality(&top_built);
         // Where what was written was not refitted.
         let all = Vec::from_iter(0..header.blases);
-        bvh.top.strayed = strayed.into_iter().collect();
+        strayed.into_iter().for_each(|index| bvh.note(index));
         bvh.note_fluxes(&all);
         bvh.note_centers(&all);
         Ok(bvh)

@@ -20,6 +20,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         }
         refitted.extend(self.refitted_since(0));
         refitted.retain(|&blas| !self.blases[blas as usize].is_outgoing);
+        // Which of both lists an instance is in is told by where it was put.
+        let noted: BTreeSet<u32> = self.top.strayed.union(&self.top.lit).copied().collect();
         let header = Header {
             params: self.params,
             single: self.single,
@@ -35,7 +37,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             top_root: self.top.root,
             top_nodes: self.top.nodes.len() as u32,
             refitted: refitted.len() as u32,
-            strayed: self.top.strayed.len() as u32,
+            strayed: noted.len() as u32,
         };
         let mut words = header.words::<N, W>().to_vec();
         self.write_bottoms(&mut words);
@@ -56,7 +58,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
             let nodes = self.blases[blas as usize].nodes.clone();
             words.extend(nodes.map(|node| self.quality[node as usize].built.to_bits()));
         }
-        words.extend(&self.top.strayed);
+        words.extend(noted);
         self.write_nodes(&mut words);
         self.write_triangles_to(&mut words);
         words[LENGTH] = words.len() as u32;

@@ -66,9 +66,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 placed.hung_radiance = placed.bright();
             }
         }
-        // In a whole top level `settle_placed` tells of dark meshes.
         for &name in &tree.dark {
-            if above.is_some() && self.is_marked(name, found.mark) {
+            if self.is_marked(name, found.mark) {
                 self.note_nowhere(name);
             }
         }

@@ -6,6 +6,7 @@
 use alloc::vec::Vec;
 
 use super::cut::{Cut, Part};
+use super::strayed::OFF;
 use crate::beam::Limits;
 use crate::build::{BuildParams, Topology, build_top};
 use crate::bvh::opened::Openable;
@@ -118,7 +119,7 @@ impl<N> TopCopy<N> {
         if leaves.is_empty() {
             return tree;
         }
-        let dark = tree.names.iter().zip(&leaves).filter(|(_, own)| own.phi() <= 0.0);
+        let dark = tree.names.iter().zip(&leaves).filter(|(_, own)| own.phi() <= OFF);
         tree.dark = dark.map(|(&name, _)| name).collect();
         let whole = self.whole.unwrap_or_else(|| opened::cost_of(&leaves));
         [tree.open, tree.close] = opened::wanted::<N, W>(whole, &self.openable);

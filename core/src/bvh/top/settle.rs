@@ -8,6 +8,7 @@
 
 use alloc::vec::Vec;
 
+use super::strayed::OFF;
 use crate::build::{BuildParams, Heuristic, Topology, build_top};
 use crate::bvh::{Bvh, Trails};
 use crate::node::{Node, kind};
@@ -58,7 +59,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             false => (leaf, self.in_world(leaf)),
         };
         let leaves: Vec<_> = leaves.into_iter().map(shape).collect();
-        let nowhere = leaves.iter().filter(|(_, own)| own.phi() <= 0.0);
+        let nowhere = leaves.iter().filter(|(_, own)| own.phi() <= OFF);
         let nowhere: Vec<u32> = nowhere.map(|&(leaf, _)| leaf).collect();
         let params = BuildParams {
             heuristic: match self.params.heuristic {

@@ -4,6 +4,8 @@
 //! left its own extent are noted, and the rebuilder puts a few in elsewhere as a frame begins: edits had to pay for what they did not change.
 
 #[cfg(feature = "std")]
+use alloc::collections::BTreeSet;
+#[cfg(feature = "std")]
 use alloc::vec::Vec;
 
 use super::misplaced::{STIRS, SWAYS, distance};
@@ -48,15 +50,17 @@ enum Guard {
     RestsAlone,
 }
 
-/// Where an instance is said to have been put that had no flux, metres along each axis: farther off than any light.
+/// Flux, W, up to which an instance is off: a tree is built by flux, and puts it anywhere. What a map of scale 0 hides has 2^-100 or so.
+pub(super) const OFF: f32 = crate::exact::pow2(-80);
+/// Where an instance is said to have been put that was off, metres along each axis: farther off than any light.
 const NOWHERE: f32 = 1e18;
 
 /// Where a rebuilder goes on.
 #[cfg(feature = "std")]
 #[derive(Debug, Default)]
 pub(crate) struct Looked {
-    /// From this index on.
-    next: u32,
+    /// From these indices on, of what strayed and of what came on.
+    next: [u32; 2],
     /// The epoch when the last frame began.
     epoch: Option<u64>,
     /// Whether many were noted since none was: parts are built anew then.
@@ -139,6 +143,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// What is beside an instance in its node, but for those that are nowhere themselves: they go elsewhere too.
+    #[cfg(feature = "std")]
     fn beside(&self, index: u32) -> impl Iterator<Item = N::Summary> + '_ {
         let placed = &self.placed[index as usize];
         let node = &self.nodes[placed.node as usize];
@@ -167,8 +172,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             && self.nodes[placed.node as usize]
                 .summary(placed.slot as usize)
                 .phi()
-                > 0.0;
-        if tells && self.instances[index as usize].flux > 0.0 {
+                > OFF;
+        if tells && !self.is_off(index) {
             return;
         }
         let blas = self.meshes[placed.mesh as usize].blas;
@@ -183,29 +188,54 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// An instance that was moved while it was off shines again. Whether it is noted: an opened one, and one beside very many, is looked at by the edit.
     pub(in crate::bvh) fn note_lit(&mut self, index: u32) -> bool {
         let placed = &self.placed[index as usize];
-        let is_noted = placed.parts.is_empty() && placed.node != INVALID && self.top.strayed.len() < LIT;
+        let is_alone = placed.parts.is_empty() && placed.node != INVALID;
+        let is_noted = is_alone && (self.is_nowhere(index) || self.top.strayed.len() < LIT);
         if is_noted {
-            self.top.strayed.insert(index);
+            self.note(index);
         }
         is_noted
     }
 
-    /// This leaf was put where it is while it had no flux: a tree is built by what shines, and it hangs anywhere. It is looked at once it shines.
+    /// An instance is to be looked at. What came on has a list of its own, for each of it is put in elsewhere and others would wait.
+    pub(in crate::bvh) fn note(&mut self, index: u32) {
+        if self.is_nowhere(index) {
+            self.top.lit.insert(index);
+        } else {
+            self.top.strayed.insert(index);
+        }
+    }
+
+    fn is_nowhere(&self, index: u32) -> bool {
+        self.placed[index as usize].hung_center[0] == NOWHERE
+    }
+
+    /// Whether an instance itself has no flux, whatever its mesh has.
+    pub(super) fn is_off(&self, index: u32) -> bool {
+        self.instances[index as usize].flux <= OFF
+    }
+
+    /// This leaf was put where it is while it was off: it hangs anywhere. It is looked at once it shines.
     pub(super) fn note_nowhere(&mut self, leaf: u32) {
         let owner = self.placed[leaf as usize].part_of;
         let index = if owner == INVALID { leaf } else { owner };
         let blas = self.meshes[self.placed[index as usize].mesh as usize].blas;
-        if self.root_of(blas).phi() <= 0.0 {
+        let has_come = if self.root_of(blas).phi() <= 0.0 {
             self.lose_center(blas);
-        } else if self.instances[index as usize].flux <= 0.0 {
+            false
+        } else if self.is_off(index) {
             // Of an opened one all parts would be put in elsewhere, and none was seen to need it.
             if owner != INVALID {
                 return;
             }
-        } else if self.top.strayed.len() < LIT {
-            self.top.strayed.insert(index);
-        }
+            false
+        } else {
+            true
+        };
         self.placed[index as usize].hung_center = [NOWHERE; 3];
+        self.top.strayed.remove(&index);
+        if has_come {
+            self.note(index);
+        }
     }
 
     /// Whether the mesh of a leaf has no flux.
@@ -224,14 +254,15 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// An instance that was moved, and that lies no farther from what is beside it by a single step, is looked at as a frame begins: one that walks through a
     /// scene is never far from where it was a step before.
     pub(super) fn note_moved(&mut self, index: u32) {
-        if self.top.strayed.len() >= NOTED || self.placed[index as usize].node == INVALID {
+        if self.placed[index as usize].node == INVALID {
             return;
         }
         // Dark ones are nowhere.
         let blas = self.blas_index(&self.placed[index as usize]);
-        if self.instances[index as usize].flux > 0.0 && self.root_of(blas).phi() > 0.0 && self.has_left(index)
-        {
-            self.top.strayed.insert(index);
+        let shines = !self.is_off(index) && self.root_of(blas).phi() > 0.0;
+        let is_nowhere = self.is_nowhere(index);
+        if shines && (is_nowhere || self.top.strayed.len() < NOTED && self.has_left(index)) {
+            self.note(index);
         }
     }
 
@@ -261,12 +292,31 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if placed.hung_center[0].is_nan() {
             placed.hung_center = center;
         }
-        self.top.strayed.insert(index);
+        self.note(index);
     }
 
-    /// Puts noted instances in elsewhere that went farther than what lies beside them is spread, about `most` leaves of them.
+    /// Puts noted instances in elsewhere, about `most` leaves of them: those that went farther than what lies beside them is spread, and then at least one
+    /// of what came on.
     #[cfg(feature = "std")]
     pub(crate) fn put_strayed_elsewhere(&mut self, most: usize, looked: &mut Looked) {
+        let mut out = self.take_strayed(most, looked);
+        self.take_lit(most.saturating_sub(out.len()).max(1), looked, &mut out);
+        looked.epoch = Some(self.epoch);
+        if out.is_empty() {
+            return;
+        }
+        self.epoch += 1;
+        for &leaf in &out {
+            self.remove_leaf(leaf);
+        }
+        out.sort_unstable();
+        self.insert_instances(&out);
+        self.settle_some(crate::bvh::rebuild::ADOPTED);
+    }
+
+    /// Leaves of what went far, about `most`.
+    #[cfg(feature = "std")]
+    fn take_strayed(&mut self, most: usize, looked: &mut Looked) -> Vec<u32> {
         let mut out = Vec::new();
         let mut later = Vec::new();
         let noted = self.top.strayed.len();
@@ -275,19 +325,11 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             if out.len() >= most {
                 break;
             }
-            // After the last one: those that stray in every frame keep nobody waiting.
-            let strayed = &self.top.strayed;
-            let next = strayed.range(looked.next..).next().or(strayed.first());
-            let Some(&index) = next else {
+            let Some(index) = take_next(&mut self.top.strayed, &mut looked.next[0]) else {
                 break;
             };
-            self.top.strayed.remove(&index);
-            looked.next = index + 1;
             let blas = self.blas_index(&self.placed[index as usize]);
-            let changed = self.blases[blas as usize]
-                .changed
-                .max(self.placed[index as usize].changed);
-            let rests = looked.epoch.is_some_and(|since| changed <= since);
+            let rests = self.rests(index, looked);
             // One that blinks is where it is bright, unless it rests where it is dim.
             if self.was_brighter(blas) > DIM && !rests {
                 later.push(index);
@@ -312,17 +354,43 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             }
         }
         self.top.strayed.extend(later);
-        looked.epoch = Some(self.epoch);
-        if out.is_empty() {
-            return;
+        out
+    }
+
+    /// Adds leaves of what came on to `out`, about `most`.
+    #[cfg(feature = "std")]
+    fn take_lit(&mut self, most: usize, looked: &mut Looked, out: &mut Vec<u32>) {
+        let mut later = Vec::new();
+        let enough = out.len() + most;
+        for _ in 0..LOOKED_AT {
+            if out.len() >= enough {
+                break;
+            }
+            let Some(index) = take_next(&mut self.top.lit, &mut looked.next[1]) else {
+                break;
+            };
+            let blas = self.blas_index(&self.placed[index as usize]);
+            if self.was_brighter(blas) > DIM && !self.rests(index, looked) {
+                later.push(index);
+            } else if self.root_of(blas).phi() <= 0.0 {
+                self.lose_center(blas);
+            } else if self.is_nowhere(index) && !self.is_off(index) {
+                let leaves = self.leaves_of(index);
+                out.extend(leaves.filter(|&leaf| self.placed[leaf as usize].node != INVALID));
+                self.settle_placed(index);
+            }
         }
-        self.epoch += 1;
-        for &leaf in &out {
-            self.remove_leaf(leaf);
-        }
-        out.sort_unstable();
-        self.insert_instances(&out);
-        self.settle_some(crate::bvh::rebuild::ADOPTED);
+        self.top.lit.extend(later);
+    }
+
+    /// Whether an instance and its mesh are as they were when the last frame began.
+    #[cfg(feature = "std")]
+    fn rests(&self, index: u32, looked: &Looked) -> bool {
+        let placed = &self.placed[index as usize];
+        let changed = self.blases[self.blas_index(placed) as usize]
+            .changed
+            .max(placed.changed);
+        looked.epoch.is_some_and(|since| changed <= since)
     }
 
     /// Whether an instance is farther from where it was put than its node was wide then, the others in it, and it where it was; and as `guard` says, so that
@@ -397,6 +465,15 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         4 * moved >= 3 * count
     }
+}
+
+/// The first of `list` from `next` on, after which the next call goes on: those that are noted in every frame keep nobody waiting.
+#[cfg(feature = "std")]
+fn take_next(list: &mut BTreeSet<u32>, next: &mut u32) -> Option<u32> {
+    let index = *list.range(*next..).next().or(list.first())?;
+    list.remove(&index);
+    *next = index + 1;
+    Some(index)
 }
 
 #[cfg(all(test, feature = "std"))]

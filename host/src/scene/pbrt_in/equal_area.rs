@@ -18,7 +18,7 @@ pub(super) fn square_of([x, y, z]: [f64; 3]) -> [f64; 2] {
 }
 
 /// The unit direction of a place.
-pub(super) fn direction_of(square: [f64; 2]) -> [f64; 3] {
+pub fn direction_of(square: [f64; 2]) -> [f64; 3] {
     let [u, v] = square.map(|x| 2.0 * x - 1.0);
     let (up, vp) = (u.abs(), v.abs());
     let distance = 1.0 - (up + vp);

@@ -4,11 +4,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use image::Rgb32FImage;
-use lightbvh::light::infinite::{Environment, MAX_LEVELS};
+use lightbvh::light::infinite::Environment;
 
 use super::super::notes::Place;
 use super::super::picture_file::{from_srgb, is_linear};
 use super::super::shrunk::{clean, shrunk};
+use super::super::texels::{Texels, size_for};
 use super::super::transform::{Affine, unit_or};
 use super::params::Params;
 use super::state::Loader;
@@ -30,8 +31,9 @@ pub(super) struct Infinite {
 struct Picture {
     pixels: Rgb32FImage,
     is_equal_area: bool,
-    /// From directions of the world to those of the picture.
+    /// From directions of the world to those of the picture, and back.
     to_picture: Affine,
+    to_world: Affine,
 }
 
 impl Picture {
@@ -46,6 +48,20 @@ impl Picture {
         let pixel = |part: f64, count: u32| ((part * f64::from(count)) as u32).min(count - 1);
         let pixel = self.pixels.get_pixel(pixel(u, width), pixel(v, height));
         pixel.0.map(f64::from)
+    }
+
+    /// Its light by texel; `to_scene` leads from directions of the world to those of the scene.
+    fn texels(&self, size: u32, to_scene: &Affine) -> Texels {
+        let mut texels = Texels::new(size);
+        let (width, height) = self.pixels.dimensions();
+        let pixel = |x, y| self.pixels.get_pixel(x, y).0.map(f64::from);
+        let direction = |own| unit_or(to_scene.vector(self.to_world.vector(own)), [0.0, 0.0, 1.0]);
+        if self.is_equal_area {
+            texels.add_equal_area(width, pixel, |place| direction(equal_area::direction_of(place)));
+        } else {
+            texels.add_longitude_latitude([width, height], pixel, direction);
+        }
+        texels
     }
 
     /// Irradiance of a patch that faces the picture's +z, W/m² where its numbers are W/(m² sr): the sum over the half of the sphere there.
@@ -135,8 +151,8 @@ impl Loader<'_> {
     }
 
     fn sky_picture(&mut self, path: &Path, place: &Place) -> Result<Picture, String> {
-        let map = &self.graphics.ctm;
-        let to_picture = matrix::inverse(map).ok_or_else(|| String::from("its transform flattens space"))?;
+        let map = self.graphics.ctm;
+        let to_picture = matrix::inverse(&map).ok_or_else(|| String::from("its transform flattens space"))?;
         let picture = self.pictures.decode(path)?;
         let is_light = is_linear(&picture);
         let mut pixels = picture.into_rgb32f();
@@ -153,6 +169,7 @@ impl Loader<'_> {
             is_equal_area,
             pixels: shrunk(pixels, is_equal_area),
             to_picture,
+            to_world: map,
         })
     }
 
@@ -161,25 +178,25 @@ impl Loader<'_> {
         if self.infinite.is_empty() {
             return None;
         }
-        let side = |light: &Infinite| {
-            let picture = light.picture.as_ref()?;
-            let (width, height) = picture.pixels.dimensions();
-            Some((f64::from(width) * f64::from(height)).sqrt().ceil() as u32)
-        };
-        let side = self.infinite.iter().filter_map(side).max().unwrap_or(CONSTANT);
-        let size = side.clamp(1, 1 << MAX_LEVELS).next_power_of_two();
+        let pictures = self.infinite.iter().filter_map(|light| light.picture.as_ref());
+        let sizes = pictures.map(|picture| size_for(picture.pixels.dimensions().into()));
+        let size = sizes.max().unwrap_or(1).max(CONSTANT);
+        // From the world to the scene.
+        let back = matrix::inverse(to_world)?;
         let mut constant = [0.0; 3];
-        for light in self.infinite.iter().filter(|light| light.picture.is_none()) {
-            constant = [0, 1, 2].map(|i| constant[i] + light.color[i]);
+        let mut skies = Vec::new();
+        for light in &self.infinite {
+            match &light.picture {
+                Some(picture) => skies.push((light.color, picture, picture.texels(size, &back))),
+                None => constant = [0, 1, 2].map(|i| constant[i] + light.color[i]),
+            }
         }
         let radiance = |direction: [f32; 3]| {
-            let world = to_world.vector(direction.map(f64::from));
+            let direction = direction.map(f64::from);
             let mut sum = constant;
-            for light in &self.infinite {
-                if let Some(picture) = &light.picture {
-                    let pixel = picture.at(world);
-                    sum = [0, 1, 2].map(|i| sum[i] + light.color[i] * pixel[i]);
-                }
+            for (color, picture, texels) in &skies {
+                let own = texels.radiance(direction, || picture.at(to_world.vector(direction)));
+                sum = [0, 1, 2].map(|i| sum[i] + color[i] * own[i]);
             }
             // The greatest radiance that there may be.
             sum.map(|x| x.min(f64::from(lightbvh::light::MAX_RADIANCE)) as f32)

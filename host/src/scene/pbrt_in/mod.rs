@@ -18,7 +18,7 @@ mod area;
 mod camera;
 mod cie;
 mod directive;
-mod equal_area;
+pub(super) mod equal_area;
 mod finish;
 mod infinite;
 mod known;

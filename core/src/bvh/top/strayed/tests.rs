@@ -274,7 +274,7 @@ fn what_rests_is_put_in_elsewhere_sooner_than_what_moves() {
     let mut bvh = between.expect("a place where its node is looser, and not by much");
     let stamp = bvh.epoch;
     let looked = &mut Looked {
-        next: 0,
+        next: [0; 2],
         epoch: Some(still.epoch),
         ..Looked::default()
     };

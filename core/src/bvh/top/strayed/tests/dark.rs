@@ -217,3 +217,66 @@ fn what_comes_on_is_noted_beside_many_that_move() {
     let found = over_new(&bvh, to);
     assert!(found < 1.5, "{found}");
 }
+
+/// A top level of up to 1024 instances is built as a whole, and lamps that were off then had a place anywhere in it: to 3.5 times once they come on. Off by
+/// radiance, or hidden by a map of scale 0.
+#[test]
+fn what_was_off_as_the_whole_top_level_was_built_is_looked_at() {
+    let mut beyond = [0; 2];
+    for seed in 0..16 {
+        let is_hidden = seed % 2 == 1;
+        let random = &mut Random(160 + seed / 2);
+        let side = 35.0;
+        let mut bvh = LightBvh::default();
+        let lamp = bvh.add_mesh(cloud(1, [0.0; 3], 0)).expect("a lamp");
+        let mut at: Vec<_> = (0..900).map(|_| (random.vector() * side).to_array()).collect();
+        // The first are neighbours, and brighter than the others.
+        let middle = glam::Vec3::from(at[0]);
+        at.sort_by(|a, b| {
+            let [a, b] = [a, b].map(|&own| (glam::Vec3::from(own) - middle).length_squared());
+            a.total_cmp(&b)
+        });
+        let add = at.iter().enumerate().map(|(k, &at)| Edit::AddInstance {
+            mesh: lamp,
+            transform: Transform::at(at),
+            radiance: if k < 40 { 10.0 } else { 1.0 },
+        });
+        let ids = bvh.apply(add.collect()).expect("instances").instances;
+        bvh.refit();
+        let own = &mut rebuilder();
+        let set = |is_on: bool| {
+            let some = ids.iter().zip(&at).take(40);
+            let edits = some.map(|(&instance, &at)| match (is_hidden, is_on) {
+                (false, _) => shine(instance, if is_on { 10.0 } else { 0.0 }),
+                (true, true) => place(instance, at),
+                (true, false) => Edit::SetTransform {
+                    instance,
+                    transform: Transform {
+                        columns: [[0.0; 3]; 3],
+                        translation: at,
+                    },
+                },
+            });
+            edits.collect::<Vec<_>>()
+        };
+        frame(&mut bvh, own, set(false));
+        let mut walks = at.clone();
+        for k in 0..100 {
+            let moves = (0..100).map(|other| {
+                let other = 40 + (7 * k + 131 * other) % 860;
+                let step = random.vector() * 4.0;
+                walks[other] = (glam::Vec3::from(walks[other]) + step).to_array();
+                place(ids[other], walks[other])
+            });
+            let moves = moves.collect();
+            frame(&mut bvh, own, moves);
+        }
+        (0..REST).for_each(|_| frame(&mut bvh, own, Vec::new()));
+        frame(&mut bvh, own, set(true));
+        rest(&mut bvh, own);
+        beyond[usize::from(is_hidden)] += at.iter().take(40).filter(|&&at| over_new(&bvh, at) > 1.4).count();
+        assert!(bvh.top.lit.is_empty());
+    }
+    // 44 and 46 before.
+    assert!(beyond.iter().all(|&count| count <= 16), "{beyond:?} of 320");
+}
