@@ -98,14 +98,14 @@ impl SceneData {
 }
 
 impl Scene {
-    /// Shows one after the other each animation that is left out, alone, the first `most` of them, and calls `with` for the scene then. Returns what is
+    /// Shows one after the other each animation that is left out, alone, the first `most` of them, and calls `with` for its place among them and the scene then. Returns what is
     /// wrong with those that [`Scene::new`] would refuse, which are passed.
-    pub fn each_clip(&self, most: usize, mut with: impl FnMut(&Self)) -> Vec<String> {
+    pub fn each_clip(&self, most: usize, mut with: impl FnMut(usize, &Self)) -> Vec<String> {
         let mut scene = self.clone();
         let mut broken = Vec::new();
-        for clip in self.data().clips.iter().take(most) {
+        for (index, clip) in self.data().clips.iter().take(most).enumerate() {
             match scene.show(vec![clip.clone()]) {
-                Ok(()) => with(&scene),
+                Ok(()) => with(index, &scene),
                 Err(error) => broken.push(format!(
                     "animation {} is left out, as it cannot be shown: {error}",
                     named(clip.place, &clip.name)

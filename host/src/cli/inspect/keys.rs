@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::scene::{FRAMES_PER_SECOND, Interpolation, Primitive, SceneData};
+use crate::scene::{Animation, FRAMES_PER_SECOND, Interpolation, Primitive, SceneData};
 
 /// Which nodes move lights: those that lights stand on, joints of meshes that shine, and whatever carries one of them.
 pub(super) fn carriers(data: &SceneData) -> Vec<bool> {
@@ -38,10 +38,10 @@ pub(super) fn carriers(data: &SceneData) -> Vec<bool> {
     carries
 }
 
-/// The frames beside the keys of what moves lights, in the first round of each animation that is shown; of splines those between keys too.
-pub(super) fn frames(data: &SceneData, carries: &[bool]) -> Vec<u32> {
+/// The frames beside the keys of what moves lights, in the first round of each of these animations; of splines those between keys too.
+pub(super) fn frames(animations: &[Animation], carries: &[bool]) -> Vec<u32> {
     let mut frames = BTreeSet::new();
-    for animation in &data.animations {
+    for animation in animations {
         let moving = animation
             .channels
             .iter()

@@ -9,7 +9,6 @@ use lightbvh_kernels::bvh::WIDTH;
 use serde::Serialize;
 
 use super::keys;
-
 use crate::error::HostError;
 use crate::scene::{FRAMES_PER_SECOND, Instances, Scene, SceneLight};
 
@@ -78,23 +77,22 @@ impl Motion {
         let mut moves = vec![0_u32; names.len()];
         let mut bends = vec![false; names.len()];
         let carries = keys::carriers(scene.data());
-        let clips = scene.data().clips.len().min(MOST_CLIPS);
-        let mut wanted = vec![keys::frames(scene.data(), &carries).len()];
-        let broken = scene.each_clip(clips, |alone| {
-            wanted.push(keys::frames(alone.data(), &carries).len());
-        });
+        // What is shown together, then each that is left out.
+        let data = scene.data();
+        let clips = data.clips.len().min(MOST_CLIPS);
+        let rounds_of = std::iter::once(&data.animations[..]).chain(data.clips[..clips].chunks(1));
+        let at_keys: Vec<Vec<u32>> = rounds_of.map(|own| keys::frames(own, &carries)).collect();
+        let wanted: Vec<usize> = at_keys.iter().map(Vec::len).collect();
         let given = keys::share(&wanted, MOST_KEYS);
-        let mut given_next = given.iter();
-        let mut look = |scene: &Scene, most: u32| {
+        let mut look = |scene: &Scene, most: u32, own_keys: usize| {
             let whole = round(scene);
             let own = whole.min(most);
             let evenly = (0..=own).map(|step| match own {
                 0 => 0,
                 _ => (u64::from(step) * u64::from(whole) / u64::from(own)) as u32,
             });
-            let at_keys = keys::frames(scene.data(), &carries);
-            let at_keys = keys::some(&at_keys, given_next.next().copied().unwrap_or(0));
-            let mut all: BTreeSet<u32> = evenly.chain(at_keys).collect();
+            let some = keys::some(&at_keys[own_keys], given[own_keys]);
+            let mut all: BTreeSet<u32> = evenly.chain(some).collect();
             frames += all.iter().filter(|&&frame| frame > 0).count() as u32;
             // Of the first round frame 0 is where the instances are.
             if rounds == 0 {
@@ -115,9 +113,9 @@ impl Motion {
             }
             rounds += 1;
         };
-        look(scene, MOST_FRAMES);
+        look(scene, MOST_FRAMES, 0);
         let most = MOST_FRAMES / clips.max(1) as u32;
-        scene.each_clip(clips, |alone| look(alone, most));
+        let broken = scene.each_clip(clips, |index, alone| look(alone, most, 1 + index));
         let named = (0..).zip(names.iter().zip(&moves));
         let tracks: Vec<Track> = named
             .filter(|(_, (_, moves))| **moves > 0)
