@@ -102,6 +102,16 @@ pub enum HostError {
         /// What would do.
         expected: String,
     },
+    /// What an option names cannot serve.
+    #[error("{option} {value} {problem}")]
+    Refused {
+        /// The option.
+        option: &'static str,
+        /// What it names.
+        value: String,
+        /// Why not, and what would do.
+        problem: String,
+    },
     /// An option that means nothing beside the others.
     #[error("{option} needs {needs}")]
     Usage {

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::{Context, Outcome};
+use super::{Context, Outcome, target};
 use crate::cli::table::news;
 use crate::error::HostError;
-use crate::scene::{AnalyticKind, Scene};
+use crate::scene::{AnalyticKind, Scene, SceneError};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -17,20 +17,23 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(_: &Context, args: &Args) -> Result<Outcome, HostError> {
-    if args
-        .output
-        .extension()
-        .is_none_or(|own| !own.eq_ignore_ascii_case("glb"))
-    {
-        return Err(HostError::Word {
+    if !target::ends_in(&args.output, &["glb"]) {
+        return Err(HostError::Refused {
             option: "--output",
-            word: args.output.display().to_string(),
-            expected: String::from("a file that ends in .glb: binary glTF is what is written"),
+            value: args.output.display().to_string(),
+            problem: String::from("is not what is written: expected a file that ends in .glb, binary glTF"),
         });
     }
+    target::check(&args.output).map_err(|source| SceneError::Write {
+        path: args.output.clone(),
+        source,
+    })?;
     let scene = Scene::open(&args.scene)?;
     for warning in scene.warnings() {
         news!("{}: {warning}", scene.name());
+    }
+    if let Some(idle) = scene.idle_clips() {
+        news!("{}: {idle}", scene.name());
     }
     let known = |kind| {
         matches!(

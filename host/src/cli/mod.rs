@@ -17,6 +17,7 @@ mod render;
 mod soak;
 mod stability;
 mod table;
+mod target;
 mod times;
 mod trade;
 mod validate;

@@ -16,9 +16,10 @@ use strum::VariantArray;
 
 use self::sequences::Sequence;
 use super::variance::irradiance::irradiance;
-use super::{Context, Outcome, table};
+use super::{Context, Outcome, table, target};
 use crate::error::HostError;
 use crate::plot::Canvas;
+use crate::render::FilmError;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -48,6 +49,12 @@ struct Row {
 }
 
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
+    if let Some(path) = &args.output {
+        target::check(path).map_err(|source| FilmError::Write {
+            path: path.clone(),
+            source,
+        })?;
+    }
     let lights = lamps();
     let mut rows = measure::<Standard, 8>(&lights, args.numbers);
     rows.extend(measure::<Paper, 4>(&lights, args.numbers));

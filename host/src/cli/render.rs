@@ -16,7 +16,7 @@ use self::options::{BackendName, IntegratorName, recipe};
 use self::sequence::Sequence;
 use self::view::{camera_words, check_places, playing, seen_by};
 use super::range::{self, Given, MAX_SIDE, given};
-use super::{Context, Outcome, devices, table};
+use super::{Context, Outcome, devices, frames, table, target};
 use crate::backend::Integrator;
 use crate::cli::table::news;
 use crate::error::HostError;
@@ -28,6 +28,7 @@ pub(super) use self::options::Args;
 
 /// Most final samples of ReSTIR per pixel: each keeps a history of its own, about 80 bytes per pixel.
 const MAX_HISTORIES: u32 = 64;
+
 pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> {
     let recipe = recipe(args)?;
     if context.device.is_some() && args.backend == BackendName::Cpu {
@@ -52,6 +53,12 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         given("--candidates", recipe.candidates, 1..=MAX_CANDIDATES.into()),
         given("--scattered", args.scattered, 0..=MAX_SCATTERED.into()),
     ])?;
+    match &args.animate {
+        Some(shown) => shown
+            .clone()
+            .try_for_each(|frame| target::picture(&frames::numbered(&args.output, frame)))?,
+        None => target::picture(&args.output)?,
+    }
     let mut scene = args.up.turn(Scene::open(&args.scene)?)?;
     if !args.animation.is_empty() {
         scene = playing(scene, &args.animation)?;

@@ -1,5 +1,6 @@
 //! Plain tables.
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 
 /// A column: its header, and what it says of a row.
@@ -29,7 +30,7 @@ pub(super) fn print<R>(rows: &[R], columns: &[Column<R>]) -> io::Result<()> {
                 _ => format!("  {cell:>width$}"),
             };
         }
-        writeln!(out, "{}", line.trim_end())?;
+        writeln!(out, "{}", plain(line.trim_end()))?;
     }
     Ok(())
 }
@@ -78,10 +79,44 @@ pub(super) use {news, say};
 
 /// See [`news`].
 pub(super) fn tell(words: std::fmt::Arguments<'_>) {
-    let _ = writeln!(io::stderr().lock(), "{words}");
+    let _ = writeln!(io::stderr().lock(), "{}", plain(&words.to_string()));
 }
 
-/// Prints text as it is.
+/// Prints text, [`plain`].
 pub(super) fn print_text(text: &str) -> io::Result<()> {
-    io::stdout().lock().write_all(text.as_bytes())
+    io::stdout().lock().write_all(plain(text).as_bytes())
+}
+
+/// Text with what a terminal obeys written out: names and paths come from files that anybody may have made. Lines and tabs stay.
+fn plain(text: &str) -> Cow<'_, str> {
+    let is_obeyed = |c: char| {
+        // Marks of direction reorder what is beside them.
+        let turns = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+        turns || c.is_control() && !matches!(c, '\n' | '\t')
+    };
+    if !text.contains(is_obeyed) {
+        return Cow::Borrowed(text);
+    }
+    let mut written = String::with_capacity(text.len());
+    for c in text.chars() {
+        if is_obeyed(c) {
+            written.extend(c.escape_debug());
+        } else {
+            written.push(c);
+        }
+    }
+    Cow::Owned(written)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn what_a_terminal_obeys_is_written_out() {
+        let kept = "a table\n\tof \u{e4}\u{65e5}\u{672c}, \"quoted\"\n";
+        assert_eq!(plain(kept), kept);
+        assert_eq!(plain("\u{1b}[31mred\u{7}\r\n"), "\\u{1b}[31mred\\u{7}\\r\n");
+        assert_eq!(plain("\u{202e}gnp.exe \u{9b}2J"), "\\u{202e}gnp.exe \\u{9b}2J");
+    }
 }

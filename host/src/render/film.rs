@@ -143,6 +143,12 @@ impl Film {
         self.wanted_exposure().1 == 0.0
     }
 
+    /// Whether a picture of it shows anything at the greatest exposure that is chosen by itself.
+    pub fn shows_anything(&self) -> bool {
+        let mut channels = self.pixels.iter().flatten();
+        channels.any(|&c| display(c, MAX_AUTO_EXPOSURE) > 0)
+    }
+
     /// What there is to say of an image that is dark although it is exposed: nothing is lit, hardly anything, or so faintly that
     /// more exposure would show noise.
     pub fn darkness(&self) -> Option<String> {

@@ -6,6 +6,7 @@ use lightbvh::light::{MAX_COORDINATE, MAX_RADIANCE};
 use lightbvh_kernels::shading::sky::MAX_SUNS;
 
 use super::analytic::AnalyticKind;
+use super::clips::named;
 use super::error::SceneError;
 use super::flush::flush_tiny;
 use super::frame::emits;
@@ -334,16 +335,13 @@ impl Check<'_> {
     }
 
     fn animations(&self, data: &SceneData) -> Result<(), SceneError> {
-        for (a, animation) in data.animations.iter().enumerate() {
+        for animation in &data.animations {
+            let own = named(animation.place, &animation.name);
             for (c, channel) in animation.channels.iter().enumerate() {
-                self.channel(
-                    &format!("channel {c} of animation {a} `{}`", animation.name),
-                    channel,
-                    data,
-                )?;
+                self.channel(&format!("channel {c} of animation {own}"), channel, data)?;
             }
             for (c, channel) in animation.morphs.iter().enumerate() {
-                let name = format!("channel {c} of weights of animation {a} `{}`", animation.name);
+                let name = format!("channel {c} of weights of animation {own}");
                 self.morph(&name, channel, data)?;
             }
         }

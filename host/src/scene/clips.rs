@@ -6,6 +6,8 @@ use super::model::{Animation, Property, Scene, SceneData};
 
 /// Most names that a message has.
 const NAMED: usize = 8;
+/// Most letters of a name that a message has.
+const LETTERS: usize = 80;
 /// How a message of what is left out ends.
 const ADVICE: &str = "`render --animation NAME|NUMBER` shows one of them";
 
@@ -45,26 +47,36 @@ impl SceneData {
     /// those that move the same things the first.
     ///
     /// # Errors
-    /// The word that names none, and the names that there are.
-    pub fn play(&mut self, words: &[String]) -> Result<(), (String, String)> {
+    /// The word that names none, what moves nothing where it names that, and the names that there are.
+    pub fn play(&mut self, words: &[String]) -> Result<(), NoClip> {
         self.warnings.retain(|warning| !warning.ends_with(ADVICE));
         let mut all = std::mem::take(&mut self.animations);
         all.append(&mut self.clips);
         all.sort_by_key(|animation| animation.place);
-        let mut chosen = Vec::new();
+        let mut chosen: Vec<Animation> = Vec::new();
         for word in words {
             let place: Option<u32> = word.parse().ok();
+            let is_own = |own: u32, name: &str| name == word || Some(own) == place;
             let by_name = all.iter().position(|animation| animation.name == *word);
             let by_place = || all.iter().position(|animation| Some(animation.place) == place);
             let Some(index) = by_name.or_else(by_place) else {
+                if chosen.iter().any(|own| is_own(own.place, &own.name)) {
+                    // Named again.
+                    continue;
+                }
                 let expected = match (all.len(), chosen.is_empty()) {
                     (0, true) => {
                         String::from("a scene with animations, and it has none; leave the option out")
                     }
                     (0, false) => String::from("no more: all that there are are named"),
-                    _ => format!("one of {}", names(&all)),
+                    _ => format!("one of {}", names_of(&all)),
                 };
-                return Err((word.clone(), expected));
+                let idle = self.idle.iter().find(|(place, name)| is_own(*place, name));
+                return Err(NoClip {
+                    word: word.clone(),
+                    idle: idle.map(|(place, name)| named(*place, name)),
+                    expected,
+                });
             };
             chosen.push(all.remove(index));
         }
@@ -81,31 +93,77 @@ impl SceneData {
             1 => ("animation", "moves what another does, and is left out"),
             _ => ("animations", "move what others do, and are left out"),
         };
-        Some(format!("{is} {} {are}: {ADVICE}", names(&self.clips)))
+        Some(format!("{is} {} {are}: {ADVICE}", names_of(&self.clips)))
     }
 }
 
 impl Scene {
-    /// Shows one after the other each animation that is left out, alone, the first `most` of them, and calls `with` for the scene then. Those that
-    /// [`Scene::new`] would refuse are passed.
-    pub fn each_clip(&self, most: usize, mut with: impl FnMut(&Self)) {
+    /// Shows one after the other each animation that is left out, alone, the first `most` of them, and calls `with` for its place among them and the scene then. Returns what is
+    /// wrong with those that [`Scene::new`] would refuse, which are passed.
+    pub fn each_clip(&self, most: usize, mut with: impl FnMut(usize, &Self)) -> Vec<String> {
         let mut scene = self.clone();
-        for clip in self.data().clips.iter().take(most) {
-            if scene.show(vec![clip.clone()]).is_ok() {
-                with(&scene);
+        let mut broken = Vec::new();
+        for (index, clip) in self.data().clips.iter().take(most).enumerate() {
+            match scene.show(vec![clip.clone()]) {
+                Ok(()) => with(index, &scene),
+                Err(error) => broken.push(format!(
+                    "animation {} is left out, as it cannot be shown: {error}",
+                    named(clip.place, &clip.name)
+                )),
             }
+        }
+        broken
+    }
+
+    /// What moves nothing of the scene and so is not written, in words.
+    pub fn idle_clips(&self) -> Option<String> {
+        let all = self
+            .data()
+            .idle
+            .iter()
+            .map(|(place, name)| (*place, name.as_str()));
+        let which = names(all);
+        match self.data().idle.len() {
+            0 => None,
+            1 => Some(format!(
+                "animation {which} moves nothing of the scene, and is left out: in the file that is written those after it have other numbers"
+            )),
+            _ => Some(format!(
+                "animations {which} move nothing of the scene, and are left out: in the file that is written those after them have other numbers"
+            )),
         }
     }
 }
 
+/// A word that names no animation that can be shown.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NoClip {
+    /// The word.
+    pub word: String,
+    /// The animation that it names, where that moves nothing of the scene.
+    pub idle: Option<String>,
+    /// What would do.
+    pub expected: String,
+}
+
+/// The number and the name of an animation, so that a terminal shows it as it is, and not all of a long one.
+pub(super) fn named(place: u32, name: &str) -> String {
+    let mut own: String = name.chars().take(LETTERS).collect();
+    if own.len() < name.len() {
+        own.push('\u{2026}');
+    }
+    format!("{place} \"{}\"", own.escape_debug())
+}
+
+fn names_of(all: &[Animation]) -> String {
+    names(all.iter().map(|own| (own.place, own.name.as_str())))
+}
+
 /// The first numbers and names, and how many more there are.
-fn names(of: &[Animation]) -> String {
-    let some: Vec<String> = of
-        .iter()
-        .take(NAMED)
-        .map(|own| format!("{} \"{}\"", own.place, own.name.escape_debug()))
-        .collect();
-    match of.len().saturating_sub(NAMED) {
+fn names<'a>(of: impl ExactSizeIterator<Item = (u32, &'a str)>) -> String {
+    let count = of.len();
+    let some: Vec<String> = of.take(NAMED).map(|(place, name)| named(place, name)).collect();
+    match count.saturating_sub(NAMED) {
         0 => some.join(", "),
         more => format!("{} and {more} more", some.join(", ")),
     }
@@ -164,8 +222,19 @@ mod tests {
         assert!(data.warnings[0].starts_with("animation 0 \"idle\""));
         let all = "one of 0 \"idle\", 1 \"walk\", 2 \"door\", 3 \"bob\"";
         let error = play(&mut data.clone(), &["run"]).expect_err("there is none");
-        assert_eq!(error, (String::from("run"), String::from(all)));
-        assert!(play(&mut data.clone(), &["walk", "walk"]).is_err());
+        assert_eq!(
+            (error.word.as_str(), error.expected.as_str(), error.idle),
+            ("run", all, None)
+        );
+        // Named again it is the same, which is there.
+        let mut again = data.clone();
+        play(&mut again, &["walk", "walk", "1"]).expect("there");
+        assert_eq!(shown(&again), ["walk"]);
+        data.idle.push((4, String::from("wave")));
+        for word in ["wave", "4"] {
+            let error = play(&mut data.clone(), &[word]).expect_err("it moves nothing");
+            assert_eq!(error.idle.as_deref(), Some("4 \"wave\""));
+        }
         assert!(play(&mut SceneData::default(), &["run"]).is_err());
         // Two of one name are told apart by their places; names come first.
         let mut twins = SceneData {
@@ -183,8 +252,10 @@ mod tests {
         play(&mut twins, &["5", "5"]).expect("one by its name, one by its place");
         assert_eq!((twins.animations[0].place, twins.warnings.len()), (6, 1));
         assert_eq!(
-            names(&[clip(0, "a\n\u{1b}[1m", &[], Property::Scale)]),
+            names_of(&[clip(0, "a\n\u{1b}[1m", &[], Property::Scale)]),
             r#"0 "a\n\u{1b}[1m""#
         );
+        assert_eq!(named(3, &"\u{e4}".repeat(80)).chars().count(), 84);
+        assert_eq!(named(3, &"\u{e4}".repeat(81)).chars().count(), 85);
     }
 }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use glam::Vec3;
 use lightbvh::light::infinite::DistantLight;
 use lightbvh::light::{AnyLight, EmissiveTriangle, MIN_COORDINATE, TWO_SIDED};
 use lightbvh_kernels::shading::area::offset_distance;
@@ -88,12 +89,32 @@ impl Frame {
             f64::from(high) - f64::from(low)
         });
         let size = dot(sides, sides).sqrt();
-        (f64::from(offset) > FAR_OFF * size).then(|| {
-            format!(
-                "note: all lies far from the origin beside its size, {size:.3} m: rays start {offset:.3} m off surfaces, and what is nearer to them neither lights them nor \
-                 casts a shadow; move the scene to the origin"
+        if f64::from(offset) <= FAR_OFF * size {
+            return None;
+        }
+        let (size, start) = (metres(size), metres(offset.into()));
+        let what_is_nearer = "and what is nearer to them neither lights them nor casts a shadow";
+        // However near the origin, rays start so far off.
+        let (why, advice) = if offset <= offset_distance(Vec3::ZERO, Vec3::ZERO, Vec3::ZERO) {
+            (format!("all is very small, {size}"), "make the scene larger")
+        } else {
+            (
+                format!("all lies far from the origin beside its size, {size}"),
+                "move the scene to the origin",
             )
-        })
+        };
+        Some(format!(
+            "note: {why}: rays start {start} off surfaces, {what_is_nearer}; {advice}"
+        ))
+    }
+}
+
+/// A length to three decimals, and a small one to two digits.
+fn metres(length: f64) -> String {
+    if length >= 0.001 || length == 0.0 {
+        format!("{length:.3} m")
+    } else {
+        format!("{length:.1e} m")
     }
 }
 

@@ -67,6 +67,7 @@ pub mod street;
 
 pub use analytic::{AnalyticKind, AnalyticLight};
 pub use check::MAX_TRIANGLES;
+pub use clips::NoClip;
 pub use deform::{Influence, MorphChannel, Skin};
 pub use environment::read_environment;
 pub use error::SceneError;

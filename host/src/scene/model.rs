@@ -41,6 +41,8 @@ pub struct SceneData {
     pub animations: Vec<Animation>,
     /// Animations that move what those do, and are left out: [`play`](Self::play) brings one in.
     pub clips: Vec<Animation>,
+    /// Animations that move nothing of the scene, and are left out: their places in the file, and their names.
+    pub idle: Vec<(u32, String)>,
     /// The first one is the one that frames are seen from.
     pub cameras: Vec<Camera>,
     /// Named by nodes.

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use crate::program::{Folder, has_device, json, refused};
+use crate::model::{self, Keys, LAMP};
+use crate::program::{Folder, has_device, json, refused, run};
 
 #[test]
 fn sequences_are_numbered_and_hold_what_single_frames_do() {
@@ -79,5 +80,52 @@ fn animations_of_moving_lights_give_the_same_files_on_both_processors() {
             files.windows(2).all(|pair| pair[0] == pair[1]),
             "{sampler}: the images differ"
         );
+    }
+}
+
+/// Frames whose light no exposure shows fixed that of the whole sequence, at its greatest.
+#[test]
+fn a_sequence_is_exposed_as_its_first_frame_that_shows_something() {
+    let folder = Folder::new("exposed");
+    let keys = [(0.0, [1e-5; 3]), (0.04, [1e-5; 3]), (0.2, [1.0; 3])];
+    let clip = (String::from("fade"), vec![Keys::new(LAMP, "scale", &keys)]);
+    let path = model::write(&folder, "fade", &[clip], |root| {
+        root["scenes"][0]["nodes"] = serde_json::json!([0, 1, 4]);
+        root["materials"][1]["extensions"] = serde_json::json!({
+            "KHR_materials_emissive_strength": { "emissiveStrength": 20 }
+        });
+        root["extensionsUsed"] = serde_json::json!(["KHR_materials_emissive_strength"]);
+    });
+    let small = "--width 32 --height 24 --spp 4 --json";
+    let out = folder.file("fade.png");
+    let report = json(&format!("render {path} --animate 0..4 -o {out} {small}"));
+    let exposure = |frame: usize| report["frames"][frame]["exposure"].as_f64().expect("a number");
+    let single = json(&format!("render {path} --frame 2 -o {out} {small}"));
+    let single = single["exposure"].as_f64().expect("a number");
+    assert_eq!(exposure(0), 1000.0);
+    assert!(single < 1000.0, "{single}");
+    assert!(
+        (exposure(2) / single - 1.0).abs() < 0.05,
+        "{single}: {}",
+        exposure(2)
+    );
+    assert_eq!(exposure(3), exposure(2));
+}
+
+/// It ended well and wrote nothing.
+#[test]
+fn the_last_frame_of_all_is_rendered() {
+    let folder = Folder::new("last");
+    let keys = [(0.0, [0.0, 2.0, 0.0]), (1.0, [1.0, 2.0, 0.0])];
+    let clip = (String::from("move"), vec![Keys::new(LAMP, "translation", &keys)]);
+    let path = model::write(&folder, "last", &[clip], |_| ());
+    for sampler in ["two-level-moments", "bvh-restir"] {
+        let out = folder.file(&format!("{sampler}.png"));
+        let small = "--width 16 --height 12 --spp 1";
+        let output = run(&format!(
+            "render {path} --frame 4294967295 --sampler {sampler} -o {out} {small}"
+        ));
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success() && Path::new(&out).exists(), "{said}");
     }
 }

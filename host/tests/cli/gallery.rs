@@ -196,3 +196,15 @@ fn bad_input_is_refused() {
         "{help}"
     );
 }
+
+/// The page is for others and tells no folders; who runs the program wants them.
+#[test]
+fn a_scene_that_cannot_be_read_is_named_with_its_folder() {
+    let folder = Folder::new("gallery-folder");
+    let out = folder.file("out");
+    let output = run(&format!("gallery some/where/nope.glb --time 1 --out {out}"));
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(said.contains("cannot read some/where/nope.glb"), "{said}");
+    let page = std::fs::read_to_string(folder.file("out/gallery.md")).expect("a page");
+    assert!(!page.contains("some/where"), "{page}");
+}

@@ -2,10 +2,12 @@
 
 mod animate;
 mod checks;
+mod clips;
 mod compare;
 mod gallery;
 mod inspect;
 mod kinds;
+mod model;
 mod program;
 mod refusals;
 mod render;

@@ -78,6 +78,32 @@ fn bad_input_is_refused_with_what_where_and_what_to_do() {
         ));
         assert!(said.contains(&output), "{said}");
     }
+    // Before the scene is read, which is not there.
+    std::fs::create_dir_all(folder.file("folder.png")).expect("a folder");
+    std::fs::create_dir_all(folder.file("folder.glb")).expect("a folder");
+    for (name, said_of) in [
+        ("image.jpg", ".png or .exr"),
+        ("image", ".png or .exr"),
+        ("no/such/image.png", "folder"),
+        ("file/image.png", "folder"),
+        ("folder.png", "folder"),
+    ] {
+        let output = folder.file(name);
+        let said = refused(&format!("render no/such.glb -o {output}"));
+        assert!(said.contains(&output) && said.contains(said_of), "{said}");
+        let said = refused(&format!("render no/such.glb --animate 0..3 -o {output}"));
+        assert!(name == "folder.png" || said.contains(said_of), "{said}");
+    }
+    for (name, said_of) in [
+        ("a.gltf", "that ends in .glb"),
+        ("no/such/a.glb", "folder"),
+        ("folder.glb", "folder"),
+    ] {
+        let output = folder.file(name);
+        let said = refused(&format!("export no/such.glb -o {output}"));
+        assert!(said.contains(&output) && said.contains(said_of), "{said}");
+        assert!(!said.contains("names nothing"), "{said}");
+    }
     if has_device() {
         let said = refused("verify --queries 1 --device no-such-device");
         assert!(said.contains("no-such-device"), "{said}");

@@ -93,6 +93,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
             computed: 0,
             reused: 0,
         },
+        told: Vec::new(),
     };
     let mut stems = BTreeSet::new();
     for (entry, listed) in &plan.entries {
@@ -100,7 +101,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         run.entry(entry, *listed, &stem)?;
     }
     run.progress.finish_and_clear();
-    let report = run.report;
+    let (report, told) = (run.report, run.told);
     devices::close(opened)?;
 
     let text = page::page(&plan, &report);
@@ -115,7 +116,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     } else {
         table::print_text(&text)?;
     }
-    for failed in &report.failed {
+    for failed in told {
         news!("not rendered: {failed}");
     }
     Ok(Outcome::good_if(report.failed.is_empty()))
@@ -129,6 +130,8 @@ struct Run<'a> {
     program: String,
     progress: ProgressBar,
     report: Report,
+    /// What is wrong with scenes, with the folders of their files.
+    told: Vec<String>,
 }
 
 impl Run<'_> {
@@ -141,6 +144,8 @@ impl Run<'_> {
             Ok(measured) => exhibit.measured = Some(measured),
             Err(error @ (HostError::Store { .. } | HostError::Folder { .. })) => return Err(error),
             Err(error) => {
+                // Who runs the program is told the folders, which the report keeps to itself.
+                self.told.push(format!("{}: {error}", entry.scene));
                 let error = nameless(&error.to_string(), entry);
                 self.report.failed.push(format!("{}: {error}", exhibit.scene));
                 exhibit.error = Some(error);

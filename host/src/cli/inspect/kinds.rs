@@ -17,7 +17,7 @@ use super::motion::Motion;
 use super::options::Args;
 use super::report::line;
 use super::surfaces::Surfaces;
-use super::{MOST_PROBABILITIES, declared};
+use super::{MOST_PROBABILITIES, animations, declared};
 use crate::cli::times::ms;
 use crate::cli::trade::quantile::Interval;
 use crate::cli::variance::{NOT_MEASURED, kinds::irradiance_of, mean_of, points};
@@ -90,7 +90,7 @@ pub(super) fn run(context: &Context, args: &Args, scene: &Scene) -> Result<Outco
             "scene": args.scene, "frame": args.frame, "checked_frame": moved, "lights": lights.triangles().len(),
             "kinds": { "said": kinds.said(), "narrow": kinds.narrow, "light": kinds.light_type(), "node": kinds.node_type(WIDTH) },
             "suns": scene.sun_count(), "environment": scene.data().environment.is_some(),
-            "motion": motion, "surfaces": surfaces, "tree": checked.as_ref().map(|_| tree), "checked": checked, "holds": holds,
+            "motion": motion, "animations": animations(scene), "surfaces": surfaces, "tree": checked.as_ref().map(|_| tree), "checked": checked, "holds": holds,
         }))?;
     } else {
         let about = About {
@@ -152,6 +152,9 @@ impl About<'_> {
         text += &line("pmf of given lights", &table::yes(pmf));
         text += &line("masks", &masks);
         text += &line("animation", &self.motion.said());
+        for note in self.motion.notes() {
+            text += &line("", &note);
+        }
         text
     }
 }

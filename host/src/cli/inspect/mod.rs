@@ -1,6 +1,7 @@
 //! `lightbvh inspect`: what a scene requires, the smallest model that is sufficient, and whether it is.
 
 mod compare;
+mod keys;
 mod kinds;
 mod motion;
 mod options;
@@ -15,6 +16,7 @@ use lightbvh::light::AnyLight;
 use lightbvh::requirements::{Changes, Declared, LightKinds, Requirements};
 use lightbvh_gpu::KernelSet;
 use lightbvh_kernels::bvh::{Node, WIDTH};
+use serde_json::{Value, json};
 
 use self::motion::Motion;
 use self::options::{BackendName, Change};
@@ -82,6 +84,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         points: count,
         moved,
         motion,
+        animations: animations(&scene),
         surfaces,
         kinds: all_kinds(&scene, args.frame)?,
         requirements,
@@ -105,6 +108,22 @@ fn all_kinds(scene: &Scene, frame: u32) -> Result<Option<LightKinds>, HostError>
     }
     let lights = lights_of::<AnyLight>(scene, frame)?;
     Ok(Some(LightKinds::of(lights.triangles())))
+}
+
+/// All animations of the file, by their numbers.
+fn animations(scene: &Scene) -> Value {
+    let data = scene.data();
+    let shown = data
+        .animations
+        .iter()
+        .map(|own| (own.place, &own.name, true, true));
+    let clips = data.clips.iter().map(|own| (own.place, &own.name, false, true));
+    let idle = data.idle.iter().map(|(place, name)| (*place, name, false, false));
+    let mut all: Vec<_> = shown.chain(clips).chain(idle).collect();
+    all.sort_by_key(|&(place, ..)| place);
+    all.into_iter()
+        .map(|(place, name, is_shown, moves)| json!({ "number": place, "name": name, "shown": is_shown, "moves": moves }))
+        .collect()
 }
 
 fn declared(args: &Args, motion: &Motion, surfaces: &Surfaces) -> Declared {

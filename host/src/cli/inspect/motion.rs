@@ -1,10 +1,14 @@
-//! What moves in a scene: its instances over one round of its longest animation, and of each that is left out beside others.
+//! What moves in a scene: its instances over one round of its longest animation, and of each that is left out beside others. Looked at are frames
+//! evenly over each round, and those at the keys of what moves lights.
+
+use std::collections::BTreeSet;
 
 use lightbvh::node::{Holds, Node};
 use lightbvh::{BuildParams, Edit};
 use lightbvh_kernels::bvh::WIDTH;
 use serde::Serialize;
 
+use super::keys;
 use crate::error::HostError;
 use crate::scene::{FRAMES_PER_SECOND, Instances, Scene, SceneLight};
 
@@ -12,6 +16,8 @@ use crate::scene::{FRAMES_PER_SECOND, Instances, Scene, SceneLight};
 const MOST_FRAMES: u32 = 1000;
 /// Animations looked at of those that are left out: the first.
 const MOST_CLIPS: usize = 250;
+/// Frames at keys that are looked at besides, of all animations together.
+const MOST_KEYS: usize = 2000;
 
 /// Which instances move, and whose meshes bend. Scenes of the host do not vary what they emit.
 #[derive(Clone, Debug, Serialize)]
@@ -26,6 +32,12 @@ pub(super) struct Motion {
     /// Instances whose mesh bends.
     pub bending: usize,
     pub tracks: Vec<Track>,
+    /// Rounds whose keys were not all looked at.
+    pub cut: usize,
+    /// Animations that were not looked at, as there are too many.
+    pub beyond: usize,
+    /// Animations that cannot be shown, and why.
+    pub broken: Vec<String>,
 }
 
 /// An instance that moves.
@@ -64,15 +76,29 @@ impl Motion {
             .map_err(|error| HostError::in_frame(scene.name(), 0, error))?;
         let mut moves = vec![0_u32; names.len()];
         let mut bends = vec![false; names.len()];
-        let mut look = |scene: &Scene, most: u32| {
+        let carries = keys::carriers(scene.data());
+        // What is shown together, then each that is left out.
+        let data = scene.data();
+        let clips = data.clips.len().min(MOST_CLIPS);
+        let rounds_of = std::iter::once(&data.animations[..]).chain(data.clips[..clips].chunks(1));
+        let at_keys: Vec<Vec<u32>> = rounds_of.map(|own| keys::frames(own, &carries)).collect();
+        let wanted: Vec<usize> = at_keys.iter().map(Vec::len).collect();
+        let given = keys::share(&wanted, MOST_KEYS);
+        let mut look = |scene: &Scene, most: u32, own_keys: usize| {
             let whole = round(scene);
             let own = whole.min(most);
+            let evenly = (0..=own).map(|step| match own {
+                0 => 0,
+                _ => (u64::from(step) * u64::from(whole) / u64::from(own)) as u32,
+            });
+            let some = keys::some(&at_keys[own_keys], given[own_keys]);
+            let mut all: BTreeSet<u32> = evenly.chain(some).collect();
+            frames += all.iter().filter(|&&frame| frame > 0).count() as u32;
             // Of the first round frame 0 is where the instances are.
-            for step in u32::from(rounds == 0)..=own {
-                let frame = match own {
-                    0 => 0,
-                    _ => (u64::from(step) * u64::from(whole) / u64::from(own)) as u32,
-                };
+            if rounds == 0 {
+                all.remove(&0);
+            }
+            for frame in all {
                 for edit in instances.edits(scene, frame) {
                     match edit {
                         Edit::SetTransform { instance, .. } => moves[instance.index() as usize] += 1,
@@ -85,13 +111,11 @@ impl Motion {
                     }
                 }
             }
-            frames += own;
             rounds += 1;
         };
-        look(scene, MOST_FRAMES);
-        let clips = scene.data().clips.len().min(MOST_CLIPS);
+        look(scene, MOST_FRAMES, 0);
         let most = MOST_FRAMES / clips.max(1) as u32;
-        scene.each_clip(clips, |alone| look(alone, most));
+        let broken = scene.each_clip(clips, |index, alone| look(alone, most, 1 + index));
         let named = (0..).zip(names.iter().zip(&moves));
         let tracks: Vec<Track> = named
             .filter(|(_, (_, moves))| **moves > 0)
@@ -108,7 +132,39 @@ impl Motion {
             moving: tracks.len(),
             bending: bends.into_iter().filter(|bends| *bends).count(),
             tracks,
+            cut: wanted
+                .iter()
+                .zip(&given)
+                .filter(|(wanted, given)| given < wanted)
+                .count(),
+            beyond: scene.data().clips.len() - clips,
+            broken,
         })
+    }
+
+    /// What was not looked at, a sentence each.
+    pub fn notes(&self) -> Vec<String> {
+        let rounds = match self.cut {
+            0 => None,
+            1 => Some(String::from("in 1 round")),
+            cut => Some(format!("in {cut} rounds")),
+        };
+        let cut = rounds.map(|rounds| {
+            format!("{rounds} the keys of lights were not all looked at: at most {MOST_KEYS} frames at keys are, over all animations")
+        });
+        let beyond = match self.beyond {
+            0 => None,
+            1 => Some(format!(
+                "1 animation beyond the first {MOST_CLIPS} was not looked at"
+            )),
+            more => Some(format!(
+                "{more} animations beyond the first {MOST_CLIPS} were not looked at"
+            )),
+        };
+        cut.into_iter()
+            .chain(beyond)
+            .chain(self.broken.iter().cloned())
+            .collect()
     }
 
     /// In words.
@@ -120,6 +176,7 @@ impl Motion {
             moving,
             bending,
             tracks,
+            ..
         } = self;
         if *frames == 0 {
             return "no: nothing is animated".to_owned();

@@ -22,6 +22,8 @@ pub(super) struct Report<'a> {
     /// The frame in which they were.
     pub moved: u32,
     pub motion: Motion,
+    /// All of the file.
+    pub animations: Value,
     pub surfaces: Surfaces,
     /// Where there are other lights than triangles.
     pub kinds: Option<LightKinds>,
@@ -56,6 +58,7 @@ impl Report<'_> {
             "lights": self.requirements.lights,
             "facts": facts,
             "motion": self.motion,
+            "animations": self.animations,
             "surfaces": self.surfaces,
             "kinds": self.kinds.map(|kinds| json!({
                 "said": kinds.said(), "narrow": kinds.narrow, "light": kinds.light_type(), "node": kinds.node_type(WIDTH),
@@ -91,6 +94,9 @@ impl Report<'_> {
         }
         text += &line("masks", &masks);
         text += &line("animation", &self.motion.said());
+        for note in self.motion.notes() {
+            text += &line("", &note);
+        }
         text += &format!("\nthe smallest model that is sufficient: {}\n", self.chosen);
         for reason in self.requirements.reasons() {
             text += &format!("  {reason}\n");

@@ -47,12 +47,13 @@ impl Sequence<'_> {
         device: Option<&Device>,
     ) -> Result<Vec<Value>, HostError> {
         let args = self.args;
-        let shown = args
-            .animate
-            .clone()
-            .unwrap_or(args.frame..args.frame.saturating_add(1));
+        // With its end: the last frame of all has none after it.
+        let (first_shown, last) = match &args.animate {
+            Some(frames) => (frames.start, frames.end - 1),
+            None => (args.frame, args.frame),
+        };
         let warm_up = if self.recipe.reuse.is_some() { WARM_UP } else { 0 };
-        let start = shown.start.saturating_sub(warm_up);
+        let start = first_shown.saturating_sub(warm_up);
         let first = self.arrays::<L>(start)?;
         let target = device.map_or(Target::Cpu, Target::Device);
         let mut runner = self.recipe.runner(&self.step(start, &first), target)?;
@@ -60,7 +61,7 @@ impl Sequence<'_> {
         let mut was_black = false;
         let mut reports = Vec::new();
         let mut arrays = Some(first);
-        for frame in start..shown.end {
+        for frame in start..=last {
             let arrays = match arrays.take() {
                 Some(first) => first,
                 None => self.arrays(frame)?,
@@ -77,17 +78,21 @@ impl Sequence<'_> {
                 runner.advance(&step)?;
             }
             let image = runner.image(&step, &arrays, &settings, SEQUENCE)?;
-            if frame < shown.start {
+            if frame < first_shown {
                 continue;
             }
             let film = Film::new(args.width, args.height, image.value)?;
-            let is_black = film.is_black();
+            // What the greatest exposure shows as black fixes none.
+            let is_black = match args.exposure {
+                Some(_) => film.is_black(),
+                None => !film.shows_anything(),
+            };
             // Once of what any exposure shows as black, and of what is exposed by itself.
             if is_black && !was_black || exposure.is_none() && !is_black {
                 self.tell_of_darkness(frame, &film);
             }
             was_black |= is_black;
-            // All frames of a sequence are exposed as its first one that is lit.
+            // All frames of a sequence are exposed as its first one that shows something.
             let exposure = match exposure {
                 Some(exposure) => exposure,
                 None if is_black => film.auto_exposure(),
@@ -101,8 +106,9 @@ impl Sequence<'_> {
             let ms = image.time.as_secs_f64() * 1e3;
             if !context.json {
                 let on = target.name();
+                // All digits: given back as an option, it makes the same picture.
                 let factor = match exposure {
-                    0.001..1000.5 => format!("{exposure:.3}"),
+                    0.001..=1000.0 => format!("{exposure}"),
                     _ => format!("{exposure:e}"),
                 };
                 say!("{}: {ms:.1} ms on {on}, exposure {factor}", output.display())?;

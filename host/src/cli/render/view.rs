@@ -29,10 +29,17 @@ impl Up {
 /// The scene with the animations of these names or numbers.
 pub(super) fn playing(scene: Scene, words: &[String]) -> Result<Scene, HostError> {
     let mut data = scene.into_data();
-    data.play(words).map_err(|(word, expected)| HostError::Word {
-        option: "--animation",
-        word,
-        expected,
+    data.play(words).map_err(|none| match none.idle {
+        Some(idle) => HostError::Refused {
+            option: "--animation",
+            value: idle,
+            problem: format!("moves nothing of the scene: expected {}", none.expected),
+        },
+        None => HostError::Word {
+            option: "--animation",
+            word: none.word,
+            expected: none.expected,
+        },
     })?;
     Ok(Scene::new(data)?)
 }

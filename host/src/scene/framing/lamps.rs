@@ -1,16 +1,18 @@
 //! The lamps of a frame, as what there is to see and as what it is seen by.
 //!
 //! A point within a small closed mesh lights the inside of that mesh alone: programs place lamps so that let them shine through their own bulbs.
-//! Such ones are shut in, and count where there is no other light; so do those that have nothing in their range.
+//! Such ones are shut in, and count where there is no other light; so do those that have nothing in their range, and triangles all of whose light lands
+//! on what shines: the inner walls of glowing bulbs.
 
 use glam::Vec3;
 use lightbvh::light::{AnyLight, Light, PointLight, ProfileLight, SpotLight};
+use lightbvh_kernels::shading::trace::NONE;
 
 use super::super::frame::Frame;
 use super::super::scene_light::SceneLight;
 use super::points::{Point, luminance};
 use super::room::Room;
-use super::spread::{along, anywhere, area, inside, sequence, spread, unit, within};
+use super::spread::{along, anywhere, area, cosine, inside, sequence, spread, unit, within};
 use crate::vector::{dot, normal, sub};
 
 /// Points on lamps, at most.
@@ -34,6 +36,9 @@ const AIMED: usize = 32;
 /// What lies farther away than this part of the scene's size is no bulb: of the backs of surfaces, and of fronts, which are also the walls of a small room.
 const BULB: f64 = 0.05;
 const THICK_BULB: f64 = 0.01;
+
+/// A front whose back lies within this part of the way to it is that of a wall of two sides, and no room's.
+const WALL: f64 = 0.5;
 
 /// What each lamp sends out, W but for a factor of π; zero where it is shut in and there is other light.
 pub(super) fn fluxes(frame: &Frame, room: &Room, size: f64, is_under_sky: bool) -> Vec<f64> {
@@ -136,19 +141,46 @@ fn is_out_of_range(frame: &Frame, room: &Room, size: f64, index: usize) -> bool 
         })
 }
 
-/// Whether a lamp is a point that sends every ray to the back of something close by, or to something very close: bulbs may have walls of two sides.
+/// Whether a lamp is a point that sends every ray to the back of something close by, to a wall of two sides there, or to something very close; or a
+/// triangle that sends every ray to what shines.
 fn is_shut_in(frame: &Frame, room: &Room, size: f64, index: usize) -> bool {
-    let own = index.checked_sub(frame.emissive.len());
-    let Some(light) = own.and_then(|own| frame.others.get(own)) else {
+    let step = 1e-9 * size;
+    let Some(own) = index.checked_sub(frame.emissive.len()) else {
+        return lights_itself(frame, room, 1e-6 * size, index);
+    };
+    let Some(light) = frame.others.get(own) else {
         return false;
     };
     let bounds = light.bounds();
     bounds.min == bounds.max
         && (0..RAYS).all(|i| {
             let (p, d) = (light.centroid().map(f64::from), anywhere(i));
-            let met = room.meet(along(p, 1e-9 * size, d), d);
-            met.is_some_and(|met| met.t < if met.is_back(d) { BULB } else { THICK_BULB } * size)
+            let Some(met) = room.meet(along(p, step, d), d) else {
+                return false;
+            };
+            let is_wall = || {
+                let behind = room.meet(along(p, met.t * (1.0 + 1e-5) + step, d), d);
+                behind.is_some_and(|behind| behind.is_back(d) && behind.t < WALL * met.t)
+            };
+            met.t < THICK_BULB * size || met.t < BULB * size && (met.is_back(d) || is_wall())
         })
+}
+
+/// Whether all light of a triangle, from both of its sides where it has two, lands on what shines.
+fn lights_itself(frame: &Frame, room: &Room, step: f64, index: usize) -> bool {
+    let sides: &[f64] = if is_two_sided(frame, index) {
+        &[1.0, -1.0]
+    } else {
+        &[1.0]
+    };
+    sides.iter().all(|side| {
+        (0..RAYS).all(|i| {
+            let (p, n) = point_on(frame, index, i);
+            let d = cosine(n.map(|x| side * x), i);
+            let met = room.meet(along(p, step, d), d);
+            met.is_some_and(|met| frame.triangles[met.triangle].light != NONE)
+        })
+    })
 }
 
 /// What each lamp sends out, W but for a factor of π.

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! The place from which most is seen is taken. The work is bounded: at most 1024 points and 356 places, so 365,000 rays between them, 14,000 of
-//! small images, and 18,000 that find points and places; of small scenes less.
+//! small images, and 35,000 that find points and places; of small scenes less.
 
 mod fit;
 mod judge;

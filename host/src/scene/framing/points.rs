@@ -1,6 +1,6 @@
 //! What there is to see in a frame, as points on sides of surfaces.
 //!
-//! - Light is sent out from points spread evenly over the flux of all lamps; where it lands is lit.
+//! - Light is sent out from points spread evenly over the flux of all lamps; where it lands is lit, but for what shines itself.
 //! - Surfaces are asked at points whether they lie under the sky, or in the sun.
 //! - Lamps are to be seen themselves, and so is, a little, what is dark: the body of a car whose headlamps shine.
 //!
@@ -9,7 +9,7 @@
 
 use lightbvh::ShadingPoint;
 use lightbvh::light::{AnyLight, Light};
-use lightbvh_kernels::shading::trace::SurfaceTriangle;
+use lightbvh_kernels::shading::trace::{NONE, SurfaceTriangle};
 
 use super::super::frame::Frame;
 use super::lamps;
@@ -136,11 +136,13 @@ fn sent(frame: &Frame, room: &Room, flux: &[f64], step: f64) -> (Vec<Point>, f64
             continue;
         };
         let is_back = met.is_back(d);
+        // What shines is seen by its own light: the inside of a glowing bulb is no place that is lit.
+        let shines = frame.triangles[met.triangle].light != NONE;
         let counts = if is_back { room.back(met.material) } else { 1.0 };
         let point = Point {
             p: along(start, met.t, d),
             n: if is_back { met.n.map(|x| -x) } else { met.n },
-            weight: each
+            weight: if shines { 0.0 } else { each }
                 * reflects(frame, met.material)
                 * counts
                 * of_side

@@ -8,9 +8,12 @@ use super::super::error::SceneError;
 use super::super::model::{Animation, Channel, Interpolation, Property};
 use super::Document;
 
+/// Animations, and the places and names of those that move nothing of the scene.
+type All = (Vec<Animation>, Vec<(u32, String)>);
+
 /// All animations; `place` is where each of the file's nodes went.
-pub(super) fn read(document: &Document<'_>, place: &[Option<u32>]) -> Result<Vec<Animation>, SceneError> {
-    let mut animations = Vec::new();
+pub(super) fn read(document: &Document<'_>, place: &[Option<u32>]) -> Result<All, SceneError> {
+    let (mut animations, mut idle) = (Vec::new(), Vec::new());
     for (a, animation) in document.root.animations.iter().enumerate() {
         let (mut channels, mut morphs) = (Vec::new(), Vec::new());
         for (c, channel) in animation.channels.iter().enumerate() {
@@ -21,8 +24,10 @@ pub(super) fn read(document: &Document<'_>, place: &[Option<u32>]) -> Result<Vec
                 None => {}
             }
         }
-        if !channels.is_empty() || !morphs.is_empty() {
-            let name = animation.name.clone().unwrap_or_else(|| format!("animation {a}"));
+        let name = animation.name.clone().unwrap_or_else(|| format!("animation {a}"));
+        if channels.is_empty() && morphs.is_empty() {
+            idle.push((a as u32, name));
+        } else {
             animations.push(Animation {
                 name,
                 place: a as u32,
@@ -31,7 +36,7 @@ pub(super) fn read(document: &Document<'_>, place: &[Option<u32>]) -> Result<Vec
             });
         }
     }
-    Ok(animations)
+    Ok((animations, idle))
 }
 
 /// What a channel changes.

@@ -120,7 +120,7 @@ impl Scene {
         bend::skins(&document, &order, &mut data)?;
         punctual::read(&document, &order, &mut data)?;
         ies::read(&document, &order, &mut data)?;
-        data.animations = animation::read(&document, &order)?;
+        (data.animations, data.idle) = animation::read(&document, &order)?;
         data.pictures = document.pictures.take().into_kept();
         data.warnings = document.into_warnings();
         data.part_clips();

@@ -233,7 +233,7 @@ fn what_was_off_as_the_whole_top_level_was_built_is_looked_at() {
         // The first are neighbours, and brighter than the others.
         let middle = glam::Vec3::from(at[0]);
         at.sort_by(|a, b| {
-            let [a, b] = [a, b].map(|&own| (glam::Vec3::from(own) - middle).length_squared());
+            let [a, b] = [a, b].map(|&own| crate::vector::length_squared(glam::Vec3::from(own) - middle));
             a.total_cmp(&b)
         });
         let add = at.iter().enumerate().map(|(k, &at)| Edit::AddInstance {

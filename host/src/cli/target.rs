@@ -1,0 +1,68 @@
+//! Files to write, looked at before there is anything to write: a mistyped name is told at once, not after minutes of work.
+
+use std::fs;
+use std::io::{Error, ErrorKind, Result};
+use std::path::Path;
+
+use crate::render::FilmError;
+
+/// Whether a path ends so, in letters of either case.
+pub(super) fn ends_in(path: &Path, endings: &[&str]) -> bool {
+    let is_own = |own: &std::ffi::OsStr| endings.iter().any(|ending| own.eq_ignore_ascii_case(ending));
+    path.extension().is_some_and(is_own)
+}
+
+/// Whether a file can stand there: its folder is one, and it is none itself.
+///
+/// # Errors
+/// What is in the way.
+pub(super) fn check(path: &Path) -> Result<()> {
+    if path.is_dir() {
+        return Err(Error::new(ErrorKind::IsADirectory, "it is a folder"));
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let folder = folder.unwrap_or(Path::new("."));
+    match fs::metadata(folder) {
+        Ok(found) if found.is_dir() => Ok(()),
+        Ok(_) => Err(Error::new(
+            ErrorKind::NotADirectory,
+            "what its folder should be is a file",
+        )),
+        Err(error) => Err(Error::new(error.kind(), format!("its folder: {error}"))),
+    }
+}
+
+/// Whether a picture can be written there.
+///
+/// # Errors
+/// What [`Film::write`](crate::render::Film::write) would say, but for what only writing tells.
+pub(super) fn picture(path: &Path) -> std::result::Result<(), FilmError> {
+    let path = path.to_owned();
+    if !ends_in(&path, &["png", "exr"]) {
+        return Err(FilmError::Format { path });
+    }
+    check(&path).map_err(|source| FilmError::Write { path, source })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_that_cannot_be_written_are_told() {
+        let folder = std::env::temp_dir().join(format!("lightbvh-target-{}", std::process::id()));
+        fs::create_dir_all(folder.join("a.png")).expect("a folder");
+        fs::write(folder.join("file"), "a file").expect("a file");
+        let said = |path: &str| check(&folder.join(path)).map_err(|error| error.to_string());
+        assert_eq!(said("b.png"), Ok(()));
+        assert_eq!(said("file"), Ok(()), "is written over");
+        assert_eq!(said("a.png"), Err(String::from("it is a folder")));
+        assert!(said("file/b.png").is_err() && said("none/b.png").is_err());
+        assert!(check(Path::new("b.png")).is_ok());
+        fs::remove_dir_all(&folder).expect("the folder");
+        assert!(ends_in(Path::new("a/b.PNG"), &["exr", "png"]));
+        for other in ["b", ".png", "b.png.gz", "b.jpg"] {
+            assert!(!ends_in(Path::new(other), &["exr", "png"]), "{other}");
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! Small models with clips: a floor, two lamps above it, a lamp outside of the scene, and a camera.
+
+use serde_json::{Value, json};
+
+use crate::program::Folder;
+
+/// Nodes that clips move.
+pub const FLOOR: usize = 0;
+pub const LAMP: usize = 1;
+pub const OUTSIDE: usize = 3;
+
+/// Keys of a node's translation or scale.
+pub struct Keys {
+    pub node: usize,
+    pub path: &'static str,
+    pub keys: Vec<(f32, [f32; 3])>,
+}
+
+impl Keys {
+    pub fn new(node: usize, path: &'static str, keys: &[(f32, [f32; 3])]) -> Self {
+        Self {
+            node,
+            path,
+            keys: keys.to_vec(),
+        }
+    }
+}
+
+/// A clip of this name.
+pub type Clip = (String, Vec<Keys>);
+
+/// A quadrilateral of two triangles, seen from above where `up` is above zero.
+fn quad(half: f32, up: f32) -> [f32; 18] {
+    let [a, b, c, d] =
+        [(-1.0, up), (1.0, up), (1.0, -up), (-1.0, -up)].map(|(x, z)| [half * x, 0.0, half * z]);
+    let mut all = [0.0; 18];
+    for (own, value) in all.iter_mut().zip([a, b, c, a, c, d].concat()) {
+        *own = value;
+    }
+    all
+}
+
+/// Writes a model with these clips as glTF beside its buffer and returns its path; `change` may change its JSON.
+pub fn write(folder: &Folder, name: &str, clips: &[Clip], change: impl FnOnce(&mut Value)) -> String {
+    let mut floats = Vec::new();
+    let mut accessors = Vec::new();
+    let mut add = |values: &[f32], kind: &str| {
+        let wide = if kind == "VEC3" { 3 } else { 1 };
+        accessors.push(json!({
+            "bufferView": 0, "byteOffset": 4 * floats.len(), "componentType": 5126, "count": values.len() / wide, "type": kind,
+            "min": vec![-10.0; wide], "max": vec![10.0; wide]
+        }));
+        floats.extend_from_slice(values);
+        accessors.len() - 1
+    };
+    let (floor, lamp) = (add(&quad(4.0, 1.0), "VEC3"), add(&quad(0.3, -1.0), "VEC3"));
+    let animations: Vec<Value> = clips
+        .iter()
+        .map(|(name, all)| {
+            let (mut samplers, mut channels) = (Vec::new(), Vec::new());
+            for Keys { node, path, keys } in all {
+                let times: Vec<f32> = keys.iter().map(|(time, _)| *time).collect();
+                let values: Vec<f32> = keys.iter().flat_map(|(_, value)| *value).collect();
+                samplers.push(json!({ "input": add(&times, "SCALAR"), "output": add(&values, "VEC3") }));
+                channels
+                    .push(json!({ "sampler": samplers.len() - 1, "target": { "node": node, "path": path } }));
+            }
+            json!({ "name": name, "samplers": samplers, "channels": channels })
+        })
+        .collect();
+    let bytes: Vec<u8> = floats.iter().flat_map(|x| x.to_le_bytes()).collect();
+    let buffer = format!("{name}.bin");
+    std::fs::write(folder.file(&buffer), &bytes).expect("a buffer");
+    let mesh = |at: usize| json!({ "primitives": [{ "attributes": { "POSITION": at }, "material": at }] });
+    let mut root = json!({
+        "asset": { "version": "2.0" },
+        "scene": 0,
+        "scenes": [{ "nodes": [0, 1, 2, 4] }],
+        "nodes": [
+            { "mesh": 0 }, { "mesh": 1, "translation": [0, 2, 0] }, { "mesh": 1, "translation": [1, 2, 0] }, { "mesh": 1 },
+            // Looks down, from behind the lamps.
+            { "camera": 0, "translation": [0, 4, 6], "rotation": [-0.258_819, 0.0, 0.0, 0.965_926] }
+        ],
+        "meshes": [mesh(floor), mesh(lamp)],
+        "materials": [{}, { "emissiveFactor": [1, 1, 1], "pbrMetallicRoughness": { "baseColorFactor": [0, 0, 0, 1] } }],
+        "cameras": [{ "type": "perspective", "perspective": { "yfov": 0.8, "znear": 0.1 } }],
+        "bufferViews": [{ "buffer": 0, "byteLength": bytes.len() }],
+        "buffers": [{ "uri": buffer, "byteLength": bytes.len() }],
+        "accessors": accessors
+    });
+    if !animations.is_empty() {
+        root["animations"] = json!(animations);
+    }
+    change(&mut root);
+    let path = folder.file(&format!("{name}.gltf"));
+    std::fs::write(&path, root.to_string()).expect("a scene");
+    path
+}
