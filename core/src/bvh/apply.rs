@@ -78,10 +78,11 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 }
                 Edit::SetRadiance { instance, radiance } if self.shines_so(instance.index, radiance) => {}
                 Edit::SetRadiance { instance, radiance } => {
-                    let shone = self.placed[instance.index as usize].radiance > 0.0;
+                    let was_off = self.is_off(instance.index);
                     self.placed[instance.index as usize].radiance = radiance;
                     self.place(instance.index);
-                    let has_moved_dark = !shone && radiance > 0.0 && self.has_moved(instance.index);
+                    let has_come = was_off && !self.is_off(instance.index);
+                    let has_moved_dark = has_come && self.has_moved(instance.index);
                     let is_looked_at_now = has_moved_dark && !self.note_lit(instance.index);
                     let (is_otherwise, is_brighter) = self.shines_otherwise(instance.index);
                     if is_looked_at_now || is_otherwise {

@@ -42,6 +42,7 @@ impl Texels {
         2.0 / (f64::from(self.size) * PLACES)
     }
 
+    /// Of a direction of any length.
     fn index(&self, direction: [f64; 3]) -> usize {
         let place = place_of(direction.map(|x| x as f32));
         let [column, row] = place.map(|x| {

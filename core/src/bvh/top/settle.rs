@@ -8,7 +8,6 @@
 
 use alloc::vec::Vec;
 
-use super::strayed::OFF;
 use crate::build::{BuildParams, Heuristic, Topology, build_top};
 use crate::bvh::{Bvh, Trails};
 use crate::node::{Node, kind};
@@ -59,8 +58,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             false => (leaf, self.in_world(leaf)),
         };
         let leaves: Vec<_> = leaves.into_iter().map(shape).collect();
-        let nowhere = leaves.iter().filter(|(_, own)| own.phi() <= OFF);
-        let nowhere: Vec<u32> = nowhere.map(|&(leaf, _)| leaf).collect();
+        // As they are now: nodes may know of a little more or less.
+        let nowhere = leaves.iter().map(|&(leaf, _)| leaf);
+        let nowhere: Vec<u32> = nowhere.filter(|&leaf| self.is_off(leaf)).collect();
         let params = BuildParams {
             heuristic: match self.params.heuristic {
                 // Few instances are sorted by Ward's criterion in no time.

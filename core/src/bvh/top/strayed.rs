@@ -82,7 +82,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             };
             let root = self.root_of(blas);
             // Without flux it is nowhere.
-            if root.phi() <= 0.0 {
+            if root.phi() <= OFF {
                 continue;
             }
             let (was, center) = (own.center, root.center().to_array());
@@ -119,6 +119,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if placed.part_of != INVALID {
             return;
         }
+        self.top.lit.remove(&index);
         if self.is_dark(index) {
             self.note_nowhere(index);
         }
@@ -180,7 +181,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let center = self.blases[blas as usize].center;
         self.placed[index as usize].hung_center = self.instances[index as usize].vertex(center);
         // No light of it tells where it is once it shines: then all of its instances are looked at.
-        if self.root_of(blas).phi() <= 0.0 {
+        if self.root_of(blas).phi() <= OFF {
             self.lose_center(blas);
         }
     }
@@ -209,9 +210,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.placed[index as usize].hung_center[0] == NOWHERE
     }
 
-    /// Whether an instance itself has no flux, whatever its mesh has.
-    pub(super) fn is_off(&self, index: u32) -> bool {
-        self.instances[index as usize].flux <= OFF
+    /// Whether an instance, or a part of one, has so little flux that a tree is not built by it.
+    pub(in crate::bvh) fn is_off(&self, leaf: u32) -> bool {
+        let own = &self.instances[leaf as usize];
+        self.root_of(own.blas).phi() * own.flux <= OFF
     }
 
     /// This leaf was put where it is while it was off: it hangs anywhere. It is looked at once it shines.
@@ -219,18 +221,13 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let owner = self.placed[leaf as usize].part_of;
         let index = if owner == INVALID { leaf } else { owner };
         let blas = self.meshes[self.placed[index as usize].mesh as usize].blas;
-        let has_come = if self.root_of(blas).phi() <= 0.0 {
+        if self.root_of(blas).phi() <= OFF {
             self.lose_center(blas);
-            false
-        } else if self.is_off(index) {
+        } else if owner != INVALID && self.is_off(leaf) {
             // Of an opened one all parts would be put in elsewhere, and none was seen to need it.
-            if owner != INVALID {
-                return;
-            }
-            false
-        } else {
-            true
-        };
+            return;
+        }
+        let has_come = !self.is_off(index);
         self.placed[index as usize].hung_center = [NOWHERE; 3];
         self.top.strayed.remove(&index);
         if has_come {
@@ -238,10 +235,10 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Whether the mesh of a leaf has no flux.
-    pub(super) fn is_dark(&self, leaf: u32) -> bool {
-        let mesh = self.placed[leaf as usize].mesh;
-        self.root_of(self.meshes[mesh as usize].blas).phi() <= 0.0
+    /// Whether an instance is off for its mesh is.
+    pub(super) fn is_dark(&self, index: u32) -> bool {
+        let mesh = self.placed[index as usize].mesh;
+        self.is_off(index) && self.root_of(self.meshes[mesh as usize].blas).phi() <= OFF
     }
 
     /// Whether an instance was moved far since it was put where it is.
@@ -258,10 +255,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             return;
         }
         // Dark ones are nowhere.
-        let blas = self.blas_index(&self.placed[index as usize]);
-        let shines = !self.is_off(index) && self.root_of(blas).phi() > 0.0;
         let is_nowhere = self.is_nowhere(index);
-        if shines && (is_nowhere || self.top.strayed.len() < NOTED && self.has_left(index)) {
+        if !self.is_off(index) && (is_nowhere || self.top.strayed.len() < NOTED && self.has_left(index)) {
             self.note(index);
         }
     }
@@ -372,7 +367,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             let blas = self.blas_index(&self.placed[index as usize]);
             if self.was_brighter(blas) > DIM && !self.rests(index, looked) {
                 later.push(index);
-            } else if self.root_of(blas).phi() <= 0.0 {
+            } else if self.is_dark(index) {
                 self.lose_center(blas);
             } else if self.is_nowhere(index) && !self.is_off(index) {
                 let leaves = self.leaves_of(index);

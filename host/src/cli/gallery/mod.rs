@@ -145,7 +145,7 @@ impl Run<'_> {
             Err(error @ (HostError::Store { .. } | HostError::Folder { .. })) => return Err(error),
             Err(error) => {
                 // Who runs the program is told the folders, which the report keeps to itself.
-                self.told.push(format!("{}: {error}", entry.scene));
+                self.told.push(format!("{}: {error}", exhibit.scene));
                 let error = nameless(&error.to_string(), entry);
                 self.report.failed.push(format!("{}: {error}", exhibit.scene));
                 exhibit.error = Some(error);

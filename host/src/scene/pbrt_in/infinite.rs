@@ -50,16 +50,29 @@ impl Picture {
         pixel.0.map(f64::from)
     }
 
-    /// Its light by texel; `to_scene` leads from directions of the world to those of the scene.
-    fn texels(&self, size: u32, to_scene: &Affine) -> Texels {
-        let mut texels = Texels::new(size);
+    /// Its light by texel, about as many as it has pixels; `to_scene` leads from directions of the world to those of the scene.
+    fn texels(&self, to_scene: &Affine) -> Texels {
         let (width, height) = self.pixels.dimensions();
+        let mut texels = Texels::new(size_for([width, height]));
         let pixel = |x, y| self.pixels.get_pixel(x, y).0.map(f64::from);
-        let direction = |own| unit_or(to_scene.vector(self.to_world.vector(own)), [0.0, 0.0, 1.0]);
+        // Both at once, for there are many places.
+        let mut map = Affine::IDENTITY;
+        for axis in 0..3 {
+            map.columns[axis] = to_scene.vector(self.to_world.vector(map.columns[axis]));
+        }
+        // The length of a direction counts for nothing, but words have a range.
+        let longest = map.columns[..3]
+            .as_flattened()
+            .iter()
+            .fold(0.0, |most: f64, x| most.max(x.abs()));
+        for axis in 0..3 {
+            map.columns[axis] = map.columns[axis].map(|x| x / longest);
+        }
         if self.is_equal_area {
-            texels.add_equal_area(width, pixel, |place| direction(equal_area::direction_of(place)));
+            let direction = |place| map.vector(equal_area::direction_of(place));
+            texels.add_equal_area(width, pixel, direction);
         } else {
-            texels.add_longitude_latitude([width, height], pixel, direction);
+            texels.add_longitude_latitude([width, height], pixel, |own| map.vector(own));
         }
         texels
     }
@@ -187,7 +200,7 @@ impl Loader<'_> {
         let mut skies = Vec::new();
         for light in &self.infinite {
             match &light.picture {
-                Some(picture) => skies.push((light.color, picture, picture.texels(size, &back))),
+                Some(picture) => skies.push((light.color, picture, picture.texels(&back))),
                 None => constant = [0, 1, 2].map(|i| constant[i] + light.color[i]),
             }
         }

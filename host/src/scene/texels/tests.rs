@@ -46,8 +46,8 @@ fn a_single_pixel_keeps_its_light_wherever_it_lies() {
             let pixel = |x, y| [f64::from(u8::from([x, y] == at)); 3];
             texels.add_longitude_latitude(size, pixel, |own| own);
             let ratio = mean(&texels, |_| 1.0) / share(size, at[1]);
-            // Of the places in a texel that hold one of the small pixels about a pole some count twice.
-            assert!((ratio - 1.0).abs() < 0.04, "{size:?} {at:?}: {ratio}");
+            // Texels hold more places or fewer than their share. Asked at places of its own a map has none of it, or many times as much.
+            assert!((ratio - 1.0).abs() < 0.15, "{size:?} {at:?}: {ratio}");
         }
     }
 }

@@ -280,3 +280,102 @@ fn what_was_off_as_the_whole_top_level_was_built_is_looked_at() {
     // 44 and 46 before.
     assert!(beyond.iter().all(|&count| count <= 16), "{beyond:?} of 320");
 }
+
+/// Of hardly any flux by its mesh, its radiance or both: it is off, and asks for no work at rest. A mesh of 1e-26 W was put in elsewhere in every frame.
+#[test]
+fn what_hardly_shines_rests() {
+    for (by_mesh, by_radiance) in [
+        (1e-26, 1.0),
+        (1e-25, 1.0),
+        (8e-25, 1.0),
+        (1e-14, 1e-12),
+        (1e-28, 1e18),
+    ] {
+        let random = &mut Random(180);
+        let mut bvh = LightBvh::default();
+        let [lamp, dim] = [(); 2].map(|()| bvh.add_mesh(eight([0.0; 3], 1.0)).expect("a lamp"));
+        let at: Vec<_> = (0..1500).map(|_| (random.vector() * 45.0).to_array()).collect();
+        let add = at.iter().enumerate().map(|(k, &at)| Edit::AddInstance {
+            mesh: if k < 400 { dim } else { lamp },
+            transform: Transform::at(at),
+            radiance: 1.0,
+        });
+        let ids = bvh.apply(add.collect()).expect("instances").instances;
+        bvh.refit();
+        let own = &mut rebuilder();
+        let mut edits: Vec<Edit> = ids.iter().take(400).map(|&id| shine(id, by_radiance)).collect();
+        edits.push(Edit::SetTriangles {
+            mesh: dim,
+            triangles: eight([0.0; 3], by_mesh),
+        });
+        frame(&mut bvh, own, edits);
+        for k in 0..60 {
+            let moves = (0..100).map(|other| {
+                let other = 400 + (7 * k + 131 * other) % 1100;
+                place(ids[other], (random.vector() * 45.0).to_array())
+            });
+            let moves = moves.collect();
+            frame(&mut bvh, own, moves);
+        }
+        (0..3).for_each(|_| rest(&mut bvh, own));
+        let stamp = bvh.epoch;
+        rest(&mut bvh, own);
+        assert_eq!(bvh.epoch, stamp, "{by_mesh} {by_radiance}");
+    }
+}
+
+/// In a file both lists are one, told apart by what an instance says of where it was put: what was placed stayed in the wrong one, and what was read went on
+/// otherwise.
+#[test]
+fn what_comes_on_goes_on_from_a_file() {
+    let random = &mut Random(190);
+    let mut bvh = LightBvh::default();
+    let lamp = bvh.add_mesh(cloud(1, [0.0; 3], 0)).expect("a lamp");
+    let at: Vec<_> = (0..900).map(|_| (random.vector() * 35.0).to_array()).collect();
+    let add = at.iter().map(|&at| Edit::AddInstance {
+        mesh: lamp,
+        transform: Transform::at(at),
+        radiance: 1.0,
+    });
+    let ids = bvh.apply(add.collect()).expect("instances").instances;
+    bvh.refit();
+    let own = &mut rebuilder();
+    let lamps = |from: usize, radiance: f32| (from..from + 40).map(move |k| (k, radiance));
+    let told = |bvh: &LightBvh, all: &[(usize, f32)]| -> Vec<Edit> {
+        let of = |&(k, radiance): &(usize, f32)| {
+            let id = bvh.instance_id(ids[k].index()).expect("there");
+            shine(id, radiance)
+        };
+        all.iter().map(of).collect()
+    };
+    let off: Vec<_> = (0..400).map(|k| (k, 0.0)).collect();
+    let edits = told(&bvh, &off);
+    frame(&mut bvh, own, edits);
+    for k in 0..30 {
+        let moves = (0..100).map(|other| {
+            let other = 400 + (7 * k + 131 * other) % 500;
+            place(ids[other], (random.vector() * 35.0).to_array())
+        });
+        let moves = moves.collect();
+        frame(&mut bvh, own, moves);
+    }
+    rest(&mut bvh, own);
+    // They come on a few at a time, while trees are adopted and files are written.
+    for k in 0..10 {
+        let edits = told(&bvh, &lamps(40 * k, 1.0).collect::<Vec<_>>());
+        frame(&mut bvh, own, edits);
+        let mut twins = [
+            bvh.clone(),
+            LightBvh::from_words(&bvh.to_words()).expect("its own"),
+        ];
+        let mut rebuilders = [rebuilder(), rebuilder()];
+        for turn in 0..6 {
+            let all: Vec<_> = lamps(40 * ((k + turn) % 10), (turn % 2) as f32).collect();
+            for (bvh, own) in twins.iter_mut().zip(&mut rebuilders) {
+                let edits = told(bvh, &all);
+                frame(bvh, own, edits);
+            }
+            assert!(twins[0].to_words() == twins[1].to_words(), "{k}, {turn}");
+        }
+    }
+}
