@@ -152,18 +152,24 @@ impl<const W: usize> About<W> {
                 squares += seconds[axis][slot];
             }
         }
-        let per_phi = if phi > 0.0 { 1.0 / phi } else { 0.0 };
-        let mean = moved.map(|sum| sum * per_phi);
-        let between = (squares - (moved[0] * mean[0] + moved[1] * mean[1] + moved[2] * mean[2])).max(0.0);
-        Self { flux, phi, between }
+        let mut own = Self {
+            flux,
+            phi,
+            between: 0.0,
+        };
+        let mean = moved.map(|sum| sum * own.per_phi());
+        let apart = squares - (moved[0] * mean[0] + moved[1] * mean[1] + moved[2] * mean[2]);
+        own.between = apart.max(0.0);
+        own
     }
 
-    fn per_phi(self) -> f64 {
+    #[inline(always)]
+    fn per_phi(&self) -> f64 {
         if self.phi > 0.0 { 1.0 / self.phi } else { 0.0 }
     }
 
     /// A mean by flux, given its sum.
-    fn mean(self, sum: f64) -> f32 {
+    fn mean(&self, sum: f64) -> f32 {
         (sum * self.per_phi()).min(f64::from(f32::MAX)) as f32
     }
 }

@@ -53,12 +53,12 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         given("--candidates", recipe.candidates, 1..=MAX_CANDIDATES.into()),
         given("--scattered", args.scattered, 0..=MAX_SCATTERED.into()),
     ])?;
-    match &args.animate {
-        Some(shown) => shown
-            .clone()
-            .try_for_each(|frame| target::picture(&frames::numbered(&args.output, frame)))?,
-        None => target::picture(&args.output)?,
-    }
+    // Of a sequence the first: all have one folder and one ending.
+    let first = args
+        .animate
+        .as_ref()
+        .map(|shown| frames::numbered(&args.output, shown.start));
+    target::picture(first.as_ref().unwrap_or(&args.output))?;
     let mut scene = args.up.turn(Scene::open(&args.scene)?)?;
     if !args.animation.is_empty() {
         scene = playing(scene, &args.animation)?;

@@ -340,10 +340,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 (true, true) => Guard::RestsAlone,
             };
             if self.lies_elsewhere(index, guard) {
-                let leaves = self.leaves_of(index);
-                out.extend(leaves.filter(|&leaf| self.placed[leaf as usize].node != INVALID));
-                // Where it is opened that is not said of its parts alone.
-                self.settle_placed(index);
+                self.take_leaves(index, &mut out);
             } else if !rests {
                 later.push(index);
             }
@@ -370,12 +367,19 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             } else if self.is_dark(index) {
                 self.lose_center(blas);
             } else if self.is_nowhere(index) && !self.is_off(index) {
-                let leaves = self.leaves_of(index);
-                out.extend(leaves.filter(|&leaf| self.placed[leaf as usize].node != INVALID));
-                self.settle_placed(index);
+                self.take_leaves(index, out);
             }
         }
         self.top.lit.extend(later);
+    }
+
+    /// Adds the leaves of an instance that are in the tree to `out`: it is to be put in anew.
+    #[cfg(feature = "std")]
+    fn take_leaves(&mut self, index: u32, out: &mut Vec<u32>) {
+        let leaves = self.leaves_of(index);
+        out.extend(leaves.filter(|&leaf| self.placed[leaf as usize].node != INVALID));
+        // Where it is opened that is not said of its parts alone.
+        self.settle_placed(index);
     }
 
     /// Whether an instance and its mesh are as they were when the last frame began.

@@ -24,6 +24,16 @@ fn share([width, height]: [u32; 2], y: u32) -> f64 {
     (at(y) - at(y + 1)) / 2.0 / f64::from(width)
 }
 
+/// What of a picture's single pixel is in the texels, over what it has.
+fn kept(size: [u32; 2], at: [u32; 2]) -> f64 {
+    let mut texels = Texels::new(size_for(size));
+    let pixel = |x, y| [f64::from(u8::from([x, y] == at)); 3];
+    texels.add_longitude_latitude(size, pixel, |own| own);
+    mean(&texels, |_| 1.0) / share(size, at[1])
+}
+
+/// Asked at places of its own a map has none of a small one, or many times as much. Texels hold more places or fewer than their share of the sphere, so it
+/// is not all.
 #[test]
 fn a_single_pixel_keeps_its_light_wherever_it_lies() {
     for size @ [width, height] in [
@@ -42,14 +52,15 @@ fn a_single_pixel_keeps_its_light_wherever_it_lies() {
             [width / 3, height / 5],
             [width / 7, height - 1],
         ] {
-            let mut texels = Texels::new(size_for(size));
-            let pixel = |x, y| [f64::from(u8::from([x, y] == at)); 3];
-            texels.add_longitude_latitude(size, pixel, |own| own);
-            let ratio = mean(&texels, |_| 1.0) / share(size, at[1]);
-            // Texels hold more places or fewer than their share. Asked at places of its own a map has none of it, or many times as much.
-            assert!((ratio - 1.0).abs() < 0.15, "{size:?} {at:?}: {ratio}");
+            let ratio = kept(size, at);
+            assert!((ratio - 1.0).abs() < 0.2, "{size:?} {at:?}: {ratio}");
         }
     }
+    // Nearly all within a twenty-fifth: as many at random.
+    let random = |k: u32, count: u32| lightbvh::exact::hash(k) % count;
+    let all = (0..60).map(|k| kept([200, 100], [random(2 * k, 200), random(2 * k + 1, 100)]));
+    let beyond = all.filter(|ratio| (ratio - 1.0).abs() > 0.04).count();
+    assert!(beyond <= 2, "{beyond} of 60");
 }
 
 #[test]

@@ -114,6 +114,18 @@ fn put_since(bvh: &LightBvh, stamp: u64) -> usize {
     placed.filter(|placed| placed.live && placed.hung > stamp).count()
 }
 
+/// Instances of a mesh, of radiance 1.
+fn put_in(bvh: &mut LightBvh, mesh: MeshId, at: &[[f32; 3]]) -> Vec<InstanceId> {
+    let add = at.iter().map(|&at| Edit::AddInstance {
+        mesh,
+        transform: Transform::at(at),
+        radiance: 1.0,
+    });
+    let ids = bvh.apply(add.collect()).expect("instances").instances;
+    bvh.refit();
+    ids
+}
+
 fn walker(bvh: &mut LightBvh, mesh: MeshId, radiance: f32, at: [f32; 3]) -> InstanceId {
     let add = Edit::AddInstance {
         mesh,

@@ -12,17 +12,6 @@ fn lamps(count: u32, random: &mut Random) -> (LightBvh, MeshId, Vec<InstanceId>,
     (bvh, lamp, ids, side)
 }
 
-fn put_in(bvh: &mut LightBvh, mesh: MeshId, at: &[[f32; 3]]) -> Vec<InstanceId> {
-    let add = at.iter().map(|&at| Edit::AddInstance {
-        mesh,
-        transform: Transform::at(at),
-        radiance: 1.0,
-    });
-    let ids = bvh.apply(add.collect()).expect("instances").instances;
-    bvh.refit();
-    ids
-}
-
 fn somewhere(count: usize, side: f32, random: &mut Random) -> Vec<[f32; 3]> {
     (0..count)
         .map(|_| (random.vector() * (0.9 * side)).to_array())

@@ -236,12 +236,9 @@ fn what_was_off_as_the_whole_top_level_was_built_is_looked_at() {
             let [a, b] = [a, b].map(|&own| crate::vector::length_squared(glam::Vec3::from(own) - middle));
             a.total_cmp(&b)
         });
-        let add = at.iter().enumerate().map(|(k, &at)| Edit::AddInstance {
-            mesh: lamp,
-            transform: Transform::at(at),
-            radiance: if k < 40 { 10.0 } else { 1.0 },
-        });
-        let ids = bvh.apply(add.collect()).expect("instances").instances;
+        let ids = put_in(&mut bvh, lamp, &at);
+        let bright = ids.iter().take(40).map(|&id| shine(id, 10.0)).collect();
+        bvh.apply(bright).expect("there");
         bvh.refit();
         let own = &mut rebuilder();
         let set = |is_on: bool| {
@@ -295,13 +292,8 @@ fn what_hardly_shines_rests() {
         let mut bvh = LightBvh::default();
         let [lamp, dim] = [(); 2].map(|()| bvh.add_mesh(eight([0.0; 3], 1.0)).expect("a lamp"));
         let at: Vec<_> = (0..1500).map(|_| (random.vector() * 45.0).to_array()).collect();
-        let add = at.iter().enumerate().map(|(k, &at)| Edit::AddInstance {
-            mesh: if k < 400 { dim } else { lamp },
-            transform: Transform::at(at),
-            radiance: 1.0,
-        });
-        let ids = bvh.apply(add.collect()).expect("instances").instances;
-        bvh.refit();
+        let mut ids = put_in(&mut bvh, dim, &at[..400]);
+        ids.extend(put_in(&mut bvh, lamp, &at[400..]));
         let own = &mut rebuilder();
         let mut edits: Vec<Edit> = ids.iter().take(400).map(|&id| shine(id, by_radiance)).collect();
         edits.push(Edit::SetTriangles {
@@ -332,13 +324,7 @@ fn what_comes_on_goes_on_from_a_file() {
     let mut bvh = LightBvh::default();
     let lamp = bvh.add_mesh(cloud(1, [0.0; 3], 0)).expect("a lamp");
     let at: Vec<_> = (0..900).map(|_| (random.vector() * 35.0).to_array()).collect();
-    let add = at.iter().map(|&at| Edit::AddInstance {
-        mesh: lamp,
-        transform: Transform::at(at),
-        radiance: 1.0,
-    });
-    let ids = bvh.apply(add.collect()).expect("instances").instances;
-    bvh.refit();
+    let ids = put_in(&mut bvh, lamp, &at);
     let own = &mut rebuilder();
     let lamps = |from: usize, radiance: f32| (from..from + 40).map(move |k| (k, radiance));
     let told = |bvh: &LightBvh, all: &[(usize, f32)]| -> Vec<Edit> {
