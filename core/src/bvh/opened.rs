@@ -277,8 +277,11 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
         self.take_parts(blas, count);
         let parts = self.placed_ranges.take(count);
+        // Until it is hung it is as one that was hung now: its record may have been another's.
+        let mut hung = self.placed[index as usize].clone();
+        (hung.flickers, hung.hung_radiance, hung.hung_center) = (false, hung.radiance, [f32::NAN; 3]);
         for part in parts.clone() {
-            self.put_part(part, index);
+            self.put_part(part, index, hung.hung_words());
         }
         let placed = &mut self.placed[index as usize];
         placed.parts = parts.clone();
@@ -292,11 +295,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         true
     }
 
-    /// A record for a part of `instance`, its words still to be written.
-    pub(super) fn put_part(&mut self, part: u32, instance: u32) {
+    /// A record for a part of `instance` that was hung as `hung` tells, its words still to be written.
+    pub(super) fn put_part(&mut self, part: u32, instance: u32, hung: [u32; 4]) {
         let old = self.placed.get(part as usize);
-        // What it was when it was hung is set as it is hung, and is there already where it was read.
-        let hung = old.map_or([0, INVALID, INVALID, INVALID], InstanceState::hung_words);
         let mut placed = InstanceState {
             live: false,
             generation: old.map_or(0, |old| old.generation + 1),

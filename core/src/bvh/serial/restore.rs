@@ -241,7 +241,7 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
         for index in self.live.clone() {
             let parts = self.placed[index as usize].parts.clone();
             for part in parts.clone() {
-                self.put_part(part, index);
+                self.put_part(part, index, self.placed[part as usize].hung_words());
             }
             if !parts.is_empty() {
                 self.instances[index as usize].part = parts.start;

@@ -14,6 +14,7 @@ use crate::{Edit, EmissiveTriangle, InstanceId, LightBvh, MeshId, MomentNode, Sh
 
 mod batches;
 mod dark;
+mod fades;
 mod paths;
 
 type Own = Rebuilder<MomentNode<8>, 8>;

@@ -12,7 +12,7 @@ fn lamps(count: u32, random: &mut Random) -> (LightBvh, MeshId, Vec<InstanceId>,
     (bvh, lamp, ids, side)
 }
 
-fn somewhere(count: usize, side: f32, random: &mut Random) -> Vec<[f32; 3]> {
+pub(super) fn somewhere(count: usize, side: f32, random: &mut Random) -> Vec<[f32; 3]> {
     (0..count)
         .map(|_| (random.vector() * (0.9 * side)).to_array())
         .collect()

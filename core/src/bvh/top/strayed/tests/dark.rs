@@ -365,3 +365,29 @@ fn what_comes_on_goes_on_from_a_file() {
         }
     }
 }
+
+/// Off as what a tree is built from is copied, and on before it comes in: it hangs anywhere in it, and no edit tells of it any more.
+#[test]
+fn what_comes_on_while_a_tree_is_built_is_looked_at() {
+    let random = &mut Random(210);
+    let mut bvh = LightBvh::default();
+    let lamp = bvh.add_mesh(cloud(1, [0.0; 3], 0)).expect("a lamp");
+    let ids = put_in(&mut bvh, lamp, &batches::somewhere(300, 30.0, random));
+    let set = |bvh: &mut LightBvh, radiance: f32| {
+        let edits = ids.iter().take(20).map(|&id| shine(id, radiance)).collect();
+        bvh.apply(edits).expect("there");
+        bvh.refit();
+    };
+    set(&mut bvh, 0.0);
+    let copy = bvh.rebuild(&crate::bvh::RebuildParams::eager());
+    assert!(!copy.is_empty());
+    set(&mut bvh, 1.0);
+    bvh.install(copy.run()).expect("its own");
+    let noted: Vec<u32> = bvh.top.lit.iter().copied().collect();
+    assert_eq!(
+        noted,
+        ids.iter().take(20).map(|id| id.index()).collect::<Vec<_>>()
+    );
+    rest(&mut bvh, &mut rebuilder());
+    assert!(bvh.top.lit.is_empty());
+}
