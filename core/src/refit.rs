@@ -3,19 +3,22 @@
 //! Every function takes the nodes as they are and returns one node anew, so that the CPU and the kernels run the same
 //! body and each node is written by one invocation. The order of passes: [`bottom`] from the deepest level of the bottom
 //! levels to their roots; [`root`] for each bottom level; [`top`] from the deepest level of the top level to its root.
-//! Children are merged in an order of the slots, so no order of execution shows in the bits.
+//! Children are merged in an order of the slots, so no order of execution shows in the bits. Kernels compute a node in two passes, its
+//! children one by one and then itself ([`bottom_child`], [`top_child`], [`assembled`]): the same words.
 
+mod children;
 mod limits;
 
 use bytemuck::{Pod, Zeroable};
 
+pub use self::children::{Child, assembled, bottom_child, child_words, top_child};
+use crate::beam::Limits;
 pub use crate::instance::{Instance, world_light};
 use crate::light::{Light, LightSlots};
 use crate::node::{Node, kind};
 use crate::summary::{Lanes, SUMMARY_WORDS, Summary};
 
 pub(crate) use limits::limits_below;
-use limits::limits_of_top;
 #[cfg(feature = "alloc")]
 pub(crate) use limits::{has_limits, limits_of_instance};
 
@@ -104,21 +107,15 @@ pub fn top<N: Node<W>, const W: usize>(
     index: u32,
 ) -> N {
     let mut node = nodes[index as usize];
-    let mut children = Lanes::<W>::all(&N::Summary::EMPTY);
+    let mut children = Lanes::<W>([[0.0; W]; SUMMARY_WORDS]);
+    let mut limits = [Limits::NONE; W];
     for slot in 0..W {
-        let (to, link) = (node.kind(slot), node.link(slot));
-        if to == kind::MESH && link < instances.len() as u32 {
-            let blas = instances[link as usize].blas;
-            if blas < roots.len() as u32 {
-                let local = roots[blas as usize].summary::<N::Summary>();
-                children.set(slot, &local.to_world::<N::Light>(&instances[link as usize]));
-            }
-        } else if to == kind::INNER && link < nodes.len() as u32 {
-            children.set(slot, &nodes[link as usize].merged());
-        }
+        let child = top_child(nodes, instances, roots, index, slot);
+        children.set(slot, &child.summary);
+        limits[slot] = child.limits;
     }
     node.set_lanes(&children);
-    node.set_limits(&limits_of_top(nodes, instances, roots, &node, &children));
+    node.set_limits(&limits);
     node
 }
 

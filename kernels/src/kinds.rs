@@ -9,13 +9,15 @@ use lightbvh::{Instance, LightPoint, SampledLight};
 use spirv_std::spirv;
 
 pub use crate::bvh::AnyNode;
+use crate::bvh::WIDTH;
 use crate::invocation;
 use crate::query::{PointsPush, Query};
-use crate::refit::{RefitPush, bottom_pass, roots_pass, top_pass};
+use crate::refit::{RefitPush, bottom_pass, nodes_pass, roots_pass, top_pass};
 
-bottom_pass!(AnyNode, AnyLight, refit_bottom_any, "refit_bottom_any");
+bottom_pass!(AnyNode, WIDTH, AnyLight, refit_bottom_any, "refit_bottom_any");
 roots_pass!(AnyNode, refit_roots_any, "refit_roots_any");
-top_pass!(AnyNode, refit_top_any, "refit_top_any");
+top_pass!(AnyNode, WIDTH, refit_top_any, "refit_top_any");
+nodes_pass!(AnyNode, refit_nodes_any, "refit_nodes_any");
 
 /// The point on a sampled light that the two numbers of `uv` choose for the receiver of `query`.
 #[inline]

@@ -13,10 +13,10 @@ use lightbvh::refit::{self, BlasRoot};
 use lightbvh::{Defensive, Instance, LightPoint, LightTree, Moments, Random64, SampledLight, ShadingPoint};
 use spirv_std::spirv;
 
-use crate::bvh::Node;
+use crate::bvh::{Node, WIDTH};
 use crate::invocation;
 use crate::query::{PointsPush, QueryPush};
-use crate::refit::{RefitPush, bottom_pass, roots_pass, top_pass};
+use crate::refit::{RefitPush, bottom_pass, nodes_pass, roots_pass, top_pass};
 
 /// Node over triangles with masks.
 pub type LinkedNode = Lit<LinkedMomentNode<8>, LinkedTriangle>;
@@ -166,12 +166,14 @@ receiver_passes!(
 
 bottom_pass!(
     LinkedNode,
+    WIDTH,
     LinkedTriangle,
     refit_bottom_linked,
     "refit_bottom_linked"
 );
 roots_pass!(LinkedNode, refit_roots_linked, "refit_roots_linked");
-top_pass!(LinkedNode, refit_top_linked, "refit_top_linked");
+top_pass!(LinkedNode, WIDTH, refit_top_linked, "refit_top_linked");
+nodes_pass!(LinkedNode, refit_nodes_linked, "refit_nodes_linked");
 
 /// As [`light_points`](crate::query::light_points), of triangles with masks.
 #[spirv(compute(threads(64), entry_point_name = "light_points_linked"))]

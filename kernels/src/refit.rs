@@ -1,6 +1,6 @@
-//! Passes `refit_bottom`, `refit_roots`, `refit_top`: new summaries bottom-up (paper section 3.4) of the nodes listed, so that
-//! only what changed costs anything. One invocation writes one node or root; a barrier stands between dispatches, of which
-//! there is one for each level.
+//! Passes `refit_bottom`, `refit_top`, `refit_nodes`, `refit_roots`: new summaries bottom-up (paper section 3.4) of the nodes listed, so
+//! that only what changed costs anything. A level is two dispatches: one invocation for each child of its nodes, then one for each node. A
+//! barrier stands between dispatches.
 
 use bytemuck::{Pod, Zeroable};
 use glam::UVec3;
@@ -8,7 +8,7 @@ use lightbvh::refit::{self, BlasRoot};
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
-use crate::bvh::{NodeOf, Paper, Standard};
+use crate::bvh::{NodeOf, Paper, Standard, WIDTH};
 use crate::invocation;
 
 /// Push constants of the refit passes.
@@ -17,21 +17,77 @@ use crate::invocation;
 pub struct RefitPush {
     /// First entry of the list.
     pub first: u32,
-    /// Number of entries.
+    /// Number of invocations: of entries, times the nodes' width where each child has one.
     pub count: u32,
 }
 
-/// The pass over bottom levels of one type of node and of light.
+/// The pass over children in bottom levels of one type of node, its width, and of light.
 macro_rules! bottom_pass {
-    ($node:ty, $light:ty, $pass:ident, $name:tt) => {
-        /// Nodes `list[first + i]` of bottom levels, all of one level, take the summaries of their triangles and of the nodes
-        /// below them.
+    ($node:ty, $width:expr, $light:ty, $pass:ident, $name:tt) => {
+        /// What is known of each child of the nodes `list[first + k]`, all of one level of bottom levels, goes into `children` for `refit_nodes`: of
+        /// its triangle, or of the node below. Invocation `i` computes child `i % width` of node `k = i / width`.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
             #[spirv(global_invocation_id)] id: UVec3,
             #[spirv(push_constant)] push: &RefitPush,
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] triangles: &[$light],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] nodes: &[$node],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] children: &mut [u32],
+        ) {
+            let i = invocation(id);
+            let (place, slot) = (i / $width as u32, i as usize % $width);
+            let entry = push.first.wrapping_add(place);
+            if i < push.count && entry < list.len() as u32 {
+                let node = list[entry as usize];
+                if node < nodes.len() as u32 {
+                    let child = refit::bottom_child(nodes, triangles, node, slot);
+                    child.put::<$node, { $width }>(children, place, slot);
+                }
+            }
+        }
+    };
+}
+
+/// The pass over children in the top level.
+macro_rules! top_pass {
+    ($node:ty, $width:expr, $pass:ident, $name:tt) => {
+        /// What is known of each child of the top-level nodes `list[first + k]`, all of one level, goes into `children` for `refit_nodes`: of its
+        /// instance, from the bottom level's root, or of the node below. Invocation `i` computes child `i % width` of node `k = i / width`.
+        #[spirv(compute(threads(64), entry_point_name = $name))]
+        pub fn $pass(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(push_constant)] push: &RefitPush,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] roots: &[BlasRoot],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] nodes: &[$node],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] children: &mut [u32],
+        ) {
+            let i = invocation(id);
+            let (place, slot) = (i / $width as u32, i as usize % $width);
+            let entry = push.first.wrapping_add(place);
+            if i < push.count && entry < list.len() as u32 {
+                let node = list[entry as usize];
+                if node < nodes.len() as u32 {
+                    let child = refit::top_child(nodes, instances, roots, node, slot);
+                    child.put::<$node, { $width }>(children, place, slot);
+                }
+            }
+        }
+    };
+}
+
+/// The pass over nodes of either level, after that over their children.
+macro_rules! nodes_pass {
+    ($node:ty, $pass:ident, $name:tt) => {
+        /// Nodes `list[first + k]` take the summaries of the children that the pass before has put into `children` as those of node `k`.
+        #[spirv(compute(threads(64), entry_point_name = $name))]
+        pub fn $pass(
+            #[spirv(global_invocation_id)] id: UVec3,
+            #[spirv(push_constant)] push: &RefitPush,
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] children: &[u32],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] nodes: &mut [$node],
         ) {
             let i = invocation(id);
@@ -39,14 +95,14 @@ macro_rules! bottom_pass {
             if i < push.count && entry < list.len() as u32 {
                 let node = list[entry as usize];
                 if node < nodes.len() as u32 {
-                    nodes[node as usize] = refit::bottom(nodes, triangles, node);
+                    nodes[node as usize] = refit::assembled(nodes, node, children, i);
                 }
             }
         }
     };
 }
 
-/// The pass over their roots.
+/// The pass over the roots of bottom levels.
 macro_rules! roots_pass {
     ($node:ty, $pass:ident, $name:tt) => {
         /// The summaries of bottom levels `list[first + i]` from their root nodes.
@@ -70,42 +126,132 @@ macro_rules! roots_pass {
     };
 }
 
-/// The pass over the top level.
-macro_rules! top_pass {
-    ($node:ty, $pass:ident, $name:tt) => {
-        /// Top-level nodes `list[first + i]`, all of one level, take the summaries of their instances, from the bottom levels'
-        /// roots, and of the nodes below them.
-        #[spirv(compute(threads(64), entry_point_name = $name))]
-        pub fn $pass(
-            #[spirv(global_invocation_id)] id: UVec3,
-            #[spirv(push_constant)] push: &RefitPush,
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] roots: &[BlasRoot],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] nodes: &mut [$node],
-        ) {
-            let i = invocation(id);
-            let entry = push.first.wrapping_add(i);
-            if i < push.count && entry < list.len() as u32 {
-                let node = list[entry as usize];
-                if node < nodes.len() as u32 {
-                    nodes[node as usize] = refit::top(nodes, instances, roots, node);
-                }
-            }
-        }
-    };
-}
+pub(crate) use {bottom_pass, nodes_pass, roots_pass, top_pass};
 
-pub(crate) use {bottom_pass, roots_pass, top_pass};
-
-bottom_pass!(NodeOf<Standard>, EmissiveTriangle, refit_bottom, "refit_bottom");
+bottom_pass!(
+    NodeOf<Standard>,
+    WIDTH,
+    EmissiveTriangle,
+    refit_bottom,
+    "refit_bottom"
+);
 roots_pass!(NodeOf<Standard>, refit_roots, "refit_roots");
-top_pass!(NodeOf<Standard>, refit_top, "refit_top");
+top_pass!(NodeOf<Standard>, WIDTH, refit_top, "refit_top");
+nodes_pass!(NodeOf<Standard>, refit_nodes, "refit_nodes");
 bottom_pass!(
     NodeOf<Paper>,
+    4,
     EmissiveTriangle,
     refit_bottom_eq4,
     "refit_bottom_eq4"
 );
 roots_pass!(NodeOf<Paper>, refit_roots_eq4, "refit_roots_eq4");
-top_pass!(NodeOf<Paper>, refit_top_eq4, "refit_top_eq4");
+top_pass!(NodeOf<Paper>, 4, refit_top_eq4, "refit_top_eq4");
+nodes_pass!(NodeOf<Paper>, refit_nodes_eq4, "refit_nodes_eq4");
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lightbvh::light::TWO_SIDED;
+    use lightbvh::node::Node as _;
+    use lightbvh::node::kind;
+    use lightbvh::refit::child_words;
+
+    type Node = NodeOf<Standard>;
+
+    /// Two leaves and their parent, then a top level of an instance and a node without children.
+    fn arrays() -> (Vec<Node>, Vec<EmissiveTriangle>, Vec<Instance>) {
+        let triangles = (0..9_u8).map(|i| EmissiveTriangle {
+            p: [
+                [f32::from(i), 0.0, 0.0],
+                [f32::from(i), 1.0, 0.0],
+                [0.0, f32::from(i), 1.0],
+            ],
+            radiance: [1.0; 3],
+            mesh: 0,
+            flags: if i % 2 == 0 { TWO_SIDED } else { 0 },
+        });
+        let mut nodes = vec![Node::EMPTY; 5];
+        nodes[0].set_child(0, kind::INNER, 1);
+        nodes[0].set_child(5, kind::INNER, 2);
+        for i in 0..8 {
+            nodes[1].set_child(i, kind::LIGHT, i as u32);
+        }
+        nodes[2].set_child(3, kind::LIGHT, 8);
+        // What is not there.
+        nodes[2].set_child(4, kind::LIGHT, 9);
+        nodes[2].set_child(6, kind::INNER, u32::MAX);
+        nodes[3].set_child(7, kind::MESH, 0);
+        nodes[3].set_child(2, kind::MESH, 1);
+        nodes[3].set_child(1, kind::INNER, 4);
+        let mut instance = Instance::IDENTITY;
+        instance.blas = 0;
+        (nodes, triangles.collect(), vec![instance])
+    }
+
+    /// Dispatches over a list of which some entries are no nodes, with more invocations than it has entries.
+    #[test]
+    fn passes_over_children_and_nodes_are_the_refit() {
+        let (mut nodes, triangles, instances) = arrays();
+        let mut expected = nodes.clone();
+        for i in [1, 2, 0] {
+            expected[i as usize] = refit::bottom(&expected, &triangles, i);
+        }
+        let roots = [refit::root(&expected, 0)];
+        for i in [4, 3] {
+            expected[i as usize] = refit::top(&expected, &instances, &roots, i);
+        }
+
+        let list = [77, 1, 5, 2, 0, u32::MAX, 4, 3];
+        let words = WIDTH * child_words::<Node, WIDTH>();
+        let mut children = vec![0; 3 * words];
+        let id = |i: u32| UVec3::new(i, 0, 0);
+        let mut found = vec![BlasRoot::new(0, &lightbvh::moments::LightMoments::EMPTY)];
+        for (first, count, is_top) in [(1, 3, false), (4, 1, false), (5, 2, true), (7, 1, true)] {
+            if first == 5 {
+                let push = RefitPush { first: 4, count: 1 };
+                (0..64).for_each(|i| refit_roots(id(i), &push, &list, &nodes, &mut found));
+                assert_eq!(found, roots);
+            }
+            let width = WIDTH as u32;
+            let push = RefitPush {
+                first,
+                count: count * width,
+            };
+            for i in 0..64 {
+                if is_top {
+                    refit_top(id(i), &push, &list, &instances, &found, &nodes, &mut children);
+                } else {
+                    refit_bottom(id(i), &push, &list, &triangles, &nodes, &mut children);
+                }
+            }
+            let push = RefitPush { first, count };
+            (0..64).for_each(|i| refit_nodes(id(i), &push, &list, &children, &mut nodes));
+        }
+        assert_eq!(nodes, expected);
+    }
+
+    /// A buffer of children that is too short, a count beyond the list: nothing else is written.
+    #[test]
+    fn what_has_no_room_is_left_out() {
+        let (mut nodes, triangles, _) = arrays();
+        let before = nodes.clone();
+        let words = WIDTH * child_words::<Node, WIDTH>();
+        let mut children = vec![7; 2 * words - 1];
+        let push = RefitPush {
+            first: 0,
+            count: u32::MAX,
+        };
+        for i in 0..64 {
+            let id = UVec3::new(i, 0, 0);
+            refit_bottom(id, &push, &[2, 1], &triangles, &nodes, &mut children);
+        }
+        assert!(children[words..].iter().all(|&word| word == 7));
+        for i in 0..64 {
+            refit_nodes(UVec3::new(i, 0, 0), &push, &[2, 1], &children, &mut nodes);
+        }
+        assert_eq!(nodes[2], refit::bottom(&before, &triangles, 2));
+        assert_ne!(nodes[2], before[2]);
+        assert_eq!((nodes[0], nodes[1]), (before[0], before[1]));
+    }
+}

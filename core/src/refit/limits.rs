@@ -4,9 +4,9 @@
 //! common bit comes to no dead end. A beam holds those of all lights below.
 
 use super::BlasRoot;
+use super::children::limits_of_light;
 use crate::beam::Limits;
 use crate::instance::Instance;
-use crate::light::Light;
 use crate::node::{Node, kind};
 use crate::summary::Lanes;
 
@@ -32,39 +32,9 @@ pub(crate) fn limits_below<N: Node<W>, const W: usize>(
             let (to, link) = (node.kind(slot), node.link(slot));
             let below = link.wrapping_sub(first);
             if to == kind::LIGHT && link < triangles.len() as u32 {
-                let light = &triangles[link as usize];
-                limits[slot].mask = light.mask();
-                if N::HAS_BEAMS {
-                    limits[slot].beam = light.beam();
-                }
+                limits[slot] = limits_of_light::<N, W>(&triangles[link as usize]);
             } else if to == kind::INNER && below < nodes.len() as u32 {
                 limits[slot] = nodes[below as usize].merged_limits(&children.get(slot));
-            }
-        }
-    }
-    limits
-}
-
-/// The limits of the children of the top level's `node`.
-#[inline(always)]
-pub(super) fn limits_of_top<N: Node<W>, const W: usize>(
-    nodes: &[N],
-    instances: &[Instance],
-    roots: &[BlasRoot],
-    node: &N,
-    children: &Lanes<W>,
-) -> [Limits; W] {
-    let mut limits = [Limits::NONE; W];
-    if has_limits::<N, W>() {
-        for slot in 0..W {
-            let (to, link) = (node.kind(slot), node.link(slot));
-            if to == kind::MESH && link < instances.len() as u32 {
-                let instance = &instances[link as usize];
-                if instance.blas < roots.len() as u32 {
-                    limits[slot] = limits_of_instance(nodes, &roots[instance.blas as usize], instance);
-                }
-            } else if to == kind::INNER && link < nodes.len() as u32 {
-                limits[slot] = nodes[link as usize].merged_limits(&children.get(slot));
             }
         }
     }

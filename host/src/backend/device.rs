@@ -39,6 +39,8 @@ pub struct DeviceBackend<'d, C: Choice<W> = Standard, const W: usize = WIDTH> {
     pub(super) roots: Arc<Buffer<BlasRoot>>,
     /// What refits are listed in.
     pub(super) list: Buffer<u32>,
+    /// By which a refit's passes hand over from children to nodes.
+    pub(super) children: Buffer<u32>,
     /// The refit of everything, and of how many triangles the meshes are then; none after edits.
     pub(super) refit: Option<Refit>,
     pub(super) counts: MeshCounts,
@@ -75,6 +77,7 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
             tree: DeviceTree::upload::<C, W>(device, &bvh.tree(), bvh.triangles())?,
             roots: Arc::new(device.upload(bvh.roots())?),
             list: device.buffer(0, refit.list.len())?,
+            children: device.buffer(0, refit.children as usize / size_of::<u32>())?,
             refit: Some(refit),
             counts: bvh.mesh_counts(),
             mirror,
@@ -119,12 +122,13 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
 
     /// What a kernel of a refit takes, by the names of its bindings.
     pub(super) fn buffers(&self, kernel: &Kernel) -> Vec<Binding> {
-        let bind = |name| match Array::named(name) {
+        let bind = |name: &str| match Array::named(name) {
             Some(Array::Nodes) => self.tree.nodes.bind(),
             Some(Array::Triangles) => self.tree.emitters.triangles.bind(),
             Some(Array::Instances) => self.tree.emitters.instances.bind(),
             Some(Array::Roots) => self.roots.bind(),
             Some(Array::Trails) => self.tree.trails.bind(),
+            None if name == "children" => self.children.bind(),
             None => self.list.bind(),
         };
         let known = lightbvh_gpu::Kernel::named(kernel.name()).map_or(&[][..], |known| known.bindings);

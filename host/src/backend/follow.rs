@@ -46,7 +46,7 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
 
     /// Lists a refit of everything anew, for [`Backend::refit`](super::Backend::refit) after edits: of what was followed last.
     pub fn list_everything(&mut self, bvh: &Bvh<C, W>) {
-        self.refit = Some(Refit::new(&bvh.plan_of_everything()));
+        self.refit = Some(Refit::new::<C::Node, W>(&bvh.plan_of_everything()));
         self.counts = bvh.mesh_counts();
     }
 
@@ -114,6 +114,10 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
             self.list = self.device.buffer(refit.list.len(), roomy(refit.list.len()))?;
         }
         pass.write(&self.list, 0, &refit.list)?;
+        let children = refit.children as usize / size_of::<u32>();
+        if !self.children.set_len(children.max(self.children.len())) {
+            self.children = self.device.buffer(children, roomy(children))?;
+        }
         for dispatch in &refit.dispatches {
             let kernel = self.kernel(dispatch.pass.name())?;
             let buffers = self.buffers(&kernel);

@@ -62,13 +62,18 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
             return Ok(());
         }
         let list = device.upload(&frame.refit.list)?;
+        let children = device.output::<u32>(frame.refit.children as usize / size_of::<u32>())?;
         let mut pass = Pass::new();
         for dispatch in &frame.refit.dispatches {
             let kernel = self.kernels.refit(dispatch.pass);
             let bindings: Vec<_> = kernel
                 .bindings
                 .iter()
-                .map(|binding| self.bind(binding.name).unwrap_or_else(|| list.bind()))
+                .map(|binding| match binding.name {
+                    "list" => list.bind(),
+                    "children" => children.bind(),
+                    array => self.bind(array).expect("an array of the tree"),
+                })
                 .collect();
             let compiled = device.kernel(kernel.name)?;
             pass.dispatch(&compiled, &bindings, cast_slice(&dispatch.push()), dispatch.count);

@@ -67,6 +67,7 @@ fn entry_points(choice: &Model) -> String {
     ENTRY_POINTS
         .replace("NODE", &choice.node_type())
         .replace("IMPORTANCE", &choice.importance_type())
+        .replace("WIDTH", &choice.width.to_string())
 }
 
 fn manifest(core: &Path) -> String {
@@ -124,7 +125,14 @@ mod tests {
     fn the_crate_has_the_passes_of_the_choice() {
         let choice = parse("two-sided", "8", "6").expect("a choice");
         let source = entry_points(&choice);
-        for pass in ["sample", "pmf", "refit_bottom", "refit_roots", "refit_top"] {
+        for pass in [
+            "sample",
+            "pmf",
+            "refit_bottom",
+            "refit_roots",
+            "refit_top",
+            "refit_nodes",
+        ] {
             assert!(source.contains(&format!("pub fn {pass}(")), "{pass}");
         }
         assert!(source.contains("type Node = TwoSidedMomentNode<8>;"), "{source}");
@@ -132,6 +140,10 @@ mod tests {
             source.contains("type Importance = Defensive<Moments, 6>;"),
             "{source}"
         );
-        assert!(!source.contains("NODE") && !source.contains("IMPORTANCE"));
+        assert!(
+            ["NODE", "IMPORTANCE", "WIDTH"]
+                .iter()
+                .all(|name| !source.contains(name))
+        );
     }
 }

@@ -44,7 +44,6 @@ struct Results {
 
 impl DeviceLights {
     fn new(gpu: &Rc<Gpu>) -> Result<Self> {
-        let passes = [Pass::Bottom, Pass::Roots, Pass::Top];
         Ok(Self {
             gpu: Rc::clone(gpu),
             mirror: Mirror::default(),
@@ -52,7 +51,7 @@ impl DeviceLights {
                 .iter()
                 .map(|_| Buffer::storage(gpu, 0))
                 .collect::<Result<_>>()?,
-            refits: passes
+            refits: Pass::ALL
                 .into_iter()
                 .map(|pass| Ok((pass, kernel(gpu, MOMENTS.refit(pass))?)))
                 .collect::<Result<_>>()?,
@@ -73,6 +72,7 @@ impl DeviceLights {
             .collect();
         let staging = Buffer::staged(&self.gpu, &staging)?;
         let list = Buffer::staged(&self.gpu, cast_slice(&frame.refit.list))?;
+        let children = Buffer::storage(&self.gpu, frame.refit.children)?;
         let asked = Buffer::staged(&self.gpu, cast_slice(queries))?;
         let answers = Buffer::storage(&self.gpu, size_of::<SampledLight>() as u64 * queries.len() as u64)?;
 
@@ -80,6 +80,7 @@ impl DeviceLights {
         let named = |name: &str| match (Array::named(name), name) {
             (Some(array), _) => &self.arrays[array as usize],
             (None, "list") => &list,
+            (None, "children") => &children,
             (None, "queries") => &asked,
             (None, "results") => &answers,
             (None, other) => panic!("no kernel here has a binding {other}"),
@@ -116,7 +117,7 @@ impl DeviceLights {
             for dispatch in &frame.refit.dispatches {
                 self.refit(dispatch.pass)
                     .dispatch(commands, &dispatch.push(), dispatch.count);
-                // The next level reads what this one wrote.
+                // The next dispatch reads what this one wrote.
                 gpu.barrier(commands);
             }
             self.sample.dispatch(commands, &push, queries.len() as u32);

@@ -136,7 +136,7 @@ impl Mirror {
             bvh.planned()
         };
         let mut frame = Frame {
-            refit: Refit::new(work),
+            refit: Refit::new::<N, W>(work),
             ..Frame::default()
         };
         let roots: Vec<Range<u32>> = work.roots.iter().map(|&root| root..root + 1).collect();

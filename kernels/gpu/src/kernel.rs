@@ -142,7 +142,13 @@ mod tests {
             assert_eq!(access(kernel, "results"), Access::Write, "{kernel}");
         }
         for kernel in ["refit_bottom", "refit_top", "refit_bottom_eq4", "refit_top_eq4"] {
+            assert_eq!(access(kernel, "nodes"), Access::Read, "{kernel}");
+            assert_eq!(access(kernel, "children"), Access::Write, "{kernel}");
+            assert_eq!(access(kernel, "list"), Access::Read, "{kernel}");
+        }
+        for kernel in ["refit_nodes", "refit_nodes_eq4"] {
             assert_eq!(access(kernel, "nodes"), Access::ReadWrite, "{kernel}");
+            assert_eq!(access(kernel, "children"), Access::Read, "{kernel}");
             assert_eq!(access(kernel, "list"), Access::Read, "{kernel}");
         }
         assert_eq!(access("refit_roots", "roots"), Access::ReadWrite);

@@ -4,19 +4,26 @@ use alloc::vec::Vec;
 
 use lightbvh::bvh::RefitPlan;
 use lightbvh::levels::Levels;
+use lightbvh::node::Node;
+use lightbvh::refit::child_words;
 
 /// What a dispatch of a refit computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Pass {
-    /// Nodes of bottom levels.
+    /// The children of nodes of bottom levels, an invocation for each.
     Bottom,
     /// Roots of bottom levels.
     Roots,
-    /// Nodes of the top level.
+    /// The children of nodes of the top level, an invocation for each.
     Top,
+    /// Nodes of either, from their children, which the dispatch before has computed.
+    Nodes,
 }
 
 impl Pass {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Bottom, Self::Roots, Self::Top, Self::Nodes];
+
     /// Name of its kernel, without the suffix of the choice of layout.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -24,18 +31,20 @@ impl Pass {
             Self::Bottom => "refit_bottom",
             Self::Roots => "refit_roots",
             Self::Top => "refit_top",
+            Self::Nodes => "refit_nodes",
         }
     }
 }
 
-/// One dispatch of a refit: a pass over a part of the list, an invocation for each entry.
+/// One dispatch of a refit: a pass over a part of the list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dispatch {
     /// What it computes.
     pub pass: Pass,
     /// First entry of the list.
     pub first: u32,
-    /// Number of entries, at least 1; [`groups`](crate::groups) says how many workgroups.
+    /// Number of invocations, at least 1: one for each entry, or for each child of each entry's node. [`groups`](crate::groups) says how
+    /// many workgroups.
     pub count: u32,
 }
 
@@ -55,33 +64,137 @@ pub struct Refit {
     pub list: Vec<u32>,
     /// The dispatches.
     pub dispatches: Vec<Dispatch>,
+    /// Bytes of the buffer `children` that the kernels need, by which passes [`Bottom`](Pass::Bottom) and [`Top`](Pass::Top) hand over to
+    /// [`Nodes`](Pass::Nodes). What it holds before and after a refit means nothing. At most those of [`AT_A_TIME`](Self::AT_A_TIME) nodes, 12
+    /// MiB for `LightBvh`.
+    pub children: u64,
 }
 
 impl Refit {
-    /// The refit that `plan` says.
+    /// Most nodes that a dispatch computes: enough to keep a large device busy. It bounds [`children`](Self::children).
+    pub const AT_A_TIME: usize = 1 << 15;
+
+    /// The refit that `plan` says, of nodes `N`.
     #[must_use]
-    pub fn new(plan: &RefitPlan) -> Self {
+    pub fn new<N: Node<W>, const W: usize>(plan: &RefitPlan) -> Self {
+        Self::of_at_most::<N, W>(plan, Self::AT_A_TIME)
+    }
+
+    /// In dispatches over at most `most` nodes.
+    fn of_at_most<N: Node<W>, const W: usize>(plan: &RefitPlan, most: usize) -> Self {
         let mut refit = Self::default();
-        refit.levels(Pass::Bottom, &plan.bottom);
-        refit.part(Pass::Roots, plan.roots.iter().copied());
-        refit.levels(Pass::Top, &plan.top);
+        refit.levels::<N, W>(Pass::Bottom, &plan.bottom, most);
+        let first = refit.list.len() as u32;
+        refit.list.extend(&plan.roots);
+        refit.dispatch(Pass::Roots, first, plan.roots.len());
+        refit.levels::<N, W>(Pass::Top, &plan.top, most);
         refit
     }
 
-    /// Appends a dispatch for each level.
-    fn levels(&mut self, pass: Pass, levels: &Levels) {
+    /// Appends two dispatches for each level, or for each part of one: over the children, then over the nodes.
+    fn levels<N: Node<W>, const W: usize>(&mut self, pass: Pass, levels: &Levels, most: usize) {
         for range in levels.ranges() {
-            self.part(pass, levels.nodes()[range].iter().copied());
+            for nodes in levels.nodes()[range].chunks(most) {
+                let first = self.list.len() as u32;
+                self.list.extend(nodes);
+                self.dispatch(pass, first, nodes.len() * W);
+                self.dispatch(Pass::Nodes, first, nodes.len());
+                let children = nodes.len() * W * child_words::<N, W>() * size_of::<u32>();
+                self.children = self.children.max(children as u64);
+            }
         }
     }
 
-    /// Appends a dispatch over `entries`, or none where there are none.
-    fn part(&mut self, pass: Pass, entries: impl IntoIterator<Item = u32>) {
-        let first = self.list.len() as u32;
-        self.list.extend(entries);
-        let count = self.list.len() as u32 - first;
+    /// Appends a dispatch, unless it has no invocations.
+    fn dispatch(&mut self, pass: Pass, first: u32, count: usize) {
+        let count = count as u32;
         if count > 0 {
             self.dispatches.push(Dispatch { pass, first, count });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use lightbvh::light::EmissiveTriangle;
+    use lightbvh::{Bvh, MomentNode, Transform};
+
+    use super::*;
+
+    /// Two meshes, 40 instances.
+    fn plan() -> RefitPlan {
+        let mut bvh = Bvh::<MomentNode<4>, (), 4>::default();
+        for count in [3_u16, 300] {
+            let row = (0..count).map(|i| {
+                let x = f32::from(i);
+                EmissiveTriangle {
+                    p: [[x, 0.0, 0.0], [x + 0.5, 0.0, 0.0], [x, 0.5, 0.1]],
+                    radiance: [1.0; 3],
+                    mesh: 0,
+                    flags: 0,
+                }
+            });
+            let mesh = bvh.add_mesh(row.collect()).expect("a mesh");
+            for i in 0..20_u8 {
+                let at = Transform::at([f32::from(i), f32::from(count), 0.0]);
+                bvh.add_instance(mesh, at).expect("an instance");
+            }
+        }
+        bvh.plan_of_everything()
+    }
+
+    /// Whether a level is computed at once or in parts: after what is below it, each node once, its children just before it.
+    #[test]
+    fn parts_of_a_level_are_the_level() {
+        let plan = plan();
+        let whole = Refit::new::<MomentNode<4>, 4>(&plan);
+        let passes = |refit: &Refit| {
+            refit
+                .dispatches
+                .iter()
+                .map(|dispatch| dispatch.pass)
+                .collect::<Vec<_>>()
+        };
+        let levels = |levels: &Levels| levels.ranges().count();
+        assert_eq!(
+            passes(&whole).len(),
+            2 * levels(&plan.bottom) + 1 + 2 * levels(&plan.top)
+        );
+        for most in [1, 7, 30] {
+            let parts = Refit::of_at_most::<MomentNode<4>, 4>(&plan, most);
+            assert_eq!(parts.list, whole.list);
+            assert!(parts.dispatches.len() > whole.dispatches.len());
+            let mut next = 0;
+            for (k, dispatch) in parts.dispatches.iter().enumerate() {
+                assert_eq!(dispatch.first, next);
+                match dispatch.pass {
+                    Pass::Bottom | Pass::Top => {
+                        let nodes = parts.dispatches[k + 1];
+                        assert_eq!(
+                            (nodes.pass, nodes.first, 4 * nodes.count),
+                            (Pass::Nodes, dispatch.first, dispatch.count)
+                        );
+                        continue;
+                    }
+                    Pass::Roots => {}
+                    Pass::Nodes => {
+                        assert!(dispatch.count as usize <= most);
+                        // No part reaches from one level into the next.
+                        let entries = dispatch.first as usize..(dispatch.first + dispatch.count) as usize;
+                        let within = |part: &Dispatch| {
+                            part.first as usize <= entries.start
+                                && entries.end <= (part.first + part.count) as usize
+                        };
+                        let nodes = |part: &&Dispatch| part.pass == Pass::Nodes;
+                        assert!(whole.dispatches.iter().filter(nodes).any(within));
+                    }
+                }
+                next += dispatch.count;
+            }
+            assert_eq!(next as usize, parts.list.len());
+            let bytes = most.min(whole.list.len()) as u64 * 4 * 12 * 4;
+            assert!(parts.children <= bytes && parts.children <= whole.children);
+            assert!(most > 7 || parts.children == bytes);
         }
     }
 }

@@ -12,12 +12,14 @@ use crate::table;
 /// [`KERNELS`](crate::KERNELS) serve all.
 #[derive(Clone, Copy, Debug)]
 pub struct KernelSet {
-    /// Nodes of bottom levels anew.
+    /// Children of nodes of bottom levels anew.
     pub refit_bottom: &'static Kernel,
     /// Roots of bottom levels anew.
     pub refit_roots: &'static Kernel,
-    /// Nodes of the top level anew.
+    /// Children of nodes of the top level anew.
     pub refit_top: &'static Kernel,
+    /// Nodes anew, from their children.
+    pub refit_nodes: &'static Kernel,
     /// A light for each query's point.
     pub sample: &'static Kernel,
     /// The probability of each query's light.
@@ -34,6 +36,7 @@ const DEFAULT: KernelSet = KernelSet {
     refit_bottom: &table::REFIT_BOTTOM,
     refit_roots: &table::REFIT_ROOTS,
     refit_top: &table::REFIT_TOP,
+    refit_nodes: &table::REFIT_NODES,
     sample: &table::SAMPLE,
     pmf: &table::PMF,
     light_points: &table::LIGHT_POINTS,
@@ -44,6 +47,7 @@ pub static EQ4: KernelSet = KernelSet {
     refit_bottom: &table::REFIT_BOTTOM_EQ4,
     refit_roots: &table::REFIT_ROOTS_EQ4,
     refit_top: &table::REFIT_TOP_EQ4,
+    refit_nodes: &table::REFIT_NODES_EQ4,
     sample: &table::SAMPLE_EQ4,
     pmf: &table::PMF_EQ4,
     light_points: &table::LIGHT_POINTS,
@@ -58,6 +62,7 @@ impl KernelSet {
         refit_bottom: &table::REFIT_BOTTOM_ANY,
         refit_roots: &table::REFIT_ROOTS_ANY,
         refit_top: &table::REFIT_TOP_ANY,
+        refit_nodes: &table::REFIT_NODES_ANY,
         sample: &table::SAMPLE_ANY,
         pmf: &table::PMF_ANY,
         light_points: &table::LIGHT_POINTS_ANY,
@@ -69,6 +74,7 @@ impl KernelSet {
         refit_bottom: &table::REFIT_BOTTOM_LINKED,
         refit_roots: &table::REFIT_ROOTS_LINKED,
         refit_top: &table::REFIT_TOP_LINKED,
+        refit_nodes: &table::REFIT_NODES_LINKED,
         sample: &table::SAMPLE_LINKED,
         pmf: &table::PMF_LINKED,
         light_points: &table::LIGHT_POINTS_LINKED,
@@ -150,6 +156,7 @@ impl KernelSet {
             Pass::Bottom => self.refit_bottom,
             Pass::Roots => self.refit_roots,
             Pass::Top => self.refit_top,
+            Pass::Nodes => self.refit_nodes,
         }
     }
 }
@@ -165,7 +172,7 @@ mod tests {
     use crate::buffer::Buffer;
 
     fn fits<N: Holds>(set: &KernelSet, suffix: &str) {
-        for pass in [Pass::Bottom, Pass::Roots, Pass::Top] {
+        for pass in Pass::ALL {
             let kernel = set.refit(pass);
             assert_eq!(kernel.name.strip_suffix(suffix), Some(pass.name()));
             assert_eq!(kernel.push_constants, 8);
@@ -182,6 +189,7 @@ mod tests {
             set.refit_bottom,
             set.refit_roots,
             set.refit_top,
+            set.refit_nodes,
             set.sample,
             set.pmf,
             set.light_points,
@@ -190,7 +198,8 @@ mod tests {
                 match Buffer::named(binding.name) {
                     Some(buffer) => assert_eq!(binding.stride, buffer.stride::<N>(), "{binding:?}"),
                     None => assert!(
-                        ["list", "queries", "results", "samples", "numbers"].contains(&binding.name),
+                        ["list", "children", "queries", "results", "samples", "numbers"]
+                            .contains(&binding.name),
                         "{binding:?}"
                     ),
                 }

@@ -333,7 +333,8 @@ pub static REFIT_BOTTOM: Kernel = Kernel {
     bindings: &[
         Binding { binding: 0, name: "list", access: Read, stride: 4 },
         Binding { binding: 1, name: "triangles", access: Read, stride: 56 },
-        Binding { binding: 2, name: "nodes", access: ReadWrite, stride: 192 },
+        Binding { binding: 2, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 3, name: "children", access: Write, stride: 4 },
     ],
     push_constants: 8,
     workgroup: [64, 1, 1],
@@ -346,7 +347,8 @@ pub static REFIT_BOTTOM_ANY: Kernel = Kernel {
     bindings: &[
         Binding { binding: 0, name: "list", access: Read, stride: 4 },
         Binding { binding: 1, name: "triangles", access: Read, stride: 68 },
-        Binding { binding: 2, name: "nodes", access: ReadWrite, stride: 224 },
+        Binding { binding: 2, name: "nodes", access: Read, stride: 224 },
+        Binding { binding: 3, name: "children", access: Write, stride: 4 },
     ],
     push_constants: 8,
     workgroup: [64, 1, 1],
@@ -359,7 +361,8 @@ pub static REFIT_BOTTOM_EQ4: Kernel = Kernel {
     bindings: &[
         Binding { binding: 0, name: "list", access: Read, stride: 4 },
         Binding { binding: 1, name: "triangles", access: Read, stride: 56 },
-        Binding { binding: 2, name: "nodes", access: ReadWrite, stride: 112 },
+        Binding { binding: 2, name: "nodes", access: Read, stride: 112 },
+        Binding { binding: 3, name: "children", access: Write, stride: 4 },
     ],
     push_constants: 8,
     workgroup: [64, 1, 1],
@@ -372,6 +375,59 @@ pub static REFIT_BOTTOM_LINKED: Kernel = Kernel {
     bindings: &[
         Binding { binding: 0, name: "list", access: Read, stride: 4 },
         Binding { binding: 1, name: "triangles", access: Read, stride: 60 },
+        Binding { binding: 2, name: "nodes", access: Read, stride: 224 },
+        Binding { binding: 3, name: "children", access: Write, stride: 4 },
+    ],
+    push_constants: 8,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `refit_nodes`.
+pub static REFIT_NODES: Kernel = Kernel {
+    name: "refit_nodes",
+    bytes: include_bytes!("../spirv/refit_nodes.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "list", access: Read, stride: 4 },
+        Binding { binding: 1, name: "children", access: Read, stride: 4 },
+        Binding { binding: 2, name: "nodes", access: ReadWrite, stride: 192 },
+    ],
+    push_constants: 8,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `refit_nodes_any`.
+pub static REFIT_NODES_ANY: Kernel = Kernel {
+    name: "refit_nodes_any",
+    bytes: include_bytes!("../spirv/refit_nodes_any.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "list", access: Read, stride: 4 },
+        Binding { binding: 1, name: "children", access: Read, stride: 4 },
+        Binding { binding: 2, name: "nodes", access: ReadWrite, stride: 224 },
+    ],
+    push_constants: 8,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `refit_nodes_eq4`.
+pub static REFIT_NODES_EQ4: Kernel = Kernel {
+    name: "refit_nodes_eq4",
+    bytes: include_bytes!("../spirv/refit_nodes_eq4.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "list", access: Read, stride: 4 },
+        Binding { binding: 1, name: "children", access: Read, stride: 4 },
+        Binding { binding: 2, name: "nodes", access: ReadWrite, stride: 112 },
+    ],
+    push_constants: 8,
+    workgroup: [64, 1, 1],
+};
+
+/// Kernel `refit_nodes_linked`.
+pub static REFIT_NODES_LINKED: Kernel = Kernel {
+    name: "refit_nodes_linked",
+    bytes: include_bytes!("../spirv/refit_nodes_linked.spv"),
+    bindings: &[
+        Binding { binding: 0, name: "list", access: Read, stride: 4 },
+        Binding { binding: 1, name: "children", access: Read, stride: 4 },
         Binding { binding: 2, name: "nodes", access: ReadWrite, stride: 224 },
     ],
     push_constants: 8,
@@ -438,7 +494,8 @@ pub static REFIT_TOP: Kernel = Kernel {
         Binding { binding: 0, name: "list", access: Read, stride: 4 },
         Binding { binding: 1, name: "instances", access: Read, stride: 136 },
         Binding { binding: 2, name: "roots", access: Read, stride: 52 },
-        Binding { binding: 3, name: "nodes", access: ReadWrite, stride: 192 },
+        Binding { binding: 3, name: "nodes", access: Read, stride: 192 },
+        Binding { binding: 4, name: "children", access: Write, stride: 4 },
     ],
     push_constants: 8,
     workgroup: [64, 1, 1],
@@ -452,7 +509,8 @@ pub static REFIT_TOP_ANY: Kernel = Kernel {
         Binding { binding: 0, name: "list", access: Read, stride: 4 },
         Binding { binding: 1, name: "instances", access: Read, stride: 136 },
         Binding { binding: 2, name: "roots", access: Read, stride: 52 },
-        Binding { binding: 3, name: "nodes", access: ReadWrite, stride: 224 },
+        Binding { binding: 3, name: "nodes", access: Read, stride: 224 },
+        Binding { binding: 4, name: "children", access: Write, stride: 4 },
     ],
     push_constants: 8,
     workgroup: [64, 1, 1],
@@ -466,7 +524,8 @@ pub static REFIT_TOP_EQ4: Kernel = Kernel {
         Binding { binding: 0, name: "list", access: Read, stride: 4 },
         Binding { binding: 1, name: "instances", access: Read, stride: 136 },
         Binding { binding: 2, name: "roots", access: Read, stride: 52 },
-        Binding { binding: 3, name: "nodes", access: ReadWrite, stride: 112 },
+        Binding { binding: 3, name: "nodes", access: Read, stride: 112 },
+        Binding { binding: 4, name: "children", access: Write, stride: 4 },
     ],
     push_constants: 8,
     workgroup: [64, 1, 1],
@@ -480,7 +539,8 @@ pub static REFIT_TOP_LINKED: Kernel = Kernel {
         Binding { binding: 0, name: "list", access: Read, stride: 4 },
         Binding { binding: 1, name: "instances", access: Read, stride: 136 },
         Binding { binding: 2, name: "roots", access: Read, stride: 52 },
-        Binding { binding: 3, name: "nodes", access: ReadWrite, stride: 224 },
+        Binding { binding: 3, name: "nodes", access: Read, stride: 224 },
+        Binding { binding: 4, name: "children", access: Write, stride: 4 },
     ],
     push_constants: 8,
     workgroup: [64, 1, 1],
@@ -1133,6 +1193,10 @@ pub static KERNELS: &[&Kernel] = &[
     &REFIT_BOTTOM_ANY,
     &REFIT_BOTTOM_EQ4,
     &REFIT_BOTTOM_LINKED,
+    &REFIT_NODES,
+    &REFIT_NODES_ANY,
+    &REFIT_NODES_EQ4,
+    &REFIT_NODES_LINKED,
     &REFIT_ROOTS,
     &REFIT_ROOTS_ANY,
     &REFIT_ROOTS_EQ4,

@@ -3,7 +3,7 @@
 use bytemuck::bytes_of;
 use lightbvh::TreeWords;
 use lightbvh::node::kind;
-use lightbvh::refit::{self, BlasRoot};
+use lightbvh::refit::{self, BlasRoot, child_words};
 use lightbvh::{EmissiveTriangle, INVALID, Instance, LightNode, SampledLight, sweep};
 use lightbvh_host::vulkan::{Device, Pass};
 use lightbvh_kernels::bvh::{Choice, TreeOf, TriangleChoice};
@@ -12,7 +12,8 @@ use lightbvh_kernels::refit::RefitPush;
 
 use super::file::{Answer, File};
 
-/// What refit does, in order; each pass is a list of node indices, or of bottom levels for [`Step::Roots`].
+/// What refit does, in order; each pass is a list of node indices, or of bottom levels for [`Step::Roots`]. Kernel `refit_nodes` follows those
+/// over children.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
     /// `refit_bottom`.
@@ -205,25 +206,44 @@ pub fn answer_on<C: TriangleChoice<W>, const W: usize>(device: &Device, file: &F
         .iter()
         .map(|(_, list)| device.upload(list).expect("an upload"))
         .collect();
+    let kernel = |name: &str| device.kernel(&format!("{name}{}", C::SUFFIX)).expect("a kernel");
+    let refit = Step::NAMES.map(|(name, step)| (step, kernel(&format!("refit_{name}"))));
+    let refit_nodes = kernel("refit_nodes");
+    let most = tree.passes.iter().map(|(_, list)| list.len()).max().unwrap_or(0);
+    let children = device
+        .output::<u32>(most * W * child_words::<C::Node, W>())
+        .expect("an output");
+    let push = |count: usize| RefitPush {
+        first: 0,
+        count: count as u32,
+    };
     let pushes: Vec<_> = tree
         .passes
         .iter()
-        .map(|(_, list)| RefitPush {
-            first: 0,
-            count: list.len() as u32,
+        .map(|(step, list)| match step {
+            Step::Roots => [push(list.len()), push(0)],
+            Step::Bottom | Step::Top => [push(list.len() * W), push(list.len())],
         })
         .collect();
-    let kernel = |name: &str| device.kernel(&format!("{name}{}", C::SUFFIX)).expect("a kernel");
-    let refit = Step::NAMES.map(|(name, step)| (step, kernel(&format!("refit_{name}"))));
     let mut pass = Pass::new();
-    for (((step, _), list), push) in tree.passes.iter().zip(&lists).zip(&pushes) {
+    for (((step, _), list), [push, then]) in tree.passes.iter().zip(&lists).zip(&pushes) {
         let bindings = match step {
-            Step::Bottom => vec![list.bind(), triangles.bind(), nodes.bind()],
+            Step::Bottom => vec![list.bind(), triangles.bind(), nodes.bind(), children.bind()],
             Step::Roots => vec![list.bind(), nodes.bind(), roots.bind()],
-            Step::Top => vec![list.bind(), instances.bind(), roots.bind(), nodes.bind()],
+            Step::Top => vec![
+                list.bind(),
+                instances.bind(),
+                roots.bind(),
+                nodes.bind(),
+                children.bind(),
+            ],
         };
         let (_, kernel) = refit.iter().find(|(of, _)| of == step).expect("every step");
         pass.dispatch(kernel, &bindings, bytes_of(push), push.count);
+        if then.count > 0 {
+            let bindings = [list.bind(), children.bind(), nodes.bind()];
+            pass.dispatch(&refit_nodes, &bindings, bytes_of(then), then.count);
+        }
     }
 
     let (sample, pmf) = (kernel("sample"), kernel("pmf"));

@@ -58,16 +58,34 @@ impl Device {
             let is_same = |(other, _): &(Buffer, Vec<Region>)| other == buffer;
             assert!(!regions.is_empty() && !regions_after(&frame, number).iter().any(is_same));
         }
+        let mut children = vec![0xdead_beef; frame.refit.children as usize / 4];
         for dispatch in &frame.refit.dispatches {
             let [first, count] = dispatch.push();
-            for &entry in &frame.refit.list[first as usize..(first + count) as usize] {
-                self.compute::<N, W>(dispatch.pass, entry);
+            for i in 0..count {
+                self.compute::<N, W>(
+                    dispatch.pass,
+                    &frame.refit.list[first as usize..],
+                    i,
+                    &mut children,
+                );
             }
         }
         frame
     }
 
-    fn compute<N: Node<W>, const W: usize>(&mut self, pass: Pass, entry: u32) {
+    /// Invocation `i` of a dispatch over `list`.
+    fn compute<N: Node<W>, const W: usize>(
+        &mut self,
+        pass: Pass,
+        list: &[u32],
+        i: u32,
+        children: &mut [u32],
+    ) {
+        let (place, slot) = match pass {
+            Pass::Bottom | Pass::Top => (i / W as u32, i as usize % W),
+            Pass::Roots | Pass::Nodes => (i, 0),
+        };
+        let entry = list[place as usize];
         let nodes: &[N] = cast_slice(self.buffer(Buffer::Nodes));
         let roots: &[BlasRoot] = cast_slice(self.buffer(Buffer::Roots));
         let triangles: &[N::Light] = cast_slice(self.buffer(Buffer::Triangles));
@@ -75,15 +93,19 @@ impl Device {
         let at = entry as usize;
         match pass {
             Pass::Bottom => {
-                let node = refit::bottom::<N, W>(nodes, triangles, entry);
-                cast_slice_mut::<u32, N>(&mut self.buffers[Buffer::Nodes as usize])[at] = node;
+                let child = refit::bottom_child::<N, W>(nodes, triangles, entry, slot);
+                child.put::<N, W>(children, place, slot);
             }
             Pass::Roots => {
                 let root = refit::root::<N, W>(nodes, roots[at].node);
                 cast_slice_mut::<u32, BlasRoot>(&mut self.buffers[Buffer::Roots as usize])[at] = root;
             }
             Pass::Top => {
-                let node = refit::top::<N, W>(nodes, instances, roots, entry);
+                let child = refit::top_child::<N, W>(nodes, instances, roots, entry, slot);
+                child.put::<N, W>(children, place, slot);
+            }
+            Pass::Nodes => {
+                let node = refit::assembled::<N, W>(nodes, entry, children, place);
                 cast_slice_mut::<u32, N>(&mut self.buffers[Buffer::Nodes as usize])[at] = node;
             }
         }

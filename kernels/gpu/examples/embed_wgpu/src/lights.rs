@@ -27,12 +27,11 @@ pub struct Results {
 
 impl<'a> DeviceLights<'a> {
     pub fn new(engine: &'a Engine) -> Result<Self> {
-        let passes = [Pass::Bottom, Pass::Roots, Pass::Top];
         Ok(Self {
             engine,
             mirror: Mirror::default(),
             arrays: Array::ALL.iter().map(|_| engine.storage(0)).collect(),
-            refits: passes
+            refits: Pass::ALL
                 .into_iter()
                 .map(|pass| Ok((pass, engine.pipeline(MOMENTS.refit(pass))?)))
                 .collect::<Result<_>>()?,
@@ -51,12 +50,14 @@ impl<'a> DeviceLights<'a> {
             engine.queue.write_buffer(array, copy.bytes.start, bytes);
         }
         let list = engine.stored(cast_slice(&frame.refit.list));
+        let children = engine.storage(frame.refit.children);
         let asked = engine.stored(cast_slice(queries));
         let answers = engine.storage(size_of::<SampledLight>() as u64 * queries.len() as u64);
         // Bindings have names. Those that `Array::named` does not know are this frame's.
         let named = |name: &str| match (Array::named(name), name) {
             (Some(array), _) => &self.arrays[array as usize],
             (None, "list") => &list,
+            (None, "children") => &children,
             (None, "queries") => &asked,
             (None, _) => &answers,
         };
