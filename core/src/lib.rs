@@ -123,6 +123,7 @@ pub mod summary;
 pub mod trail;
 #[doc(hidden)]
 pub mod traverse;
+mod unroll;
 #[doc(hidden)]
 pub mod vector;
 

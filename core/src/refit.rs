@@ -11,7 +11,9 @@ mod limits;
 
 use bytemuck::{Pod, Zeroable};
 
-pub use self::children::{Child, assembled, bottom_child, child_words, top_child};
+pub use self::children::{
+    Child, Children, LIMITED_ROWS, PLAIN_ROWS, assembled, bottom_child, child_rows, top_child,
+};
 use crate::beam::Limits;
 pub use crate::instance::{Instance, world_light};
 use crate::light::{Light, LightSlots};

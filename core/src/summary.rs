@@ -9,6 +9,7 @@ use glam::Vec3;
 use crate::bounds::LightBounds;
 use crate::instance::Instance;
 use crate::light::{EmissiveTriangle, Light, LightSlots};
+use crate::unroll::each;
 
 /// Words of a summary in full, as [`BlasRoot`](crate::refit::BlasRoot) keeps them.
 pub const SUMMARY_WORDS: usize = 12;
@@ -73,11 +74,11 @@ impl<const W: usize> Lanes<W> {
     #[inline(always)]
     pub fn fill<S: Summary>(&mut self, summary: &S) {
         let words = summary.to_words();
-        for k in 0..SUMMARY_WORDS {
-            for slot in 0..W {
+        each!(k, SUMMARY_WORDS, {
+            each!(slot, W, {
                 self.0[k][slot] = words[k];
-            }
-        }
+            });
+        });
     }
 
     /// These summaries.
@@ -85,9 +86,9 @@ impl<const W: usize> Lanes<W> {
     #[must_use]
     pub fn of<S: Summary>(summaries: &[S; W]) -> Self {
         let mut lanes = Self([[0.0; W]; SUMMARY_WORDS]);
-        for slot in 0..W {
+        each!(slot, W, {
             lanes.set(slot, &summaries[slot]);
-        }
+        });
         lanes
     }
 
@@ -96,9 +97,9 @@ impl<const W: usize> Lanes<W> {
     #[must_use]
     pub fn get<S: Summary>(&self, slot: usize) -> S {
         let mut words = [0.0; SUMMARY_WORDS];
-        for k in 0..SUMMARY_WORDS {
+        each!(k, SUMMARY_WORDS, {
             words[k] = self.0[k][slot];
-        }
+        });
         S::from_words(&words)
     }
 
@@ -106,9 +107,9 @@ impl<const W: usize> Lanes<W> {
     #[inline(always)]
     pub fn set<S: Summary>(&mut self, slot: usize, summary: &S) {
         let words = summary.to_words();
-        for k in 0..SUMMARY_WORDS {
+        each!(k, SUMMARY_WORDS, {
             self.0[k][slot] = words[k];
-        }
+        });
     }
 }
 

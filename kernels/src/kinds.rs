@@ -4,7 +4,7 @@
 use glam::UVec3;
 use lightbvh::instance::world_light;
 use lightbvh::light::{AnyLight, Light};
-use lightbvh::refit::{self, BlasRoot};
+use lightbvh::refit::{self, BlasRoot, Children, LIMITED_ROWS};
 use lightbvh::{Instance, LightPoint, SampledLight};
 use spirv_std::spirv;
 
@@ -14,10 +14,17 @@ use crate::invocation;
 use crate::query::{PointsPush, Query};
 use crate::refit::{RefitPush, bottom_pass, nodes_pass, roots_pass, top_pass};
 
-bottom_pass!(AnyNode, WIDTH, AnyLight, refit_bottom_any, "refit_bottom_any");
+bottom_pass!(
+    AnyNode,
+    WIDTH,
+    LIMITED_ROWS,
+    AnyLight,
+    refit_bottom_any,
+    "refit_bottom_any"
+);
 roots_pass!(AnyNode, refit_roots_any, "refit_roots_any");
-top_pass!(AnyNode, WIDTH, refit_top_any, "refit_top_any");
-nodes_pass!(AnyNode, refit_nodes_any, "refit_nodes_any");
+top_pass!(AnyNode, WIDTH, LIMITED_ROWS, refit_top_any, "refit_top_any");
+nodes_pass!(AnyNode, WIDTH, LIMITED_ROWS, refit_nodes_any, "refit_nodes_any");
 
 /// The point on a sampled light that the two numbers of `uv` choose for the receiver of `query`.
 #[inline]

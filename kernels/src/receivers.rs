@@ -9,7 +9,7 @@ use lightbvh::importance::{
 use lightbvh::instance::world_light;
 use lightbvh::light::LinkedTriangle;
 use lightbvh::node::{LinkedMomentNode, Lit};
-use lightbvh::refit::{self, BlasRoot};
+use lightbvh::refit::{self, BlasRoot, Children, LIMITED_ROWS};
 use lightbvh::{Defensive, Instance, LightPoint, LightTree, Moments, Random64, SampledLight, ShadingPoint};
 use spirv_std::spirv;
 
@@ -167,13 +167,26 @@ receiver_passes!(
 bottom_pass!(
     LinkedNode,
     WIDTH,
+    LIMITED_ROWS,
     LinkedTriangle,
     refit_bottom_linked,
     "refit_bottom_linked"
 );
 roots_pass!(LinkedNode, refit_roots_linked, "refit_roots_linked");
-top_pass!(LinkedNode, WIDTH, refit_top_linked, "refit_top_linked");
-nodes_pass!(LinkedNode, refit_nodes_linked, "refit_nodes_linked");
+top_pass!(
+    LinkedNode,
+    WIDTH,
+    LIMITED_ROWS,
+    refit_top_linked,
+    "refit_top_linked"
+);
+nodes_pass!(
+    LinkedNode,
+    WIDTH,
+    LIMITED_ROWS,
+    refit_nodes_linked,
+    "refit_nodes_linked"
+);
 
 /// As [`light_points`](crate::query::light_points), of triangles with masks.
 #[spirv(compute(threads(64), entry_point_name = "light_points_linked"))]

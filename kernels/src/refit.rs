@@ -4,7 +4,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::UVec3;
-use lightbvh::refit::{self, BlasRoot};
+use lightbvh::refit::{self, BlasRoot, Children, PLAIN_ROWS};
 use lightbvh::{EmissiveTriangle, Instance};
 use spirv_std::spirv;
 
@@ -21,9 +21,9 @@ pub struct RefitPush {
     pub count: u32,
 }
 
-/// The pass over children in bottom levels of one type of node, its width, and of light.
+/// The pass over children in bottom levels of one type of node, its width and its rows of [`Children`], and of light.
 macro_rules! bottom_pass {
-    ($node:ty, $width:expr, $light:ty, $pass:ident, $name:tt) => {
+    ($node:ty, $width:expr, $rows:expr, $light:ty, $pass:ident, $name:tt) => {
         /// What is known of each child of the nodes `list[first + k]`, all of one level of bottom levels, goes into `children` for `refit_nodes`: of
         /// its triangle, or of the node below. Invocation `i` computes child `i % width` of node `k = i / width`.
         #[spirv(compute(threads(64), entry_point_name = $name))]
@@ -33,7 +33,10 @@ macro_rules! bottom_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] triangles: &[$light],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] nodes: &[$node],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] children: &mut [u32],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] children: &mut [Children<
+                { $width },
+                { $rows },
+            >],
         ) {
             let i = invocation(id);
             let (place, slot) = (i / $width as u32, i as usize % $width);
@@ -42,7 +45,7 @@ macro_rules! bottom_pass {
                 let node = list[entry as usize];
                 if node < nodes.len() as u32 {
                     let child = refit::bottom_child(nodes, triangles, node, slot);
-                    child.put::<$node, { $width }>(children, place, slot);
+                    child.put(children, place, slot);
                 }
             }
         }
@@ -51,7 +54,7 @@ macro_rules! bottom_pass {
 
 /// The pass over children in the top level.
 macro_rules! top_pass {
-    ($node:ty, $width:expr, $pass:ident, $name:tt) => {
+    ($node:ty, $width:expr, $rows:expr, $pass:ident, $name:tt) => {
         /// What is known of each child of the top-level nodes `list[first + k]`, all of one level, goes into `children` for `refit_nodes`: of its
         /// instance, from the bottom level's root, or of the node below. Invocation `i` computes child `i % width` of node `k = i / width`.
         #[spirv(compute(threads(64), entry_point_name = $name))]
@@ -62,7 +65,10 @@ macro_rules! top_pass {
             #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] instances: &[Instance],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] roots: &[BlasRoot],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 3)] nodes: &[$node],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] children: &mut [u32],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 4)] children: &mut [Children<
+                { $width },
+                { $rows },
+            >],
         ) {
             let i = invocation(id);
             let (place, slot) = (i / $width as u32, i as usize % $width);
@@ -71,7 +77,7 @@ macro_rules! top_pass {
                 let node = list[entry as usize];
                 if node < nodes.len() as u32 {
                     let child = refit::top_child(nodes, instances, roots, node, slot);
-                    child.put::<$node, { $width }>(children, place, slot);
+                    child.put(children, place, slot);
                 }
             }
         }
@@ -80,14 +86,17 @@ macro_rules! top_pass {
 
 /// The pass over nodes of either level, after that over their children.
 macro_rules! nodes_pass {
-    ($node:ty, $pass:ident, $name:tt) => {
+    ($node:ty, $width:expr, $rows:expr, $pass:ident, $name:tt) => {
         /// Nodes `list[first + k]` take the summaries of the children that the pass before has put into `children` as those of node `k`.
         #[spirv(compute(threads(64), entry_point_name = $name))]
         pub fn $pass(
             #[spirv(global_invocation_id)] id: UVec3,
             #[spirv(push_constant)] push: &RefitPush,
             #[spirv(storage_buffer, descriptor_set = 0, binding = 0)] list: &[u32],
-            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] children: &[u32],
+            #[spirv(storage_buffer, descriptor_set = 0, binding = 1)] children: &[Children<
+                { $width },
+                { $rows },
+            >],
             #[spirv(storage_buffer, descriptor_set = 0, binding = 2)] nodes: &mut [$node],
         ) {
             let i = invocation(id);
@@ -131,23 +140,25 @@ pub(crate) use {bottom_pass, nodes_pass, roots_pass, top_pass};
 bottom_pass!(
     NodeOf<Standard>,
     WIDTH,
+    PLAIN_ROWS,
     EmissiveTriangle,
     refit_bottom,
     "refit_bottom"
 );
 roots_pass!(NodeOf<Standard>, refit_roots, "refit_roots");
-top_pass!(NodeOf<Standard>, WIDTH, refit_top, "refit_top");
-nodes_pass!(NodeOf<Standard>, refit_nodes, "refit_nodes");
+top_pass!(NodeOf<Standard>, WIDTH, PLAIN_ROWS, refit_top, "refit_top");
+nodes_pass!(NodeOf<Standard>, WIDTH, PLAIN_ROWS, refit_nodes, "refit_nodes");
 bottom_pass!(
     NodeOf<Paper>,
     4,
+    PLAIN_ROWS,
     EmissiveTriangle,
     refit_bottom_eq4,
     "refit_bottom_eq4"
 );
 roots_pass!(NodeOf<Paper>, refit_roots_eq4, "refit_roots_eq4");
-top_pass!(NodeOf<Paper>, 4, refit_top_eq4, "refit_top_eq4");
-nodes_pass!(NodeOf<Paper>, refit_nodes_eq4, "refit_nodes_eq4");
+top_pass!(NodeOf<Paper>, 4, PLAIN_ROWS, refit_top_eq4, "refit_top_eq4");
+nodes_pass!(NodeOf<Paper>, 4, PLAIN_ROWS, refit_nodes_eq4, "refit_nodes_eq4");
 
 #[cfg(test)]
 mod tests {
@@ -155,7 +166,6 @@ mod tests {
     use lightbvh::light::TWO_SIDED;
     use lightbvh::node::Node as _;
     use lightbvh::node::kind;
-    use lightbvh::refit::child_words;
 
     type Node = NodeOf<Standard>;
 
@@ -203,8 +213,7 @@ mod tests {
         }
 
         let list = [77, 1, 5, 2, 0, u32::MAX, 4, 3];
-        let words = WIDTH * child_words::<Node, WIDTH>();
-        let mut children = vec![0; 3 * words];
+        let mut children = vec![[[0; WIDTH]; PLAIN_ROWS]; 3];
         let id = |i: u32| UVec3::new(i, 0, 0);
         let mut found = vec![BlasRoot::new(0, &lightbvh::moments::LightMoments::EMPTY)];
         for (first, count, is_top) in [(1, 3, false), (4, 1, false), (5, 2, true), (7, 1, true)] {
@@ -231,13 +240,12 @@ mod tests {
         assert_eq!(nodes, expected);
     }
 
-    /// A buffer of children that is too short, a count beyond the list: nothing else is written.
+    /// A buffer of children with one place too few, a count beyond the list: nothing else is written.
     #[test]
     fn what_has_no_room_is_left_out() {
         let (mut nodes, triangles, _) = arrays();
         let before = nodes.clone();
-        let words = WIDTH * child_words::<Node, WIDTH>();
-        let mut children = vec![7; 2 * words - 1];
+        let mut children = vec![[[7; WIDTH]; PLAIN_ROWS]; 1];
         let push = RefitPush {
             first: 0,
             count: u32::MAX,
@@ -246,7 +254,6 @@ mod tests {
             let id = UVec3::new(i, 0, 0);
             refit_bottom(id, &push, &[2, 1], &triangles, &nodes, &mut children);
         }
-        assert!(children[words..].iter().all(|&word| word == 7));
         for i in 0..64 {
             refit_nodes(UVec3::new(i, 0, 0), &push, &[2, 1], &children, &mut nodes);
         }

@@ -10,6 +10,7 @@ use crate::emission::MAX_SUM_EXPONENT;
 use crate::exact::{self, exponent, pow2};
 use crate::halves::{maxima, sums};
 use crate::summary::{Lanes, SUMMARY_WORDS};
+use crate::unroll::each;
 use crate::vector::{abs3, dot, flush3};
 
 /// Flux below this part of the greatest among its siblings moves no centre: 2^-40. It keeps products of flux and squared
@@ -55,21 +56,21 @@ pub(super) fn framed<const W: usize>(sets: &Lanes<W>) -> Framed<W> {
     // bring.
     let mut brightest = 0.0;
     let mut origin = Vec3::new(0.0, 0.0, 0.0);
-    for i in 0..W {
+    each!(i, W, {
         let brighter = s[row::PHI][i] > brightest;
         brightest = if brighter { s[row::PHI][i] } else { brightest };
         origin.x = if brighter { s[row::C][i] } else { origin.x };
         origin.y = if brighter { s[row::C + 1][i] } else { origin.y };
         origin.z = if brighter { s[row::C + 2][i] } else { origin.z };
-    }
+    });
     let mut reach = [[0.0; W]];
-    for i in 0..W {
+    each!(i, W, {
         let away = abs3(vector(s, row::C, i) - origin) + vector(s, row::H, i);
         let far = exact::max(exact::max(away.x, away.y), away.z);
         let wide = exact::max(s[row::ACROSS][i], s[row::ALONG][i]);
         // Numbers of a set without flux mean nothing.
         reach[0][i] = exact::masked(exact::mask_of(s[row::PHI][i] > 0.0), exact::max(far, wide));
-    }
+    });
     maxima(&mut reach);
     let size = exponent(reach[0][0]);
     let size = if size > LEAST_EXPONENT {
@@ -88,7 +89,7 @@ pub(super) fn framed<const W: usize>(sets: &Lanes<W>) -> Framed<W> {
     let half = frame.phi_exponent / 2;
     let (first, second) = (pow2(-half), pow2(half - frame.phi_exponent));
     let mut rows = [[0.0; W]; SUMMARY_WORDS];
-    for i in 0..W {
+    each!(i, W, {
         let shines = exact::mask_of(s[row::PHI][i] > 0.0);
         let scaled = |x: f32| exact::masked(shines, x * to_words);
         let share = exact::masked(shines, (s[row::PHI][i] * first) * second);
@@ -104,7 +105,7 @@ pub(super) fn framed<const W: usize>(sets: &Lanes<W>) -> Framed<W> {
         rows[row::H][i] = scaled(s[row::H][i]);
         rows[row::H + 1][i] = scaled(s[row::H + 1][i]);
         rows[row::H + 2][i] = scaled(s[row::H + 2][i]);
-    }
+    });
     Framed {
         frame,
         sets: Lanes(rows),
@@ -122,7 +123,7 @@ impl<const W: usize> Framed<W> {
     pub fn merged(&self) -> LightMoments {
         let s = &self.sets.0;
         let mut weighted = [[0.0; W]; 7];
-        for i in 0..W {
+        each!(i, W, {
             let f = s[row::PHI][i];
             weighted[6][i] = f;
             weighted[0][i] = s[row::C][i] * f;
@@ -131,7 +132,7 @@ impl<const W: usize> Framed<W> {
             weighted[3][i] = s[row::M][i] * f;
             weighted[4][i] = s[row::M + 1][i] * f;
             weighted[5][i] = s[row::M + 2][i] * f;
-        }
+        });
         sums(&mut weighted);
         let flux = weighted[6][0];
         let shines = flux > 0.0;
@@ -146,7 +147,7 @@ impl<const W: usize> Framed<W> {
 
         let mut squares = [[0.0; W]; 2];
         let mut h = [[0.0; W]; 3];
-        for i in 0..W {
+        each!(i, W, {
             let f = s[row::PHI][i];
             let d = vector(s, row::C, i) - center;
             let m = vector(s, row::M, i);
@@ -165,7 +166,7 @@ impl<const W: usize> Framed<W> {
             h[0][i] = exact::masked(some, reach.x);
             h[1][i] = exact::masked(some, reach.y);
             h[2][i] = exact::masked(some, reach.z);
-        }
+        });
         sums(&mut squares);
         maxima(&mut h);
         let total = exact::flush((squares[0][0] * per_flux) * SQUARE_UNIT, LEAST_SQUARE);

@@ -8,6 +8,7 @@ use crate::halves::maxima;
 use crate::light::MIN_COORDINATE;
 use crate::moments::{Frame, LEAST_EXPONENT, row};
 use crate::summary::Lanes;
+use crate::unroll::each;
 use crate::vector::{dot, flush3};
 
 /// The bits of 1.
@@ -71,7 +72,7 @@ pub(super) fn frame_of<const W: usize>(sets: &Lanes<W>) -> Frame {
     let s = &sets.0;
     // The greatest coordinates, the least ones as the greatest of opposite sign, and the greatest flux.
     let mut ends = [[0.0; W]; 7];
-    for i in 0..W {
+    each!(i, W, {
         let shines = exact::mask_of(s[row::PHI][i] > 0.0);
         // The numbers of a set without flux mean nothing.
         let shining = |c: f32| f32::from_bits(exact::masked_u32(shines, c.to_bits(), f32::MIN.to_bits()));
@@ -82,7 +83,7 @@ pub(super) fn frame_of<const W: usize>(sets: &Lanes<W>) -> Frame {
         ends[4][i] = shining(-s[row::C + 1][i]);
         ends[5][i] = shining(-s[row::C + 2][i]);
         ends[6][i] = s[row::PHI][i];
-    }
+    });
     maxima(&mut ends);
     let middle = Vec3::new(
         ends[0][0] - ends[3][0],
@@ -92,14 +93,14 @@ pub(super) fn frame_of<const W: usize>(sets: &Lanes<W>) -> Frame {
     let origin = flush3(middle, MIN_COORDINATE);
     // The unit is above every offset, and the greatest deviation that fits is nearly twice the unit.
     let mut needed = [[0.0; W]];
-    for i in 0..W {
+    each!(i, W, {
         let x = exact::abs(s[row::C][i] - origin.x);
         let y = exact::abs(s[row::C + 1][i] - origin.y);
         let z = exact::abs(s[row::C + 2][i] - origin.z);
         let offset = exact::max(exact::max(x, y), z);
         let size = exact::max(exact::max(offset + offset, s[row::ACROSS][i]), LEAST_UNIT);
         needed[0][i] = exact::masked(exact::mask_of(s[row::PHI][i] > 0.0), size);
-    }
+    });
     maxima(&mut needed);
     let e = exponent(needed[0][0]);
     Frame {

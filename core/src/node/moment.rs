@@ -17,6 +17,7 @@ use crate::importance::{Lobe, Math, dot_by, frame, side, weight};
 use crate::light::EmissiveTriangle;
 use crate::moments::{Frame, Framed, LightMoments, row};
 use crate::summary::{Lanes, SUMMARY_WORDS};
+use crate::unroll::each;
 use crate::vector::abs3;
 
 /// Words of a node: row 0 is the header (origin x, y, z, exponents), the others hold a word of each child. After the first ones come its
@@ -136,7 +137,7 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> PackedMomentNode<W, R
         self.0[0][2] = frame.origin.z.to_bits();
         self.0[0][3] = (frame.unit_exponent + 127) as u32 | (((frame.phi_exponent + 127) as u32) << 8);
         let per_unit = pow2(-frame.unit_exponent);
-        for i in 0..W {
+        each!(i, W, {
             let s: LightMoments = sets.get(i);
             let c = (s.c - frame.origin) * per_unit;
             let phi = phi_code(s.phi, frame.phi_exponent);
@@ -163,14 +164,14 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> PackedMomentNode<W, R
                 self.0[WORD_2][i] = w2 & used;
             }
             self.0[Self::WORD_3][i] = w3 & used;
-        }
+        });
     }
 
     /// The children as they are stored, in the node's own frame: the words are nearly that.
     #[inline(always)]
     fn framed(&self) -> Framed<W> {
         let mut rows = [[0.0; W]; SUMMARY_WORDS];
-        for i in 0..W {
+        each!(i, W, {
             let (w0, w1, w2, w3) = (
                 self.0[WORD_0][i],
                 self.0[WORD_1][i],
@@ -194,7 +195,7 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> PackedMomentNode<W, R
             rows[row::H][i] = fraction(w3, 0) * per_word + range;
             rows[row::H + 1][i] = fraction(w3, 8) * per_word + range;
             rows[row::H + 2][i] = fraction(w3, 16) * per_word + range;
-        }
+        });
         Framed {
             frame: Frame {
                 origin: self.origin(),
@@ -301,21 +302,21 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMom
     #[inline(always)]
     fn set_limits(&mut self, limits: &[Limits; W]) {
         if Self::HAS_MASK_ROW {
-            for slot in 0..W {
+            each!(slot, W, {
                 let shines = exact::mask(self.0[WORD_1][slot] & PHI_MASK);
                 self.0[Self::MASK][slot] = limits[slot].mask & shines;
-            }
+            });
         }
         if BEAMS {
             let per_unit = pow2(-self.unit_exponent());
-            for slot in 0..W {
+            each!(slot, W, {
                 let mut word = 0;
                 // Most lights are no spots, and most nodes above are of spots that point anywhere.
                 if limits[slot].beam.is_narrow() && self.0[WORD_1][slot] & PHI_MASK != 0 {
                     word = beam_word(&limits[slot].beam, &self.summary(slot), per_unit);
                 }
                 self.0[Self::BEAM][slot] = word;
-            }
+            });
         }
     }
 
@@ -328,16 +329,16 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMom
         if BEAMS {
             let shines = |slot: usize| self.0[WORD_1][slot] & PHI_MASK != 0;
             let mut are_narrow = true;
-            for slot in 0..W {
+            each!(slot, W, {
                 are_narrow &= !shines(slot) | (self.0[Self::BEAM][slot] != 0);
-            }
+            });
             if are_narrow {
                 let mut merged = Union::about(whole.m, whole.c, self.unit_exponent());
-                for slot in 0..W {
+                each!(slot, W, {
                     if shines(slot) {
                         merged.add(&self.beam(slot));
                     }
-                }
+                });
                 all.beam = merged.beam();
             }
         }

@@ -12,20 +12,34 @@ use crate::beam::{Beam, Limits};
 use crate::light::Light;
 use crate::node::{Node, kind};
 use crate::summary::{Lanes, SUMMARY_WORDS, Summary};
+use crate::unroll::each;
 
-/// Words of [`Limits`]: the mask, then the beam.
-const LIMIT_WORDS: usize = 9;
+/// Rows of [`Children`] of layouts without limits: those of a summary in full.
+pub const PLAIN_ROWS: usize = SUMMARY_WORDS;
+/// Rows of [`Children`] of layouts with masks or beams: those of a summary, the mask, the beam (axis, cos θ_e, centre, radius).
+pub const LIMITED_ROWS: usize = SUMMARY_WORDS + 9;
 
-/// Words that [`Child::put`] writes for one child of a node of layout `N`.
+/// The children of one node, a row for each word and in it one for each child, so that neighbours write side by side. `ROWS` is
+/// [`child_rows`] of the layout.
+pub type Children<const W: usize, const ROWS: usize> = [[u32; W]; ROWS];
+
+/// Rows of the [`Children`] of nodes of layout `N`.
 #[inline(always)]
 #[must_use]
-pub const fn child_words<N: Node<W>, const W: usize>() -> usize {
+pub const fn child_rows<N: Node<W>, const W: usize>() -> usize {
     if has_limits::<N, W>() {
-        SUMMARY_WORDS + LIMIT_WORDS
+        LIMITED_ROWS
     } else {
-        SUMMARY_WORDS
+        PLAIN_ROWS
     }
 }
+
+/// Rows of limits.
+const MASK: usize = SUMMARY_WORDS;
+const AXIS: usize = MASK + 1;
+const COS_THETA_E: usize = AXIS + 3;
+const C: usize = COS_THETA_E + 1;
+const RADIUS: usize = C + 3;
 
 /// What a refit computes of one child.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,34 +57,31 @@ impl<S: Summary> Child<S> {
         limits: Limits::NONE,
     };
 
-    /// Writes it into `children` as child `slot` of the node of number `place` there, for [`assembled`]. Nodes stand one after another;
-    /// in each stands a word of all its children beside the next word of all of them, so that neighbours write side by side. Does nothing
-    /// where `children` is too short.
+    /// Writes it as child `slot` of the node of number `place` in `children`, for [`assembled`]; nothing where there is no such place.
     #[inline(always)]
-    pub fn put<N: Node<W, Summary = S>, const W: usize>(
+    pub fn put<const W: usize, const ROWS: usize>(
         &self,
-        children: &mut [u32],
+        children: &mut [Children<W, ROWS>],
         place: u32,
         slot: usize,
     ) {
-        let words = child_words::<N, W>() * W;
-        if slot < W && (place as usize) < children.len() / words {
-            let first = place as usize * words + slot;
+        if slot < W && place < children.len() as u32 {
+            let place = place as usize;
             let summary = self.summary.to_words();
-            for k in 0..SUMMARY_WORDS {
-                children[first + k * W] = summary[k].to_bits();
-            }
-            if has_limits::<N, W>() {
-                let (first, beam) = (first + SUMMARY_WORDS * W, &self.limits.beam);
-                children[first] = self.limits.mask;
-                children[first + W] = beam.axis.x.to_bits();
-                children[first + 2 * W] = beam.axis.y.to_bits();
-                children[first + 3 * W] = beam.axis.z.to_bits();
-                children[first + 4 * W] = beam.cos_theta_e.to_bits();
-                children[first + 5 * W] = beam.c.x.to_bits();
-                children[first + 6 * W] = beam.c.y.to_bits();
-                children[first + 7 * W] = beam.c.z.to_bits();
-                children[first + 8 * W] = beam.radius.to_bits();
+            each!(k, SUMMARY_WORDS, {
+                children[place][k][slot] = summary[k].to_bits();
+            });
+            if ROWS == LIMITED_ROWS {
+                let beam = &self.limits.beam;
+                children[place][MASK % ROWS][slot] = self.limits.mask;
+                children[place][AXIS % ROWS][slot] = beam.axis.x.to_bits();
+                children[place][(AXIS + 1) % ROWS][slot] = beam.axis.y.to_bits();
+                children[place][(AXIS + 2) % ROWS][slot] = beam.axis.z.to_bits();
+                children[place][COS_THETA_E % ROWS][slot] = beam.cos_theta_e.to_bits();
+                children[place][C % ROWS][slot] = beam.c.x.to_bits();
+                children[place][(C + 1) % ROWS][slot] = beam.c.y.to_bits();
+                children[place][(C + 2) % ROWS][slot] = beam.c.z.to_bits();
+                children[place][RADIUS % ROWS][slot] = beam.radius.to_bits();
             }
         }
     }
@@ -151,53 +162,59 @@ pub(super) fn limits_of_light<N: Node<W>, const W: usize>(light: &N::Light) -> L
     }
 }
 
-/// Node `index` with the children that stand in `children` as those of the node of number `place`. The node as it is where `children` is too
-/// short.
+/// Node `index` with the children of the node of number `place` in `children`; the node as it is where there is no such place.
 #[inline(always)]
 #[must_use]
-pub fn assembled<N: Node<W>, const W: usize>(nodes: &[N], index: u32, children: &[u32], place: u32) -> N {
+pub fn assembled<N: Node<W>, const W: usize, const ROWS: usize>(
+    nodes: &[N],
+    index: u32,
+    children: &[Children<W, ROWS>],
+    place: u32,
+) -> N {
     let mut node = nodes[index as usize];
-    let words = child_words::<N, W>() * W;
-    if (place as usize) < children.len() / words {
-        let first = place as usize * words;
+    if place < children.len() as u32 {
+        let words = &children[place as usize];
         let mut lanes = Lanes([[0.0; W]; SUMMARY_WORDS]);
-        for k in 0..SUMMARY_WORDS {
-            for slot in 0..W {
-                lanes.0[k][slot] = f32::from_bits(children[first + k * W + slot]);
-            }
-        }
+        each!(k, SUMMARY_WORDS, {
+            each!(slot, W, {
+                lanes.0[k][slot] = f32::from_bits(words[k][slot]);
+            });
+        });
         node.set_lanes(&lanes);
-        if has_limits::<N, W>() {
+        if ROWS == LIMITED_ROWS {
             let mut limits = [Limits::NONE; W];
-            for slot in 0..W {
-                limits[slot] = limits_at::<W>(children, first + SUMMARY_WORDS * W + slot);
-            }
+            each!(slot, W, {
+                limits[slot] = limits_at(words, slot);
+            });
             node.set_limits(&limits);
         }
     }
     node
 }
 
-/// The limits whose words begin at `first`, one in every `W` words.
 #[inline(always)]
-fn limits_at<const W: usize>(children: &[u32], first: usize) -> Limits {
+fn limits_at<const W: usize, const ROWS: usize>(words: &Children<W, ROWS>, slot: usize) -> Limits {
     Limits {
-        mask: children[first],
+        mask: words[MASK % ROWS][slot],
         beam: Beam {
-            axis: vector_at(children, first + W, W),
-            cos_theta_e: f32::from_bits(children[first + 4 * W]),
-            c: vector_at(children, first + 5 * W, W),
-            radius: f32::from_bits(children[first + 8 * W]),
+            axis: vector_at(words, AXIS, slot),
+            cos_theta_e: f32::from_bits(words[COS_THETA_E % ROWS][slot]),
+            c: vector_at(words, C, slot),
+            radius: f32::from_bits(words[RADIUS % ROWS][slot]),
         },
     }
 }
 
 #[inline(always)]
-fn vector_at(children: &[u32], first: usize, step: usize) -> Vec3 {
+fn vector_at<const W: usize, const ROWS: usize>(
+    words: &Children<W, ROWS>,
+    first: usize,
+    slot: usize,
+) -> Vec3 {
     Vec3::new(
-        f32::from_bits(children[first]),
-        f32::from_bits(children[first + step]),
-        f32::from_bits(children[first + 2 * step]),
+        f32::from_bits(words[first % ROWS][slot]),
+        f32::from_bits(words[(first + 1) % ROWS][slot]),
+        f32::from_bits(words[(first + 2) % ROWS][slot]),
     )
 }
 

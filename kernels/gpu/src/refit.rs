@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use lightbvh::bvh::RefitPlan;
 use lightbvh::levels::Levels;
 use lightbvh::node::Node;
-use lightbvh::refit::child_words;
+use lightbvh::refit::child_rows;
 
 /// What a dispatch of a refit computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -99,7 +99,7 @@ impl Refit {
                 self.list.extend(nodes);
                 self.dispatch(pass, first, nodes.len() * W);
                 self.dispatch(Pass::Nodes, first, nodes.len());
-                let children = nodes.len() * W * child_words::<N, W>() * size_of::<u32>();
+                let children = nodes.len() * W * child_rows::<N, W>() * size_of::<u32>();
                 self.children = self.children.max(children as u64);
             }
         }

@@ -7,7 +7,7 @@ use bytemuck::{cast_slice, cast_slice_mut};
 use lightbvh::bvh::RebuildParams;
 use lightbvh::light::{AnyLight, BoxLight, PointLight, SphereLight};
 use lightbvh::node::{Lit, Node, SpotMomentNode};
-use lightbvh::refit::{self, BlasRoot};
+use lightbvh::refit::{self, BlasRoot, Child, LIMITED_ROWS, PLAIN_ROWS};
 use lightbvh::{Bvh, CompactNode, Edit, EmissiveTriangle, Instance, MomentNode, Transform};
 
 use super::*;
@@ -18,6 +18,15 @@ use crate::refit::Pass;
 struct Device {
     mirror: Mirror,
     buffers: [Vec<u32>; Buffer::ALL.len()],
+}
+
+/// Puts a child where a kernel does.
+fn put<N: Node<W>, const W: usize>(child: &Child<N::Summary>, children: &mut [u32], place: u32, slot: usize) {
+    if refit::child_rows::<N, W>() == LIMITED_ROWS {
+        child.put::<W, LIMITED_ROWS>(cast_slice_mut(children), place, slot);
+    } else {
+        child.put::<W, PLAIN_ROWS>(cast_slice_mut(children), place, slot);
+    }
 }
 
 /// The copies of the buffers after this one.
@@ -94,7 +103,7 @@ impl Device {
         match pass {
             Pass::Bottom => {
                 let child = refit::bottom_child::<N, W>(nodes, triangles, entry, slot);
-                child.put::<N, W>(children, place, slot);
+                put::<N, W>(&child, children, place, slot);
             }
             Pass::Roots => {
                 let root = refit::root::<N, W>(nodes, roots[at].node);
@@ -102,10 +111,14 @@ impl Device {
             }
             Pass::Top => {
                 let child = refit::top_child::<N, W>(nodes, instances, roots, entry, slot);
-                child.put::<N, W>(children, place, slot);
+                put::<N, W>(&child, children, place, slot);
             }
             Pass::Nodes => {
-                let node = refit::assembled::<N, W>(nodes, entry, children, place);
+                let node = if refit::child_rows::<N, W>() == LIMITED_ROWS {
+                    refit::assembled::<N, W, LIMITED_ROWS>(nodes, entry, cast_slice(children), place)
+                } else {
+                    refit::assembled::<N, W, PLAIN_ROWS>(nodes, entry, cast_slice(children), place)
+                };
                 cast_slice_mut::<u32, N>(&mut self.buffers[Buffer::Nodes as usize])[at] = node;
             }
         }
