@@ -309,14 +309,15 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMom
         }
         if BEAMS {
             let per_unit = pow2(-self.unit_exponent());
-            each!(slot, W, {
+            // Beams are long: a loop, also in kernels.
+            for slot in 0..W {
                 let mut word = 0;
                 // Most lights are no spots, and most nodes above are of spots that point anywhere.
                 if limits[slot].beam.is_narrow() && self.0[WORD_1][slot] & PHI_MASK != 0 {
                     word = beam_word(&limits[slot].beam, &self.summary(slot), per_unit);
                 }
                 self.0[Self::BEAM][slot] = word;
-            });
+            }
         }
     }
 
@@ -334,11 +335,11 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMom
             });
             if are_narrow {
                 let mut merged = Union::about(whole.m, whole.c, self.unit_exponent());
-                each!(slot, W, {
+                for slot in 0..W {
                     if shines(slot) {
                         merged.add(&self.beam(slot));
                     }
-                });
+                }
                 all.beam = merged.beam();
             }
         }
