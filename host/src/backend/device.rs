@@ -122,17 +122,20 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
 
     /// What a kernel of a refit takes, by the names of its bindings.
     pub(super) fn buffers(&self, kernel: &Kernel) -> Vec<Binding> {
-        let bind = |name: &str| match Array::named(name) {
+        let bind = |name: &str, stride: u32| match Array::named(name) {
             Some(Array::Nodes) => self.tree.nodes.bind(),
             Some(Array::Triangles) => self.tree.emitters.triangles.bind(),
             Some(Array::Instances) => self.tree.emitters.instances.bind(),
             Some(Array::Roots) => self.roots.bind(),
             Some(Array::Trails) => self.tree.trails.bind(),
-            None if name == "children" => self.children.bind(),
+            None if name == "children" => self.children.bind().of_elements(stride),
             None => self.list.bind(),
         };
         let known = lightbvh_gpu::Kernel::named(kernel.name()).map_or(&[][..], |known| known.bindings);
-        known.iter().map(|binding| bind(binding.name)).collect()
+        known
+            .iter()
+            .map(|binding| bind(binding.name, binding.stride))
+            .collect()
     }
 
     /// Answers queries pass by pass.

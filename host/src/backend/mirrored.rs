@@ -71,7 +71,7 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
                 .iter()
                 .map(|binding| match binding.name {
                     "list" => list.bind(),
-                    "children" => children.bind(),
+                    "children" => children.bind().of_elements(binding.stride),
                     array => self.bind(array).expect("an array of the tree"),
                 })
                 .collect();

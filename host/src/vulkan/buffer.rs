@@ -28,6 +28,17 @@ pub struct Binding {
     pub(crate) bytes: u64,
 }
 
+impl Binding {
+    /// The same bytes as elements of so many bytes each.
+    #[must_use]
+    pub fn of_elements(self, bytes: u32) -> Self {
+        Self {
+            element_bytes: bytes as usize,
+            ..self
+        }
+    }
+}
+
 impl Device {
     /// A buffer with a copy of `data`. An empty slice gives a buffer of no elements that can be bound all the same.
     ///

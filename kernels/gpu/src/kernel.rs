@@ -174,10 +174,17 @@ mod tests {
                 // Each pass has results of its own; nodes and lights have the layout of the choice.
                 if binding.name != "results" {
                     let is_own = match suffix {
-                        Some("_any") => matches!(binding.name, "nodes" | "triangles" | "before_triangles"),
-                        Some("_linked") => matches!(binding.name, "nodes" | "triangles" | "queries"),
+                        Some("_any") => {
+                            matches!(
+                                binding.name,
+                                "nodes" | "children" | "triangles" | "before_triangles"
+                            )
+                        }
+                        Some("_linked") => {
+                            matches!(binding.name, "nodes" | "children" | "triangles" | "queries")
+                        }
                         Some("_transmissive" | "_segment") => binding.name == "queries",
-                        _ => binding.name == "nodes",
+                        _ => matches!(binding.name, "nodes" | "children"),
                     };
                     let layout = suffix.filter(|_| is_own).unwrap_or("");
                     seen.push((binding.name, layout, binding.stride));

@@ -3,7 +3,7 @@
 use bytemuck::bytes_of;
 use lightbvh::TreeWords;
 use lightbvh::node::kind;
-use lightbvh::refit::{self, BlasRoot, child_rows};
+use lightbvh::refit::{self, BlasRoot, Children, PLAIN_ROWS};
 use lightbvh::{EmissiveTriangle, INVALID, Instance, LightNode, SampledLight, sweep};
 use lightbvh_host::vulkan::{Device, Pass};
 use lightbvh_kernels::bvh::{Choice, TreeOf, TriangleChoice};
@@ -210,9 +210,7 @@ pub fn answer_on<C: TriangleChoice<W>, const W: usize>(device: &Device, file: &F
     let refit = Step::NAMES.map(|(name, step)| (step, kernel(&format!("refit_{name}"))));
     let refit_nodes = kernel("refit_nodes");
     let most = tree.passes.iter().map(|(_, list)| list.len()).max().unwrap_or(0);
-    let children = device
-        .output::<u32>(most * W * child_rows::<C::Node, W>())
-        .expect("an output");
+    let children = device.output::<Children<W, PLAIN_ROWS>>(most).expect("an output");
     let push = |count: usize| RefitPush {
         first: 0,
         count: count as u32,
