@@ -17,16 +17,18 @@ use lightbvh_tests::devices::{devices, open};
 
 /// What a sample costs a software device with kernels ten times as long.
 const QUERIES: u32 = 4000;
-const KERNELS: [&str; 11] = [
+const KERNELS: [&str; 13] = [
     "self_test",
     "refit_bottom",
     "refit_roots",
     "refit_top",
+    "refit_nodes",
     "sample",
     "pmf",
     "refit_bottom_eq4",
     "refit_roots_eq4",
     "refit_top_eq4",
+    "refit_nodes_eq4",
     "sample_eq4",
     "pmf_eq4",
 ];

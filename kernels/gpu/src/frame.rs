@@ -35,6 +35,9 @@ pub struct Copy {
 
 impl Copy {
     /// The bytes to be copied.
+    ///
+    /// # Panics
+    /// If `bvh` is another than the one that the frame is of, and its array shorter.
     #[must_use]
     pub fn source<'a, N: Node<W>, I, const W: usize>(&self, bvh: &'a Bvh<N, I, W>) -> &'a [u8] {
         &self.buffer.bytes(bvh)[self.bytes.start as usize..self.bytes.end as usize]
@@ -109,7 +112,9 @@ pub struct Mirror {
 
 impl Mirror {
     /// Plans and follows: what brings the device's buffers to what `bvh` is now, after all edits of a frame and what
-    /// a `Rebuilder` has swapped in. The copies are to be done before `bvh` changes again.
+    /// a `Rebuilder` has swapped in. The bytes of the copies are to be taken before the next edit or swap.
+    ///
+    /// It takes the plan, so it is for the one mirror of `bvh`, once a frame and without a [`Bvh::plan`] of one's own; otherwise everything is copied.
     pub fn frame<N: Node<W>, I, const W: usize>(&mut self, bvh: &mut Bvh<N, I, W>) -> Frame {
         bvh.plan();
         self.follow(bvh)

@@ -49,7 +49,7 @@ pub struct Dispatch {
 }
 
 impl Dispatch {
-    /// Its push constants.
+    /// Its push constants: [`first`](Self::first), [`count`](Self::count).
     #[must_use]
     pub fn push(&self) -> [u32; 2] {
         [self.first, self.count]
@@ -62,7 +62,7 @@ impl Dispatch {
 pub struct Refit {
     /// Indices of nodes and roots.
     pub list: Vec<u32>,
-    /// The dispatches.
+    /// The dispatches, in their order.
     pub dispatches: Vec<Dispatch>,
     /// Bytes of the buffer `children` that the kernels need, by which passes [`Bottom`](Pass::Bottom) and [`Top`](Pass::Top) hand over to
     /// [`Nodes`](Pass::Nodes). What it holds before and after a refit means nothing. At most those of [`AT_A_TIME`](Self::AT_A_TIME) nodes, 12
@@ -160,6 +160,7 @@ mod tests {
             passes(&whole).len(),
             2 * levels(&plan.bottom) + 1 + 2 * levels(&plan.top)
         );
+        assert_eq!(Refit::AT_A_TIME * 8 * 12 * 4, 12 << 20, "as documented");
         for most in [1, 7, 30] {
             let parts = Refit::of_at_most::<MomentNode<4>, 4>(&plan, most);
             assert_eq!(parts.list, whole.list);

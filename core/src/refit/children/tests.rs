@@ -180,3 +180,73 @@ fn limits_go_by_way_of_children_too() {
     };
     assert!(all().any(|(mask, _)| mask.count_ones() > 1) && all().any(|(_, beam)| beam.is_narrow()));
 }
+
+/// Links to what is just beyond the end, and to what is of the other level.
+#[test]
+fn what_is_not_there_is_no_child() {
+    type Layout = Lit<LinkedSpotMomentNode<8>, LinkedAny>;
+    let bvh = scene::<Layout, 8>(&mut Random(5));
+    let tree = bvh.tree();
+    let (triangles, instances, roots) = (bvh.triangles(), tree.instances, bvh.roots());
+    let mut nodes = tree.nodes.to_vec();
+    let mut alien = instances.to_vec();
+    alien[0].blas = roots.len() as u32;
+    nodes[0].set_child(0, kind::LIGHT, triangles.len() as u32);
+    let end = nodes.len() as u32;
+    nodes[0].set_child(1, kind::INNER, end);
+    nodes[0].set_child(2, kind::MESH, instances.len() as u32);
+    nodes[0].set_child(3, kind::MESH, 0);
+    nodes[0].set_child(4, kind::LIGHT, 0);
+    nodes[0].set_child(5, kind::EMPTY, 0);
+    for slot in [0, 1, 2, 3, 5] {
+        assert_eq!(bottom_child(&nodes, triangles, 0, slot), Child::EMPTY, "{slot}");
+    }
+    for slot in 0..6 {
+        assert_eq!(top_child(&nodes, &alien, roots, 0, slot), Child::EMPTY, "{slot}");
+    }
+    // A root that is no node.
+    let mut lost = roots.to_vec();
+    let blas = instances[0].blas as usize;
+    assert_ne!(top_child(&nodes, instances, &lost, 0, 3).limits, Limits::NONE);
+    lost[blas].node = end;
+    assert_eq!(top_child(&nodes, instances, &lost, 0, 3).limits, Limits::NONE);
+}
+
+/// The union of the masks of the lights below a node of a bottom level.
+fn masks_below(nodes: &[Lit<LinkedSpotMomentNode<8>, LinkedAny>], lights: &[LinkedAny], node: u32) -> u32 {
+    let node = &nodes[node as usize];
+    let of = |slot| match node.kind(slot) {
+        kind::LIGHT => lights[node.link(slot) as usize].mask,
+        kind::INNER => masks_below(nodes, lights, node.link(slot)),
+        _ => 0,
+    };
+    (0..8).fold(0, |all, slot| all | of(slot))
+}
+
+/// Masks are the unions over the lights of the mesh, and beams stand where the instance is.
+#[test]
+fn the_top_level_knows_the_limits_of_its_meshes() {
+    type Layout = Lit<LinkedSpotMomentNode<8>, LinkedAny>;
+    let bvh = scene::<Layout, 8>(&mut Random(5));
+    let (tree, plan) = (bvh.tree(), bvh.plan_of_everything());
+    let (mut partial, mut narrow) = (0, 0);
+    for &index in plan.top.nodes() {
+        for slot in 0..8 {
+            let node = &tree.nodes[index as usize];
+            if node.kind(slot) == kind::MESH {
+                let instance = &tree.instances[node.link(slot) as usize];
+                let root = bvh.roots()[instance.blas as usize].node;
+                let union = masks_below(tree.nodes, bvh.triangles(), root);
+                let child = top_child(tree.nodes, tree.instances, bvh.roots(), index, slot);
+                assert_eq!(child.limits.mask, union);
+                partial += u32::from(union != u32::MAX);
+                if child.limits.beam.is_narrow() {
+                    let away = child.limits.beam.c - child.summary.c;
+                    assert!(crate::vector::length_squared(away) < 30.0 * 30.0, "{away}");
+                    narrow += 1;
+                }
+            }
+        }
+    }
+    assert!(partial > 40 && narrow > 20, "{partial} {narrow}");
+}
