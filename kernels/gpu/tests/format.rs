@@ -212,12 +212,15 @@ fn buffers_have_their_strides_readers_and_writers() {
             let stride = match (binding.name, layout) {
                 ("nodes", "_eq4" | "_narrow" | "_wide" | "_any" | "_linked")
                 | ("triangles", "_any" | "_linked")
+                | ("children", "_eq4" | "_any" | "_linked")
                 | ("queries", "_linked" | "_transmissive" | "_segment") => {
                     let own = format!("`{layout}` ");
                     let after = strides.split_once(&*own).expect("its own").1;
                     after.split(',').next().unwrap_or(after)
                 }
-                ("nodes" | "triangles" | "queries", _) => strides.split_once(',').expect("a first one").0,
+                ("nodes" | "children" | "triangles" | "queries", _) => {
+                    strides.split_once(',').expect("a first one").0
+                }
                 ("results", _) => {
                     let own = format!("`{name}` ");
                     let after = strides.split_once(&*own).expect("its results").1;
