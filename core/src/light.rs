@@ -65,7 +65,8 @@ pub const TWO_SIDED: u32 = 1;
 pub const MAX_COORDINATE: f32 = exact::pow2(40);
 /// Smallest magnitude of a coordinate that is not zero, metres: 2^-100. The difference of two coordinates is then zero
 /// or a normal number, which a device that flushes subnormal numbers keeps.
-pub const MIN_COORDINATE: f32 = exact::pow2(-100);
+pub const MIN_COORDINATE: f32 = exact::pow2(MIN_COORDINATE_EXPONENT);
+pub(crate) const MIN_COORDINATE_EXPONENT: i32 = -100;
 /// Smallest radiance that is not zero, W/(m² sr): 2^-100.
 pub const MIN_RADIANCE: f32 = exact::pow2(-100);
 /// Largest radiance, W/(m² sr): 2^100.

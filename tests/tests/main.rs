@@ -11,6 +11,7 @@ mod encoding;
 mod exact_exhaustive;
 mod exact_inputs;
 mod film;
+mod flushing;
 mod framing;
 mod gltf;
 mod gltf_bend;

@@ -2,19 +2,26 @@
 //! flush then agree with those that do not.
 #![cfg(target_arch = "x86_64")]
 
+use lightbvh::light::infinite::{DistantLight, Environment};
+use lightbvh::light::{AnyLight, Light};
 use lightbvh::{EmissiveTriangle, exact};
 use lightbvh_host::render::{RayBvh, View, camera, power_thresholds};
 use lightbvh_kernels::path::path_pixel;
 use lightbvh_kernels::render::{RenderParams, render_pixel};
 use lightbvh_kernels::shading::camera::Camera;
+use lightbvh_kernels::shading::emitter::Emitter;
 use lightbvh_kernels::shading::emitters::{Emitters, listed};
 use lightbvh_kernels::shading::material::Material;
-use lightbvh_kernels::shading::pick::Power;
+use lightbvh_kernels::shading::pick::{PickLight, Power, Uniform};
 use lightbvh_kernels::shading::pixel::Scene;
-use lightbvh_kernels::shading::sky::NoSky;
+use lightbvh_kernels::shading::skin::SkinView;
+use lightbvh_kernels::shading::sky::{NoSky, SkyView};
+use lightbvh_kernels::shading::trace::Surfaces;
 use lightbvh_tests::generate::Random;
 use lightbvh_tests::soup::{in_cube, soup};
 use proptest::prelude::*;
+
+use crate::flushing::scenes::Any;
 
 /// Default of the control and status register: every exception masked, round to nearest.
 const IEEE: u32 = 0x1f80;
@@ -26,12 +33,12 @@ const BOUNCES: u32 = 4;
 
 /// All pixels by direct lighting and by paths, computed in one thread under the given mode.
 #[inline(never)]
-fn render_under(
+fn render_under<L: Emitter, P: PickLight>(
     mode: u32,
-    scene: &Scene<'_>,
+    scene: &Scene<'_, L>,
     camera: &Camera,
     params: &RenderParams,
-    picker: &Power<'_>,
+    picker: &P,
 ) -> Vec<u32> {
     // SAFETY: loads the register from a live u32; the mode before is restored before anything else of this thread runs.
     unsafe { core::arch::asm!("ldmxcsr [{}]", in(reg) &mode) }
@@ -97,6 +104,78 @@ proptest! {
         let params = RenderParams { width: 16, height: 16, samples: 4, first: seed % 3, all: seed / 3 % 9, candidates: 1 + 3 * (seed % 2), scattered: seed / 2 % 3, part: seed % 5, parts: seed % 7, seed, jitter: seed, background: [0.0, exact::pow2(bright), 0.3] };
         let camera = camera(&view, 16, 16);
         let picker = Power { thresholds: &thresholds };
+        let plain = render_under(IEEE, &scene, &camera, &params, &picker);
+        let flushed = render_under(FLUSHING, &scene, &camera, &params, &picker);
+        prop_assert!(plain.iter().all(|&word| f32::from_bits(word).is_finite()));
+        prop_assert_eq!(plain, flushed);
+    }
+}
+
+/// A camera that sees what is within `size` of the origin, and what of it is computed.
+fn looking(random: &mut Random, size: f32) -> (Camera, RenderParams) {
+    let view = View {
+        eye: [0.0, 0.0, 2.0 * size],
+        right: [1.0, 0.0, 0.0],
+        up: [0.0, 1.0, 0.0],
+        forward: [0.0, 0.0, -1.0],
+        yfov: 1.0,
+    };
+    let params = RenderParams {
+        width: 16,
+        height: 16,
+        samples: 4,
+        first: random.below(3),
+        all: random.below(9),
+        candidates: 1 + 3 * random.below(2),
+        scattered: random.below(3),
+        part: random.below(5),
+        parts: random.below(7),
+        seed: random.bits(),
+        jitter: random.bits(),
+        background: [0.0, random.unit(), 0.3],
+    };
+    (camera(&view, 16, 16), params)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1500))]
+
+    /// Lights of every kind below a map of the sky and suns.
+    #[test]
+    fn no_word_of_any_light_depends_on_subnormal_numbers(
+        seed: u32, scale in -60_i32..26, edge in -8_i32..2, grid: bool, bright in -90_i32..90, specular: bool,
+    ) {
+        let random = &mut Random::new(seed);
+        let size = exact::pow2(scale);
+        let mut surfaces = soup(random, 40, size, size * exact::pow2(edge), grid && scale > 0);
+        let shine = |random: &mut Random| in_cube(random, 1.0).map(|c| (c * c + 0.01) * exact::pow2(bright));
+        let mut lights = Vec::<AnyLight>::new();
+        for surface in surfaces.iter_mut().step_by(4) {
+            surface.light = lights.len() as u32;
+            let flags = random.below(2) * EmissiveTriangle::TWO_SIDED;
+            lights.push(EmissiveTriangle { p: surface.p, radiance: shine(random), mesh: 0, flags }.into());
+        }
+        for _ in 0..10 {
+            let place = in_cube(random, size);
+            let light = AnyLight::any(random, place, size * exact::pow2(edge));
+            lights.push(light.checked().expect("a light in the domain"));
+        }
+        let bvh = RayBvh::build(&surfaces).unwrap();
+        let skin = SkinView { corners: &[], words: &[] };
+        let Surfaces { nodes, blocks, .. } = bvh.surfaces();
+        let dim = exact::pow2(random.below(40) as i32 - 20);
+        let map = Environment::from_fn(8, |[x, y, _]| [x.abs() * dim, (y > 0.0) as u32 as f32 * exact::pow2(bright), 0.0]).unwrap();
+        let suns = [0, 1, 2].map(|_| DistantLight { direction: random.direction(), irradiance: shine(random) }.checked().unwrap());
+        let sky = SkyView { suns: &suns, counts: map.map().counts, radiance: map.map().radiance };
+        let materials = [Material {
+            albedo: [0.8, exact::pow2(-110), 1e-3],
+            specular: if specular { 0.5 } else { 0.0 },
+            exponent_log2: seed % 17,
+        }];
+        let instances = listed(lights.len() as u32);
+        let scene = Scene::new(nodes, blocks, &materials, &lights, &instances, sky, skin);
+        let (camera, params) = looking(random, size);
+        let picker = Uniform { count: lights.len() as u32 };
         let plain = render_under(IEEE, &scene, &camera, &params, &picker);
         let flushed = render_under(FLUSHING, &scene, &camera, &params, &picker);
         prop_assert!(plain.iter().all(|&word| f32::from_bits(word).is_finite()));

@@ -2,17 +2,19 @@
 
 use glam::Vec3;
 
-use super::sight::{FLOOR, MIN_DISTANCE_SQUARED, Sight, in_volume, over_distance, root};
+use super::sight::{
+    FLOOR, LEAST_ALONG, LEAST_OFFSET, MIN_DISTANCE_SQUARED, Sight, in_volume, offset, over_distance, root,
+};
 use super::{Cluster, ImportanceModel, Scaled, on_one_scale};
 use crate::exact::{self, pow2, recip, rsqrt_rough};
 use crate::node::BoundsNode;
 use crate::point::ShadingPoint;
-use crate::vector::{cross, dot, length_squared};
+use crate::vector::{cross, dot, flush3, length_squared};
 
 /// Least cosines' product that counts as a least importance, 2^-20: a smaller one is rounding.
 const LEAST: f32 = pow2(-20);
 
-/// Square of a length added to that of a corner across the centre's direction, m²: it absorbs what devices flush.
+/// Square of a length added to that of a corner across the centre's direction, m².
 const TINY_SQUARED: f32 = pow2(-100);
 
 /// What a sum is bounded by below, so that it has a reciprocal.
@@ -99,7 +101,7 @@ impl Sight {
     /// (`light_tree_cos_bounding_box_angle`).
     #[inline(always)]
     pub fn of_corners(cluster: &Cluster, point: &ShadingPoint) -> Self {
-        let v = cluster.center - point.position();
+        let v = offset(cluster.center, point);
         let e = cluster.extent;
         let d_squared = exact::max(length_squared(v), MIN_DISTANCE_SQUARED);
         let inverse = rsqrt_rough(d_squared);
@@ -110,8 +112,10 @@ impl Sight {
             let first = if k & 2 == 0 { e.x } else { -e.x };
             let second = if k & 4 == 0 { e.y } else { -e.y };
             let corner = Vec3::new(first, second, e.z);
-            let across = root(length_squared(cross(direction, corner)) + TINY_SQUARED);
-            let along = dot(direction, if k & 1 == 0 { v + corner } else { v - corner });
+            let aside = flush3(cross(direction, corner), LEAST_OFFSET);
+            let across = root(length_squared(aside) + TINY_SQUARED);
+            let to_corner = if k & 1 == 0 { v + corner } else { v - corner };
+            let along = exact::flush(dot(direction, to_corner), LEAST_ALONG);
             // The sine of the difference of both angles.
             let farther = across * cosine > sine * along;
             cosine = if farther { along } else { cosine };
@@ -123,8 +127,8 @@ impl Sight {
             v,
             d_squared,
             inverse,
-            sine: sine * to_distance,
-            cosine: cosine * to_distance,
+            sine: exact::flush(sine * to_distance, LEAST_ALONG),
+            cosine: exact::flush(cosine * to_distance, LEAST_ALONG),
             inside: (exact::abs(v.x) < e.x) & (exact::abs(v.y) < e.y) & (exact::abs(v.z) < e.z),
         }
     }
@@ -134,15 +138,15 @@ impl Sight {
     pub fn extremes(&self, cluster: &Cluster, n: Vec3) -> (f32, f32) {
         let volume = in_volume(n);
         let over_square = self.inverse * self.inverse;
-        let height = dot(n, self.v);
+        let height = exact::flush(dot(n, self.v), LEAST_ALONG);
         let reach_up = (exact::abs(n.x) * cluster.extent.x + exact::abs(n.y) * cluster.extent.y)
             + exact::abs(n.z) * cluster.extent.z;
         let nearest = if volume { 1.0 } else { self.nearest(height) };
-        let visible = volume | (height + reach_up > 0.0);
+        let visible = volume | (exact::flush(height + reach_up, LEAST_ALONG) > 0.0);
         let emitted = self.emitted(cluster);
         let reaches = emitted > cluster.cos_theta_e;
         let most = if visible & reaches & (nearest > 0.0) {
-            nearest * exact::abs(emitted)
+            exact::flush(nearest * exact::abs(emitted), LEAST_SUM)
         } else {
             0.0
         };
@@ -152,7 +156,7 @@ impl Sight {
         let lowest = (height * self.cosine - across * self.sine) * over_square;
         let farthest = if volume { 1.0 } else { exact::max(lowest, 0.0) };
         // cos and sin (θ + θ_u) d², then cos(θ + θ_u + θ_o).
-        let along = -dot(cluster.axis, self.v);
+        let along = -exact::flush(dot(cluster.axis, self.v), LEAST_ALONG);
         let aside = root(self.d_squared - along * along);
         let cos_sum = (along * self.cosine - aside * self.sine) * over_square;
         let sin_sum = (aside * self.cosine + along * self.sine) * over_square;

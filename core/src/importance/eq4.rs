@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use super::sight::{LEAST_ALONG, offset};
 use super::{ImportanceModel, Scaled, on_one_scale};
 use crate::exact::{self, exponent, pow2, recip_rough, rsqrt_rough, significand};
 use crate::node::BoundsNode;
@@ -45,10 +46,6 @@ const SOFTENING: f32 = 1.0 / 12.0;
 /// Squared distances count as at least this, m²: 2^-100.
 const MIN_DISTANCE_SQUARED: f32 = pow2(-100);
 
-/// Length added along the cone's axis: a sign that depends on a subnormal product, which it absorbs, would not be the same
-/// on a device that flushes those. A relative 2^-60 of the least distance.
-const TINY_LENGTH: f32 = pow2(-110);
-
 /// Eq. 4 of Freire & Pereira 2023 (after Conty Estevez & Kulla 2018, section 4.2, Eq. 3): flux, distance, orientation of
 /// the emitters and incident angle.
 ///
@@ -85,7 +82,7 @@ impl Eq4 {
     /// The product of the cosines' bounds, [`FLOOR`] where it is zero, and d².
     #[inline(always)]
     pub(crate) fn factor(cluster: &Cluster, point: &ShadingPoint) -> (f32, f32) {
-        let v = cluster.center - point.position();
+        let v = offset(cluster.center, point);
         let n = point.normal();
         let d_squared = exact::max(length_squared(v), MIN_DISTANCE_SQUARED);
         let r_squared = cluster.radius_squared;
@@ -93,7 +90,7 @@ impl Eq4 {
         // Lengths instead of sines and cosines: with d = |v|, d cos θ = −axis·v, d sin θ_u = r, and the others by
         // Pythagoras. Every root then starts from d² and none waits for another. Selects, not branches: the compiler
         // computes a node's children side by side.
-        let along_axis = TINY_LENGTH - dot(cluster.axis, v);
+        let along_axis = -exact::flush(dot(cluster.axis, v), LEAST_ALONG);
         let across_axis = root(d_squared - along_axis * along_axis);
         let radius = root(r_squared);
         let tangent = root(d_squared - r_squared);
@@ -119,6 +116,10 @@ impl Eq4 {
         // cos θ' = cos max(0, θ − θ_o − θ_u), with α = θ_o + θ_u; an α above π shows in its negative sine.
         let cos_alpha = cluster.cos_theta_o * tangent - cluster.sin_theta_o * radius;
         let sin_alpha = cluster.sin_theta_o * tangent + cluster.cos_theta_o * radius;
+        let (cos_alpha, sin_alpha) = (
+            exact::flush(cos_alpha, LEAST_ALONG),
+            exact::flush(sin_alpha, LEAST_ALONG),
+        );
         let facing = (along_axis * cos_alpha + across_axis * sin_alpha) * inverse_squared;
         let surrounded = inside | (sin_alpha < 0.0) | (along_axis >= cos_alpha);
         let reach = if surrounded { 1.0 } else { facing } + SLACK;

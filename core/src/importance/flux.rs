@@ -1,5 +1,6 @@
 //! Flux over squared distance, without cosines.
 
+use super::sight::offset;
 use super::{ImportanceModel, Scaled, on_one_scale};
 use crate::exact::{self, exponent, pow2, recip_rough, significand};
 use crate::node::Node;
@@ -26,7 +27,7 @@ impl<N: Node<W>, const W: usize> ImportanceModel<N, W> for FluxOverDistance {
         }; W];
         for slot in 0..W {
             let summary = node.summary(slot);
-            let (phi, away) = (summary.phi(), summary.center() - point.position());
+            let (phi, away) = (summary.phi(), offset(summary.center(), point));
             let soft = exact::max(length_squared(away) + summary.spread(), MIN_DISTANCE_SQUARED);
             let value = significand(phi) * recip_rough(significand(soft));
             let shines = (phi > 0.0) & (value > 0.0);

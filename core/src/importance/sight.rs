@@ -5,7 +5,7 @@ use glam::Vec3;
 use super::{Cluster, Scaled};
 use crate::exact::{self, exponent, pow2, recip_rough, rsqrt_rough, significand};
 use crate::point::ShadingPoint;
-use crate::vector::{dot, length_squared};
+use crate::vector::{dot, flush3, length_squared};
 
 /// Least product of the cosines, 2^-10, as that of [`Eq4`](super::Eq4): where a published bound is zero, or less, the lights
 /// keep this share of Φ/d², for a rounded bound is no proof.
@@ -14,9 +14,11 @@ pub(super) const FLOOR: f32 = pow2(-10);
 /// Squared distances count as at least this, m²: 2^-100.
 pub(super) const MIN_DISTANCE_SQUARED: f32 = pow2(-100);
 
-/// Length added along the cone's axis: a sign that depends on a subnormal product, which it absorbs, would not be the same
-/// on a device that flushes those. A relative 2^-60 of the least distance.
-const TINY_LENGTH: f32 = pow2(-110);
+/// Lengths along an axis count as zero below this, metres: their squares are then normal numbers.
+pub(super) const LEAST_OFFSET: f32 = pow2(-62);
+/// Lengths along a direction count as zero below this, metres: 2^-25 of the least distance. No product of two lengths is then subnormal that a
+/// sum shows: where both are short, both across are about the distance.
+pub(super) const LEAST_ALONG: f32 = pow2(-75);
 
 /// The direction of a box's centre, and a cone around the box: its angle is θ_u.
 ///
@@ -42,7 +44,7 @@ impl Sight {
     /// With the cone around the sphere around the box.
     #[inline(always)]
     pub fn of_sphere(cluster: &Cluster, point: &ShadingPoint) -> Self {
-        let v = cluster.center - point.position();
+        let v = offset(cluster.center, point);
         let d_squared = exact::max(length_squared(v), MIN_DISTANCE_SQUARED);
         Self {
             v,
@@ -57,11 +59,15 @@ impl Sight {
     /// cos θ' = cos max(0, θ − θ_o − θ_u) of the emitters: θ lies between the axis of their normals and the way back to the point.
     #[inline(always)]
     pub fn emitted(&self, cluster: &Cluster) -> f32 {
-        let along = TINY_LENGTH - dot(cluster.axis, self.v);
+        let along = -exact::flush(dot(cluster.axis, self.v), LEAST_ALONG);
         let across = root(self.d_squared - along * along);
         // α = θ_o + θ_u; an α above π shows in its negative sine.
         let cos_alpha = cluster.cos_theta_o * self.cosine - cluster.sin_theta_o * self.sine;
         let sin_alpha = cluster.sin_theta_o * self.cosine + cluster.cos_theta_o * self.sine;
+        let (cos_alpha, sin_alpha) = (
+            exact::flush(cos_alpha, LEAST_ALONG),
+            exact::flush(sin_alpha, LEAST_ALONG),
+        );
         let facing = (along * cos_alpha + across * sin_alpha) * (self.inverse * self.inverse);
         let surrounded = self.inside | (sin_alpha < 0.0) | (along >= cos_alpha);
         if surrounded { 1.0 } else { facing }
@@ -70,6 +76,7 @@ impl Sight {
     /// cos max(0, θ_i − θ_u), where the length `along` is d cos θ_i.
     #[inline(always)]
     pub fn nearest(&self, along: f32) -> f32 {
+        let along = exact::flush(along, LEAST_ALONG);
         let across = root(self.d_squared - along * along);
         let turned = (along * self.cosine + across * self.sine) * (self.inverse * self.inverse);
         if self.inside | (along >= self.cosine) {
@@ -78,6 +85,12 @@ impl Sight {
             turned
         }
     }
+}
+
+/// From the point to `center`, metres.
+#[inline(always)]
+pub(super) fn offset(center: Vec3, point: &ShadingPoint) -> Vec3 {
+    flush3(center - point.position(), LEAST_OFFSET)
 }
 
 /// Whether the point lies in a volume: its normal is zero.

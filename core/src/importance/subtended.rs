@@ -7,9 +7,10 @@ use core::marker::PhantomData;
 use super::moments::{SOFT, soft};
 use super::{Eq4, ExactMath, ImportanceModel, Math, Moments, Scaled, on_one_scale};
 use crate::exact::{self, exponent, pow2, significand};
+use crate::moments::LEAST_LENGTH;
 use crate::node::{BoundsNode, MomentLayout};
 use crate::point::{RaySegment, ShadingPoint};
-use crate::vector::{dot, length_squared};
+use crate::vector::{dot, flush3, length_squared};
 use line::Line;
 
 /// What a [`RaySegment`] receives: flux times the angle under which the lights see the segment, over their least distance from its line (Conty
@@ -106,7 +107,7 @@ impl<N: BoundsNode<W>, const W: usize> ImportanceModel<N, W, RaySegment> for Sub
             let mut emitted = 0.0;
             let places = line.quarters::<ExactMath>(s_squared);
             for k in 0..2 {
-                let p = cluster.center + places[k] * pow2(line.exponent);
+                let p = cluster.center + flush3(places[k] * pow2(line.exponent), LEAST_LENGTH);
                 let point = ShadingPoint {
                     p: [p.x, p.y, p.z],
                     n: [0.0; 3],

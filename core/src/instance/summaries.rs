@@ -7,12 +7,15 @@ use crate::bounds::LightBounds;
 use crate::cone::normalized;
 use crate::emission::{MAX_SUM, MIN_PHI};
 use crate::exact::{self, exponent, pow2, significand};
-use crate::light::Light;
+use crate::light::{Light, MIN_COORDINATE};
 use crate::moments::LightMoments;
-use crate::vector::{dot, greatest_exponent, length_squared, max3};
+use crate::vector::{dot, flush3, greatest_exponent, length_squared, max3};
 
 /// A constant of its own: rust-gpu does not fold an expression of literals.
 const THIRD: f32 = 1.0 / 3.0;
+
+/// Exponent of the least unit of deviations in the world, 2^-80 m; smaller ones count as zero.
+const LEAST_WORLD_EXPONENT: i32 = -80;
 
 impl Instance {
     /// Bounds in the world of what has the bounds `local` in the space of the mesh: the box around the mapped box; the cone
@@ -36,8 +39,9 @@ impl Instance {
             local.axis
         };
         LightBounds {
-            min: middle - extent,
-            max: middle + extent,
+            // As coordinates in the world are: nothing is nearer to zero than those, and it.
+            min: flush3(middle - extent, MIN_COORDINATE),
+            max: flush3(middle + extent, MIN_COORDINATE),
             axis,
             cos_theta_o: if squared > 0.99 && squared < 1.01 {
                 local.cos_theta_o
@@ -103,7 +107,9 @@ impl Instance {
         } else {
             total * THIRD
         };
-        let unit = pow2(map_exponent + own_exponent);
+        // The roots below are zero or at least 2^-43: deviations are zero or normal numbers.
+        let e = map_exponent + own_exponent;
+        let unit = if e < LEAST_WORLD_EXPONENT { 0.0 } else { pow2(e) };
         let h = flushed(local.h);
         let (x, y, z) = (
             absolute(self.column(0)),
@@ -112,7 +118,7 @@ impl Instance {
         );
         LightMoments {
             phi: self.flux_to_world(local.phi, area),
-            c: self.forward(flushed(local.c)) + self.origin(),
+            c: flush3(self.forward(flushed(local.c)) + self.origin(), MIN_COORDINATE),
             across: exact::sqrt((total - along_world) * 0.5) * unit,
             along: exact::sqrt(along_world) * unit,
             m: if has_axis {

@@ -31,6 +31,9 @@ pub struct LightPoint {
 
 const _: () = assert!(size_of::<LightPoint>() == 44);
 
+/// What is sent counts as zero below this, for radiance 1 too: a device would flush some of it.
+const LEAST_SENT: f32 = exact::pow2(-120);
+
 impl LightPoint {
     /// Bit of [`flags`](Self::flags): a light without size. `radiance` is its intensity towards the receiver, W/sr, `density` 1, and there is
     /// no cosine at the light.
@@ -40,7 +43,8 @@ impl LightPoint {
     pub const IS_VOLUME: u32 = 4;
 
     /// What the light sends to a point, W/m², one estimate: radiance times both cosines over squared distance and density, nothing between
-    /// them. At a point in a volume the receiver's cosine is 1. Zero where it lies within 2^-50 m.
+    /// them. At a point in a volume the receiver's cosine is 1. Zero where it lies within 2^-50 m, and where it is below 2^-120, for radiance 1
+    /// too.
     #[inline(always)]
     #[must_use]
     pub fn irradiance(&self, receiver: &ShadingPoint) -> [f32; 3] {
@@ -82,9 +86,9 @@ impl LightPoint {
         let factor = if is_near {
             0.0
         } else {
-            per_area * exact::pow2(scale)
+            exact::flush(per_area * exact::pow2(scale), LEAST_SENT)
         };
-        let sent = |radiance: f32| exact::min(radiance * factor, f32::MAX);
+        let sent = |radiance: f32| exact::flush(exact::min(radiance * factor, f32::MAX), LEAST_SENT);
         [
             sent(self.radiance[0]),
             sent(self.radiance[1]),

@@ -5,10 +5,11 @@
 
 use glam::Vec3;
 
-use super::{LEAST_EXPONENT, LightMoments, row};
+use super::{LEAST_LENGTH, LightMoments, row};
 use crate::emission::MAX_SUM_EXPONENT;
 use crate::exact::{self, exponent, pow2};
 use crate::halves::{maxima, sums};
+use crate::light::MIN_COORDINATE_EXPONENT;
 use crate::summary::{Lanes, SUMMARY_WORDS};
 use crate::unroll::each;
 use crate::vector::{abs3, dot, flush3};
@@ -16,8 +17,11 @@ use crate::vector::{abs3, dot, flush3};
 /// Flux below this part of the greatest among its siblings moves no centre: 2^-40. It keeps products of flux and squared
 /// lengths normal.
 const LEAST_SHARE: f32 = pow2(-40);
-/// Squares below this, in units of the set's size squared, count as zero: what a device flushes is far below it.
-const LEAST_SQUARE: f32 = pow2(-60);
+/// Squares below this, in units of the set's size squared, count as zero: what a device flushes is far below it. So do lengths.
+const LEAST_SQUARE_EXPONENT: i32 = -60;
+const LEAST_SQUARE: f32 = pow2(LEAST_SQUARE_EXPONENT);
+/// Least exponent of a set's size: the factor on lengths, 2^31 over twice the size, is then a number.
+const LEAST_SIZE_EXPONENT: i32 = -97;
 /// Squared length of a mean normal below which it has no direction: 2^-6.
 const LEAST_NORMAL: f32 = pow2(-6);
 /// The unit of the words, its inverse, and its square.
@@ -73,10 +77,10 @@ pub(super) fn framed<const W: usize>(sets: &Lanes<W>) -> Framed<W> {
     });
     maxima(&mut reach);
     let size = exponent(reach[0][0]);
-    let size = if size > LEAST_EXPONENT {
+    let size = if size > LEAST_SIZE_EXPONENT {
         size
     } else {
-        LEAST_EXPONENT
+        LEAST_SIZE_EXPONENT
     };
     // One more, so that sums of a centre's offset and an extent stay below 2.
     let frame = Frame {
@@ -94,9 +98,10 @@ pub(super) fn framed<const W: usize>(sets: &Lanes<W>) -> Framed<W> {
         let scaled = |x: f32| exact::masked(shines, x * to_words);
         let share = exact::masked(shines, (s[row::PHI][i] * first) * second);
         rows[row::PHI][i] = exact::max(share, exact::masked(shines, LEAST_SHARE));
-        rows[row::C][i] = scaled(s[row::C][i] - origin.x);
-        rows[row::C + 1][i] = scaled(s[row::C + 1][i] - origin.y);
-        rows[row::C + 2][i] = scaled(s[row::C + 2][i] - origin.z);
+        let offset = flush3(vector(s, row::C, i) - origin, LEAST_LENGTH);
+        rows[row::C][i] = scaled(offset.x);
+        rows[row::C + 1][i] = scaled(offset.y);
+        rows[row::C + 2][i] = scaled(offset.z);
         rows[row::ACROSS][i] = scaled(s[row::ACROSS][i]);
         rows[row::ALONG][i] = scaled(s[row::ALONG][i]);
         rows[row::M][i] = exact::masked(shines, s[row::M][i] * PER_WORD_UNIT);
@@ -110,6 +115,16 @@ pub(super) fn framed<const W: usize>(sets: &Lanes<W>) -> Framed<W> {
         frame,
         sets: Lanes(rows),
     }
+}
+
+/// 2^`exponent`, which is below 1, or [`LEAST_SQUARE`] where that is more.
+#[inline(always)]
+fn least(exponent: i32) -> f32 {
+    exact::power(if exponent > LEAST_SQUARE_EXPONENT {
+        exponent
+    } else {
+        LEAST_SQUARE_EXPONENT
+    })
 }
 
 #[inline(always)]
@@ -169,17 +184,20 @@ impl<const W: usize> Framed<W> {
         });
         sums(&mut squares);
         maxima(&mut h);
-        let total = exact::flush((squares[0][0] * per_flux) * SQUARE_UNIT, LEAST_SQUARE);
+        // What is shorter than a coordinate counts as zero: no sum of two such numbers is subnormal.
+        let shortest = MIN_COORDINATE_EXPONENT - self.frame.unit_exponent;
+        let (least_length, least_square) = (least(shortest), least(shortest + shortest));
+        let total = exact::flush((squares[0][0] * per_flux) * SQUARE_UNIT, least_square);
         let along = exact::flush(
             exact::max((squares[1][0] * per_flux) * SQUARE_UNIT, 0.0),
-            LEAST_SQUARE,
+            least_square,
         );
         let along = if directed {
             exact::min(along, total)
         } else {
             total * THIRD
         };
-        let across = exact::flush((total - along) * 0.5, LEAST_SQUARE);
+        let across = exact::flush((total - along) * 0.5, least_square);
         let h = Vec3::new(h[0][0], h[1][0], h[2][0]) * WORD_UNIT;
         let center = center * WORD_UNIT;
         let unit = pow2(self.frame.unit_exponent);
@@ -188,11 +206,11 @@ impl<const W: usize> Framed<W> {
         let phi = exact::min(flux, pow2(MAX_SUM_EXPONENT - e)) * pow2(e);
         let merged = LightMoments {
             phi,
-            c: self.frame.origin + flush3(center, LEAST_SQUARE) * unit,
+            c: self.frame.origin + flush3(center, least_length) * unit,
             across: exact::sqrt(across) * unit,
             along: exact::sqrt(along) * unit,
             m: mean,
-            h: flush3(h, LEAST_SQUARE) * unit,
+            h: flush3(h, least_length) * unit,
         };
         if shines { merged } else { LightMoments::EMPTY }
     }

@@ -34,6 +34,8 @@ pub(crate) mod row {
 
 /// Least exponent of a set's size: 2^-100 m, the least difference of coordinates.
 pub(crate) const LEAST_EXPONENT: i32 = -100;
+/// Lengths that are computed count as zero below this, metres: 2^-120. A device would flush some of them.
+pub(crate) const LEAST_LENGTH: f32 = pow2(-120);
 
 /// What is known of a set of lights.
 ///

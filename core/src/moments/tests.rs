@@ -195,8 +195,8 @@ fn packed_moments_are_within_half_a_code() {
             for s in &sets {
                 (low, high) = (min3(low, s.c), max3(high, s.c));
             }
-            // The unit is at most twice the greatest offset from the middle.
-            let unit = f64::from((high - low).max_element());
+            // The unit is at most twice the greatest offset from the middle, but not below 2^-87 m.
+            let unit = f64::from((high - low).max_element()).max(2.0_f64.powi(-87));
             for (slot, s) in sets.iter().enumerate() {
                 let found = node.summary(slot);
                 let (size, breadth) = (f64::from(scale), f64::from(found.across) * 2.0_f64.sqrt());

@@ -6,7 +6,7 @@ use crate::emission::{MAX_SUM, MIN_PHI};
 use crate::exact::{self, exponent, pow2};
 use crate::halves::maxima;
 use crate::light::MIN_COORDINATE;
-use crate::moments::{Frame, LEAST_EXPONENT, row};
+use crate::moments::{Frame, row};
 use crate::summary::Lanes;
 use crate::unroll::each;
 use crate::vector::{dot, flush3};
@@ -105,13 +105,20 @@ pub(super) fn frame_of<const W: usize>(sets: &Lanes<W>) -> Frame {
     let e = exponent(needed[0][0]);
     Frame {
         origin,
-        unit_exponent: if e > LEAST_EXPONENT { e } else { LEAST_EXPONENT },
+        unit_exponent: if e > LEAST_UNIT_EXPONENT {
+            e
+        } else {
+            LEAST_UNIT_EXPONENT
+        },
         phi_exponent: exponent(exact::max(ends[6][0], MIN_PHI)),
     }
 }
 
+/// Exponent of the least unit of a frame: 2^-88 m. A centre's whole words of 2^-31 units and the least breadth, 2^-30, are normal numbers then,
+/// and a code of a centre, 2^-14 or 2^-15 units, is below the least difference of coordinates.
+const LEAST_UNIT_EXPONENT: i32 = -88;
 /// The least unit of a frame with lights in it.
-const LEAST_UNIT: f32 = pow2(LEAST_EXPONENT + 1);
+const LEAST_UNIT: f32 = pow2(LEAST_UNIT_EXPONENT + 1);
 
 /// √2, and its half.
 pub(crate) const SQRT_2: f32 = core::f32::consts::SQRT_2;

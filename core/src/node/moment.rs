@@ -15,10 +15,10 @@ use crate::beam::{Beam, Limits, Union, rounding_at};
 use crate::exact::{self, pow2};
 use crate::importance::{Lobe, Math, dot_by, frame, side, weight};
 use crate::light::EmissiveTriangle;
-use crate::moments::{Frame, Framed, LightMoments, row};
+use crate::moments::{Frame, Framed, LEAST_LENGTH, LightMoments, row};
 use crate::summary::{Lanes, SUMMARY_WORDS};
 use crate::unroll::each;
-use crate::vector::abs3;
+use crate::vector::{abs3, flush3};
 
 /// Words of a node: row 0 is the header (origin x, y, z, exponents), the others hold a word of each child. After the first ones come its
 /// box and its link; a row of normals stands before them, a row of beams and one of masks after them, where there is one.
@@ -276,7 +276,7 @@ impl<const W: usize, const ROWS: usize, const BEAMS: bool> Node<W> for PackedMom
             across,
             along: across * (fraction(w1, 15) * WORD_UNIT + 1.0),
             m: Vec3::new(fraction(w2, 0), fraction(w2, 8), fraction(w2, 16)) * WORD_UNIT,
-            h: h * (breadth * EXTENT_RANGE),
+            h: flush3(h * (breadth * EXTENT_RANGE), LEAST_LENGTH),
         }
     }
 

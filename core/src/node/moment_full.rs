@@ -8,7 +8,7 @@ use super::{Holds, MomentLayout, Node};
 use crate::exact::{self, exponent, pow2};
 use crate::importance::{Lobe, Math, dot_by, side, weight};
 use crate::light::EmissiveTriangle;
-use crate::moments::{LEAST_EXPONENT, LightMoments};
+use crate::moments::{LEAST_EXPONENT, LEAST_LENGTH, LightMoments};
 use crate::summary::Lanes;
 use crate::vector::abs3;
 
@@ -19,6 +19,8 @@ pub struct FullMomentNode<const W: usize>([[u32; W]; 15]);
 
 /// Breadths, in units of the scale, are at least this.
 const LEAST_BREADTH: f32 = pow2(-70);
+/// Half extents, in units of the scale, are at most this.
+const MOST_EXTENT: f32 = pow2(40);
 
 const FULL_LINK: usize = 13;
 const FULL_KIND: usize = 14;
@@ -108,7 +110,7 @@ impl<const W: usize> Node<W> for FullMomentNode<W> {
             phi: self.float(0, slot),
             c: vector(1),
             across: self.float(4, slot),
-            along: self.float(4, slot) * self.float(5, slot),
+            along: exact::flush(self.float(4, slot) * self.float(5, slot), LEAST_LENGTH),
             m: vector(6),
             h: vector(10),
         }
@@ -165,6 +167,8 @@ impl<const W: usize> MomentLayout<W> for FullMomentNode<W> {
             // As little as a packed node knows: 2^-62 of the greatest.
             let scaled = exact::max((phi * first) * second, pow2(-62));
             let breadth = exact::max(self.float(4, i) * (to_one * SQRT_2), LEAST_BREADTH);
+            let bounded = |field| exact::min(self.float(field, i) * to_one, MOST_EXTENT);
+            let h = Vec3::new(bounded(10), bounded(11), bounded(12));
             let lobe = Lobe {
                 phi: if phi > 0.0 { scaled } else { 0.0 },
                 x: offset * f32::from_bits(to_one.to_bits() & u32::from(phi > 0.0).wrapping_neg()),
@@ -172,10 +176,7 @@ impl<const W: usize> MomentLayout<W> for FullMomentNode<W> {
                 less: self.float(5, i) - 1.0,
                 m: Vec3::new(self.float(6, i), self.float(7, i), self.float(8, i)),
                 spread: self.float(9, i),
-                reach: dot_by::<M>(
-                    up,
-                    Vec3::new(self.float(10, i), self.float(11, i), self.float(12, i)),
-                ) * (to_one * M::recip(breadth)),
+                reach: dot_by::<M>(up, h) * M::recip(breadth),
             };
             weights[i] = weight::<M>(&lobe, &side);
         }

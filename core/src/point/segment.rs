@@ -6,7 +6,7 @@ use glam::Vec3;
 use super::{PointError, Receiver, ShadingPoint};
 use crate::exact::{self, div, pow2};
 use crate::instance::Instance;
-use crate::vector::{abs3, greatest_exponent, length_squared, max3};
+use crate::vector::{abs3, flush3, greatest_exponent, length_squared, max3};
 
 /// A piece of a ray through a volume, from one point to another: light reaches it everywhere. What
 /// [`Subtended`](crate::importance::Subtended) is told to choose a light by; [`sample`](Self::sample) then chooses a distance for that light.
@@ -38,7 +38,8 @@ const LEAST_SQUARED: f32 = pow2(-30);
 /// Least exponent of the scale.
 const LEAST_EXPONENT: i32 = -40;
 /// Segments shorter than this, in units of the scale, have no length.
-const LEAST_LENGTH: f32 = pow2(-60);
+const LEAST_LENGTH: f32 = pow2(LEAST_CHORD_EXPONENT);
+const LEAST_CHORD_EXPONENT: i32 = -60;
 
 /// A piece of the segment: where it begins and ends, as parts of the segment, and how far from the light.
 #[derive(Clone, Copy)]
@@ -123,13 +124,13 @@ impl RaySegment {
         }
         let across = (part - piece.start) * piece.from_end + (piece.end - part) * piece.from_start;
         let over = (piece.from_start * piece.from_end) * (piece.end - piece.start);
-        let length = exact::sqrt(exact::max(
-            length_squared(view.chord),
-            LEAST_LENGTH * LEAST_LENGTH,
-        ));
-        let is_within = (across > 0.0) & (over > 0.0) & (length > LEAST_LENGTH);
+        // Of about 1, so that its square is precise.
+        let e = greatest_exponent(abs3(view.chord), LEAST_CHORD_EXPONENT);
+        let chord = flush3(view.chord * pow2(-e), LEAST_LENGTH);
+        let length = exact::sqrt(exact::max(length_squared(chord), LEAST_SQUARED));
+        let is_within = (across > 0.0) & (over > 0.0) & (length * pow2(e) > LEAST_LENGTH);
         let squared = if is_within { across * across } else { 1.0 };
-        let density = div(SHARE * div(over, squared), length) * pow2(-view.exponent);
+        let density = div(SHARE * div(over, squared), length) * pow2(-(view.exponent + e));
         if is_within { density } else { 0.0 }
     }
 

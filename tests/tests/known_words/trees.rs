@@ -190,13 +190,13 @@ fn full_nodes() {
 #[test]
 fn moment_nodes() {
     bvh::<MomentNode<4>, Moments, 4>([
-        0xcc71_c173_f253_92a2,
-        0x2fc0_3236_b405_9fe2,
+        0x786d_9e0e_6e16_5e9e,
+        0xf3f3_6993_c445_a64e,
         0xf869_a053_4ab2_5673,
     ]);
     bvh::<MomentNode<8>, Defensive<Moments, 6>, 8>([
-        0x65f4_b062_1026_7d64,
-        0xf76a_5e57_ddf4_c595,
+        0x358c_041d_9f5d_d3d9,
+        0xe35c_e5a5_08f8_d451,
         0xe4a5_0810_372d_ee6c,
     ]);
 }

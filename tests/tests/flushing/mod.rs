@@ -1,0 +1,279 @@
+//! No subnormal number comes up in a tree: the processor's own flush-to-zero mode changes no word of refits, samples, pmfs and points on
+//! lights. Devices that flush then agree with those that do not.
+#![cfg(target_arch = "x86_64")]
+
+pub mod scenes;
+
+use bytemuck::{Pod, cast_slice};
+use glam::Vec3;
+use lightbvh::importance::{
+    Cycles, DefaultImportance, Falcor, Flux, Glossy, ImportanceModel, Leveled, Linked, LinkedPoint, Pbrt,
+    RaySegment, SphericalGaussian, Subtended, Transmissive, TransmissivePoint,
+};
+use lightbvh::light::{AnyLight, Light, LinkedAny, LinkedTriangle};
+use lightbvh::node::{
+    CompactNode, FullMomentNode, FullNode, LeanMomentNode, LinkedMomentNode, LinkedSpotMomentNode, Lit,
+    MomentNode, Node, SpotMomentNode, TwoSidedMomentNode,
+};
+use lightbvh::point::Receiver;
+use lightbvh::refit::{self, LIMITED_ROWS, PLAIN_ROWS, assembled, bottom_child, top_child};
+use lightbvh::{Bvh, Defensive, Eq4, FluxOverDistance, GlossyPoint, Moments, Random64, ShadingPoint, exact};
+use lightbvh_tests::generate::Random;
+
+/// Default of the control and status register: every exception masked, round to nearest.
+const IEEE: u32 = 0x1f80;
+/// The same, subnormal results flushed to zero (bit 15) and subnormal operands read as zero (bit 6).
+const FLUSHING: u32 = 0x9fc0;
+/// Of each layout; `SCENES` in the environment asks for another number.
+const SCENES: u32 = 2000;
+
+/// What `compute` returns in each of the two modes.
+fn in_both<T>(compute: impl Fn() -> T) -> [T; 2] {
+    [IEEE, FLUSHING].map(|mode| {
+        // SAFETY: loads the register from a live u32; the mode before is back before anything else of this thread runs.
+        unsafe { core::arch::asm!("ldmxcsr [{}]", in(reg) &mode) }
+        let result = std::hint::black_box(&compute)();
+        // SAFETY: as above.
+        unsafe { core::arch::asm!("ldmxcsr [{}]", in(reg) &IEEE) }
+        result
+    })
+}
+
+fn words<T: Pod>(values: &[T]) -> Vec<u32> {
+    cast_slice(values).to_vec()
+}
+
+/// All nodes and roots, computed anew in the order of the passes, child by child.
+#[inline(never)]
+fn refitted<N: Node<W>, const W: usize, const ROWS: usize>(bvh: &Bvh<N, (), W>) -> (Vec<u32>, Vec<u32>) {
+    let (plan, triangles, instances) = (bvh.plan_of_everything(), bvh.triangles(), bvh.tree().instances);
+    let (mut nodes, mut roots) = (bvh.nodes().to_vec(), bvh.roots().to_vec());
+    let mut children = [[[0; W]; ROWS]];
+    for &index in plan.bottom.nodes() {
+        for slot in 0..W {
+            bottom_child::<N, W>(&nodes, triangles, index, slot).put(&mut children, 0, slot);
+        }
+        nodes[index as usize] = assembled(&nodes, index, &children, 0);
+    }
+    for &index in &plan.roots {
+        roots[index as usize] = refit::root(&nodes, roots[index as usize].node);
+    }
+    for &index in plan.top.nodes() {
+        for slot in 0..W {
+            top_child::<N, W>(&nodes, instances, &roots, index, slot).put(&mut children, 0, slot);
+        }
+        nodes[index as usize] = assembled(&nodes, index, &children, 0);
+    }
+    (words(&nodes), words(&roots))
+}
+
+/// What a query answers: the sample, the pmf of another light, the light itself, a point on it, what that sends.
+#[inline(never)]
+fn answers<N, I, P, const W: usize>(
+    bvh: &Bvh<N, (), W>,
+    receiver: &P,
+    at: &ShadingPoint,
+    numbers: [u32; 4],
+) -> Vec<u32>
+where
+    N: Node<W>,
+    I: ImportanceModel<N, W, P>,
+    P: Receiver,
+{
+    let tree = bvh.by::<I>();
+    let [high, low, third, fourth] = numbers;
+    let sample = tree.sample_for(receiver, Random64 { high, low });
+    let mut all = words(&[sample]);
+    if let Some(id) = bvh.instances().len().checked_sub(1) {
+        let instance = third % (id as u32 + 1);
+        let of = &bvh.instances()[instance as usize];
+        all.push(
+            tree.pmf_for(receiver, of.first + fourth % of.count.max(1), instance)
+                .to_bits(),
+        );
+    }
+    if let Some(light) = bvh.triangle(sample.light, sample.instance) {
+        let on = light.point_for(at.position(), [third, fourth].map(exact::unit_f32));
+        all.extend(words(&[light]));
+        all.extend(words(&[on]));
+        all.extend(on.irradiance(at).map(f32::to_bits));
+    }
+    all
+}
+
+/// The parts of one scene that differ.
+type Differing = Vec<String>;
+
+fn note(differing: &mut Differing, what: &str, [plain, flushed]: &[Vec<u32>; 2]) {
+    if let Some(k) = (0..plain.len().max(flushed.len())).find(|&k| plain.get(k) != flushed.get(k)) {
+        let word = |of: &[u32]| {
+            of.get(k)
+                .map(|&word| (format!("{word:08x}"), f32::from_bits(word)))
+        };
+        differing.push(format!(
+            "{what}: word {k}: {:?}, flushed {:?}",
+            word(plain),
+            word(flushed)
+        ));
+    }
+}
+
+/// Refits and queries of [`SCENES`] scenes.
+fn check<N, const W: usize, const ROWS: usize>(
+    queries: impl Fn(&Bvh<N, (), W>, &mut Random, &[f32], &mut Differing),
+) where
+    N: Node<W>,
+    N::Light: scenes::Any,
+{
+    let mut failed = 0;
+    let scenes = std::env::var("SCENES").map_or(SCENES, |s| s.parse().expect("a number"));
+    for seed in 0..scenes {
+        let random = &mut Random::new(seed);
+        let (bvh, sizes) = scenes::scene::<N, W>(random);
+        let mut differing = Differing::new();
+        let [plain, flushed] = in_both(|| refitted::<N, W, ROWS>(&bvh));
+        // What the passes compute is what the tree holds.
+        assert_eq!(plain, (words(bvh.nodes()), words(bvh.roots())), "scene {seed}");
+        note(&mut differing, "roots", &[plain.1, flushed.1]);
+        note(&mut differing, "nodes", &[plain.0, flushed.0]);
+        for _ in 0..8 {
+            queries(&bvh, random, &sizes, &mut differing);
+        }
+        failed += usize::from(!differing.is_empty());
+        for what in &differing {
+            println!("{} of {}, scene {seed}: {what}", N::NAME, N::Light::NAME);
+        }
+    }
+    assert_eq!(failed, 0, "scenes of {} of {}", N::NAME, N::Light::NAME);
+}
+
+/// One query of importance `I`.
+fn ask<N, I, P, const W: usize>(
+    bvh: &Bvh<N, (), W>,
+    receiver: &P,
+    at: &ShadingPoint,
+    random: &mut Random,
+    differing: &mut Differing,
+) where
+    N: Node<W>,
+    I: ImportanceModel<N, W, P>,
+    P: Receiver + core::fmt::Debug,
+{
+    let numbers = [0; 4].map(|_| random.bits());
+    let both = in_both(|| answers::<N, I, P, W>(bvh, receiver, at, numbers));
+    note(
+        differing,
+        &format!("{} for {receiver:?}", core::any::type_name::<I>()),
+        &both,
+    );
+}
+
+/// Queries of a list of importances that take points.
+macro_rules! points {
+    ($node:ty, $width:literal, $($importance:ty),+) => {
+        |bvh: &Bvh<$node, (), $width>, random: &mut Random, sizes: &[f32], differing: &mut Differing| {
+            $(
+                let point = scenes::point(random, sizes);
+                ask::<$node, $importance, ShadingPoint, $width>(bvh, &point, &point, random, differing);
+            )+
+        }
+    };
+}
+
+#[test]
+fn triangles_by_moments() {
+    check::<MomentNode<8>, 8, PLAIN_ROWS>(|bvh, random, sizes, differing| {
+        points!(
+            MomentNode<8>,
+            8,
+            DefaultImportance,
+            SphericalGaussian,
+            FluxOverDistance,
+            Flux
+        )(bvh, random, sizes, differing);
+        let point = scenes::point(random, sizes);
+        let receiver = GlossyPoint {
+            point,
+            mirror: random.direction(),
+            diffuse: 0.5,
+            specular: 0.3,
+            exponent: exact::pow2(random.below(17) as i32),
+        };
+        ask::<_, Glossy<Moments>, _, 8>(bvh, &receiver, &point, random, differing);
+        let receiver = TransmissivePoint {
+            point,
+            front: 0.5,
+            back: random.between(0.1, 1.0),
+        };
+        ask::<_, Defensive<Transmissive<Moments>, 6>, _, 8>(bvh, &receiver, &point, random, differing);
+        let to = scenes::point(random, sizes).p;
+        let receiver = RaySegment { from: point.p, to };
+        ask::<_, Defensive<Subtended<Moments>, 6>, _, 8>(bvh, &receiver, &point, random, differing);
+        let (u, on) = (random.unit(), scenes::point(random, sizes).p);
+        let both = in_both(|| words(&[receiver.sample(Vec3::from(on), u)]));
+        note(
+            differing,
+            &format!("a distance for {receiver:?} and {on:?}"),
+            &both,
+        );
+    });
+}
+
+#[test]
+fn triangles_by_other_layouts_of_moments() {
+    check::<FullMomentNode<4>, 4, PLAIN_ROWS>(points!(FullMomentNode<4>, 4, Moments));
+    check::<LeanMomentNode<8>, 8, PLAIN_ROWS>(points!(LeanMomentNode<8>, 8, Moments));
+    check::<TwoSidedMomentNode<8>, 8, PLAIN_ROWS>(points!(TwoSidedMomentNode<8>, 8, Moments));
+}
+
+#[test]
+fn triangles_by_bounds() {
+    check::<CompactNode<4>, 4, PLAIN_ROWS>(|bvh, random, sizes, differing| {
+        points!(CompactNode<4>, 4, Eq4, Cycles, Pbrt, Falcor, FluxOverDistance)(
+            bvh, random, sizes, differing,
+        );
+        let (from, to) = (scenes::point(random, sizes), scenes::point(random, sizes));
+        let receiver = RaySegment {
+            from: from.p,
+            to: to.p,
+        };
+        ask::<_, Subtended<Eq4>, _, 4>(bvh, &receiver, &from, random, differing);
+    });
+    check::<FullNode<4>, 4, PLAIN_ROWS>(points!(FullNode<4>, 4, Eq4, Cycles, Pbrt, Falcor));
+}
+
+#[test]
+fn lights_of_every_kind() {
+    type Beams = Lit<SpotMomentNode<8>, AnyLight>;
+    check::<Beams, 8, LIMITED_ROWS>(points!(Beams, 8, DefaultImportance));
+    type Plain = Lit<MomentNode<8>, AnyLight>;
+    check::<Plain, 8, PLAIN_ROWS>(points!(Plain, 8, DefaultImportance));
+    type FullBounds = Lit<FullNode<4>, AnyLight>;
+    check::<FullBounds, 4, PLAIN_ROWS>(points!(FullBounds, 4, Eq4, Cycles, Falcor));
+    type FullMoments = Lit<FullMomentNode<4>, AnyLight>;
+    check::<FullMoments, 4, PLAIN_ROWS>(points!(FullMoments, 4, Moments, SphericalGaussian));
+    type Bounds = Lit<CompactNode<4>, AnyLight>;
+    check::<Bounds, 4, PLAIN_ROWS>(points!(Bounds, 4, Eq4));
+}
+
+#[test]
+fn lights_with_masks() {
+    type Masks = Lit<LinkedMomentNode<8>, LinkedTriangle>;
+    check::<Masks, 8, LIMITED_ROWS>(|bvh, random, sizes, differing| {
+        let point = scenes::point(random, sizes);
+        let receiver = LinkedPoint {
+            point,
+            mask: 1 + random.below(15),
+        };
+        ask::<_, Linked<Leveled<Moments, 9>>, _, 8>(bvh, &receiver, &point, random, differing);
+    });
+    type Both = Lit<LinkedSpotMomentNode<8>, LinkedAny>;
+    check::<Both, 8, LIMITED_ROWS>(|bvh, random, sizes, differing| {
+        let point = scenes::point(random, sizes);
+        let receiver = LinkedPoint {
+            point,
+            mask: 1 + random.below(15),
+        };
+        ask::<_, Linked<Leveled<Moments, 9>>, _, 8>(bvh, &receiver, &point, random, differing);
+    });
+}

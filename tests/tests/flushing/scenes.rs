@@ -1,0 +1,216 @@
+//! Scenes at the ends of the domain: lights of every kind and size, at one place or far apart, in maps that shrink and stretch them.
+
+use lightbvh::light::{
+    AnyLight, BoxLight, DiscLight, LinkedAny, LinkedTriangle, PointLight, ProfileLight, RectangleLight,
+    SphereLight, SpotLight,
+};
+use lightbvh::node::Node;
+use lightbvh::{Bvh, EmissiveTriangle, ShadingPoint, Transform, exact};
+use lightbvh_tests::generate::{Random, extreme_triangle, log_uniform};
+use lightbvh_tests::placing;
+
+/// A light of the kind about `p`, of lengths of about `size` metres.
+pub trait Any: Sized {
+    fn any(random: &mut Random, p: [f32; 3], size: f32) -> Self;
+}
+
+/// About one length in four is none.
+fn vector(random: &mut Random, size: f32) -> [f32; 3] {
+    [0; 3].map(|_| match random.below(4) {
+        0 => 0.0,
+        _ => random.between(-size, size),
+    })
+}
+
+/// Radiance or intensity: zero, or of any size.
+fn shine(random: &mut Random) -> [f32; 3] {
+    [0; 3].map(|_| match random.below(4) {
+        0 => 0.0,
+        1 => log_uniform(random, -100, 99),
+        _ => random.between(0.1, 5.0),
+    })
+}
+
+impl Any for EmissiveTriangle {
+    fn any(random: &mut Random, p: [f32; 3], size: f32) -> Self {
+        if random.below(8) == 0 {
+            return extreme_triangle(random);
+        }
+        let add = |by: [f32; 3]| [p[0] + by[0], p[1] + by[1], p[2] + by[2]];
+        Self {
+            p: [p, add(vector(random, size)), add(vector(random, size))],
+            radiance: shine(random),
+            mesh: 0,
+            flags: random.below(2) * Self::TWO_SIDED,
+        }
+    }
+}
+
+impl Any for AnyLight {
+    fn any(random: &mut Random, p: [f32; 3], size: f32) -> Self {
+        let (flags, mesh) = (random.below(2) * EmissiveTriangle::TWO_SIDED, 0);
+        let half = [0; 3].map(|_| vector(random, size));
+        let shine = shine(random);
+        let axis = random.direction();
+        let range = match random.below(3) {
+            0 => (8.0 * size).clamp(exact::pow2(-20), exact::pow2(40)),
+            _ => 0.0,
+        };
+        let cos_outer = random.between(-1.0, 0.99);
+        match random.below(8) {
+            0 => EmissiveTriangle::any(random, p, size).into(),
+            1 => PointLight {
+                p,
+                intensity: shine,
+                range,
+                mesh,
+            }
+            .into(),
+            2 => SpotLight {
+                p,
+                intensity: shine,
+                axis,
+                cos_inner: random.between(cos_outer, 1.0),
+                cos_outer,
+                range,
+                mesh,
+            }
+            .into(),
+            3 => SphereLight {
+                p,
+                radius: size.clamp(exact::pow2(-60), exact::pow2(39)),
+                radiance: shine,
+                mesh,
+            }
+            .into(),
+            4 => RectangleLight {
+                p,
+                half: [half[0], half[1]],
+                radiance: shine,
+                mesh,
+                flags,
+            }
+            .into(),
+            5 => DiscLight {
+                p,
+                half: [half[0], half[1]],
+                radiance: shine,
+                mesh,
+                flags,
+            }
+            .into(),
+            6 => {
+                let [x, y, z] = axis;
+                let across = if x.abs() < 0.6 { [0.0, -z, y] } else { [-z, 0.0, x] };
+                let length = across.iter().map(|x| x * x).sum::<f32>().sqrt();
+                ProfileLight {
+                    p,
+                    intensity: shine,
+                    axis,
+                    across: across.map(|x| x / length),
+                    cos_outer,
+                    whole: exact::pow2(-(random.below(40) as i32)),
+                    mean_cosine: random.between(cos_outer, 1.0),
+                    mesh,
+                    flags: random.below(2) * ProfileLight::MIRRORED,
+                }
+                .into()
+            }
+            _ => BoxLight {
+                p,
+                half,
+                radiance: shine,
+                mesh,
+            }
+            .into(),
+        }
+    }
+}
+
+impl Any for LinkedTriangle {
+    fn any(random: &mut Random, p: [f32; 3], size: f32) -> Self {
+        Self {
+            light: EmissiveTriangle::any(random, p, size),
+            mask: 1 << random.below(4),
+        }
+    }
+}
+
+impl Any for LinkedAny {
+    fn any(random: &mut Random, p: [f32; 3], size: f32) -> Self {
+        Self {
+            light: AnyLight::any(random, p, size),
+            mask: 1 << random.below(4),
+        }
+    }
+}
+
+/// 2^-99 to 2^37: any, about 1, the least, or such that a square is about the least normal number.
+fn size(random: &mut Random) -> f32 {
+    match random.below(4) {
+        0 => log_uniform(random, -99, 36),
+        1 => log_uniform(random, -99, -80),
+        2 => log_uniform(random, -66, -40),
+        _ => log_uniform(random, -4, 4),
+    }
+}
+
+/// Any map; one in three is even, of any scale.
+fn transform(random: &mut Random) -> Transform {
+    let reach = match random.below(3) {
+        0 => 0.0,
+        1 => size(random),
+        _ => 30.0,
+    };
+    let kind = placing::kind(random);
+    let mut map = placing::transform(random, kind, reach);
+    if random.below(3) == 0 {
+        let scale = log_uniform(random, -60, 20);
+        map.columns = map.columns.map(|column| column.map(|x| x * scale));
+    }
+    map
+}
+
+/// A scene, and lengths that occur in it.
+pub fn scene<N: Node<W>, const W: usize>(random: &mut Random) -> (Bvh<N, (), W>, Vec<f32>)
+where
+    N::Light: Any,
+{
+    let mut bvh = Bvh::<N, (), W>::default();
+    let mut sizes = vec![1.0];
+    for _ in 0..1 + random.below(4) {
+        // Lights of one place, about each other, or farther apart than they are large.
+        let (own, apart) = (size(random), [0.0, 1.0, 30.0][random.below(3) as usize]);
+        let (count, first) = ([1, 2, 9, 40][random.below(4) as usize], vector(random, own));
+        let lights = (0..count).map(|_| {
+            let by = vector(random, (apart * own).min(exact::pow2(38)));
+            N::Light::any(random, [0, 1, 2].map(|k: usize| first[k] + by[k]), own)
+        });
+        let lights = lights.collect();
+        sizes.push(own);
+        let mesh = bvh.add_mesh(lights).expect("lights in the domain");
+        for _ in 0..random.below(6) {
+            // Maps that bring lights out of the domain are refused.
+            let _ = bvh.add_instance(mesh, transform(random));
+        }
+    }
+    bvh.refit();
+    (bvh, sizes)
+}
+
+/// A point near what is in the scene, in a volume one time in four.
+pub fn point(random: &mut Random, sizes: &[f32]) -> ShadingPoint {
+    let size = sizes[random.below(sizes.len() as u32) as usize] * [0.0, 1.0, 30.0][random.below(3) as usize];
+    let n = match random.below(4) {
+        0 => [0.0; 3],
+        1 => {
+            // About along an axis.
+            let tiny =
+                [0; 2].map(|_| log_uniform(random, -99, -12) * [0.0, 1.0, -1.0][random.below(3) as usize]);
+            [tiny[0], 1.0, tiny[1]]
+        }
+        _ => random.direction(),
+    };
+    let p = vector(random, size.min(exact::pow2(39)));
+    ShadingPoint { p, n }.checked().expect("a point in the domain")
+}
