@@ -11,14 +11,16 @@ use lightbvh::importance::{
     RaySegment, SphericalGaussian, Subtended, Transmissive, TransmissivePoint,
 };
 use lightbvh::light::{AnyLight, Light, LinkedAny, LinkedTriangle};
+use lightbvh::moments::LightMoments;
 use lightbvh::node::{
     CompactNode, FullMomentNode, FullNode, LeanMomentNode, LinkedMomentNode, LinkedSpotMomentNode, Lit,
     MomentNode, Node, SpotMomentNode, TwoSidedMomentNode,
 };
 use lightbvh::point::Receiver;
 use lightbvh::refit::{self, LIMITED_ROWS, PLAIN_ROWS, assembled, bottom_child, top_child};
+use lightbvh::summary::Summary;
 use lightbvh::{Bvh, Defensive, Eq4, FluxOverDistance, GlossyPoint, Moments, Random64, ShadingPoint, exact};
-use lightbvh_tests::generate::Random;
+use lightbvh_tests::generate::{Random, log_uniform};
 
 /// Default of the control and status register: every exception masked, round to nearest.
 const IEEE: u32 = 0x1f80;
@@ -276,4 +278,38 @@ fn lights_with_masks() {
         };
         ask::<_, Linked<Leveled<Moments, 9>>, _, 8>(bvh, &receiver, &point, random, differing);
     });
+}
+
+/// Moments themselves, of sets nearer to each other and smaller than lights of the domain are.
+#[test]
+fn merges() {
+    let random = &mut Random::new(1);
+    let mut length = |random: &mut Random| match random.below(4) {
+        0 => 0.0,
+        1 => log_uniform(random, -120, -60),
+        _ => log_uniform(random, -110, -95),
+    };
+    for round in 0..20_000 {
+        let mut place = |random: &mut Random| [length(random), -length(random)][random.below(2) as usize];
+        let near = [0; 3].map(|_| place(random));
+        let sets = [0; 8].map(|_| {
+            let c = near.map(|x| match random.below(3) {
+                0 => x,
+                // A few units of the last place away.
+                1 if x != 0.0 => f32::from_bits(x.to_bits() ^ random.below(4)),
+                _ => place(random),
+            });
+            let direction = Vec3::from(random.direction());
+            LightMoments {
+                phi: random.below(4) as f32 * log_uniform(random, -30, 10),
+                c: Vec3::from(c),
+                across: length(random),
+                along: length(random),
+                m: direction * random.unit(),
+                h: Vec3::new(length(random), length(random), length(random)),
+            }
+        });
+        let [plain, flushed] = in_both(|| LightMoments::merge(&sets).to_words().map(f32::to_bits));
+        assert_eq!(plain, flushed, "round {round}: {sets:?}");
+    }
 }
