@@ -19,8 +19,8 @@ use crate::vector::{abs3, cross, dot, flush3, greatest_exponent, length_squared,
 /// Lengths below this in a mesh's space count as zero, metres: 2^-60. Entries of the maps are zero or at least 2^-60, so no
 /// product with them is subnormal.
 const TINY: f32 = pow2(-60);
-/// Products below this count as zero, metres: what a device flushes is below it.
-const LEAST_PRODUCT: f32 = pow2(-120);
+/// Products below this count as zero, as coordinates do, metres: no sum of such numbers is subnormal.
+const LEAST_PRODUCT: f32 = MIN_COORDINATE;
 const THIRD: f32 = 1.0 / 3.0;
 /// Greatest magnitude of a coordinate in a mesh's space, 2^60.
 const FAR: f32 = pow2(60);
@@ -158,10 +158,10 @@ impl Instance {
         vector(&self.translation)
     }
 
-    /// A v.
+    /// A v, of components zero or at least 2^-60. What its own are, zero or a normal number, a sum with a coordinate is too.
     #[inline(always)]
     fn forward(&self, v: Vec3) -> Vec3 {
-        (self.column(0) * v.x + self.column(1) * v.y) + self.column(2) * v.z
+        flush3(self.column(0) * v.x + self.column(1) * v.y, LEAST_PRODUCT) + self.column(2) * v.z
     }
 
     /// A⁻ᵀ v, of about the length of `v`.
@@ -272,8 +272,9 @@ impl Instance {
     /// A direction of the world in the space of the mesh, again of about unit length; zero where the map loses it.
     #[inline(always)]
     pub(crate) fn direction_to_local(&self, v: Vec3) -> Vec3 {
-        let back = (vector(&self.inverse[0]) * v.x + vector(&self.inverse[1]) * v.y)
-            + vector(&self.inverse[2]) * v.z;
+        let v = flushed(v);
+        let two = vector(&self.inverse[0]) * v.x + vector(&self.inverse[1]) * v.y;
+        let back = flush3(two, LEAST_PRODUCT) + vector(&self.inverse[2]) * v.z;
         let e = greatest_exponent(back, -100);
         let scaled = flushed(back * pow2(-e));
         scaled * exact::rsqrt(exact::max(length_squared(scaled), pow2(-60)))

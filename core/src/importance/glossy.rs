@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use glam::Vec3;
 
 use super::ImportanceModel;
-use super::sight::MIN_DISTANCE_SQUARED;
+use super::sight::{MIN_DISTANCE_SQUARED, offset};
 use crate::exact::{self, pow2, recip, rsqrt};
 use crate::node::Node;
 use crate::point::GlossyPoint;
@@ -68,7 +68,7 @@ const NEAREST: f32 = pow2(-20);
 /// The reflectance times π towards lights about `center` of the variance `spread`.
 #[inline(always)]
 fn reflectance(center: Vec3, spread: f32, receiver: &GlossyPoint) -> f32 {
-    let away = center - receiver.point.position();
+    let away = offset(center, &receiver.point);
     let d_squared = exact::max(length_squared(away), MIN_DISTANCE_SQUARED);
     let kappa = 0.25 * receiver.exponent;
     let widened = 1.0 + kappa * (0.5 * spread * recip(exact::max(d_squared, spread * NEAREST)));

@@ -14,8 +14,8 @@ use crate::vector::{dot, flush3, greatest_exponent, length_squared, max3};
 /// A constant of its own: rust-gpu does not fold an expression of literals.
 const THIRD: f32 = 1.0 / 3.0;
 
-/// Exponent of the least unit of deviations in the world, 2^-80 m; smaller ones count as zero.
-const LEAST_WORLD_EXPONENT: i32 = -80;
+/// Exponent of the least unit of deviations in the world, 2^-84 m: where map and mesh together are smaller they count as zero.
+const LEAST_WORLD_EXPONENT: i32 = -84;
 
 impl Instance {
     /// Bounds in the world of what has the bounds `local` in the space of the mesh: the box around the mapped box; the cone
@@ -107,7 +107,7 @@ impl Instance {
         } else {
             total * THIRD
         };
-        // The roots below are zero or at least 2^-43: deviations are zero or normal numbers.
+        // The roots below are zero or at least 2^-42: deviations are zero or normal numbers.
         let e = map_exponent + own_exponent;
         let unit = if e < LEAST_WORLD_EXPONENT { 0.0 } else { pow2(e) };
         let h = flushed(local.h);
@@ -118,7 +118,7 @@ impl Instance {
         );
         LightMoments {
             phi: self.flux_to_world(local.phi, area),
-            c: flush3(self.forward(flushed(local.c)) + self.origin(), MIN_COORDINATE),
+            c: self.forward(flushed(local.c)) + self.origin(),
             across: exact::sqrt((total - along_world) * 0.5) * unit,
             along: exact::sqrt(along_world) * unit,
             m: if has_axis {

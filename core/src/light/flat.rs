@@ -5,7 +5,7 @@ use glam::Vec3;
 
 use super::record::{Each, Light, checked_emission, checked_place, greatest, of_mesh_at_place, shining};
 use super::round::disc;
-use super::{INVALID, LightError, LightPoint, TWO_SIDED};
+use super::{INVALID, LightError, LightPoint, MIN_OFFSET, TWO_SIDED};
 use crate::bounds::LightBounds;
 use crate::cone::{Cone, normalized};
 use crate::emission::{Emission, flux_of, luminance_of};
@@ -193,7 +193,7 @@ impl Flat {
         let per_length = exact::div(1.0, exact::sqrt(own.emission.squared));
         let exponent = own.emission.exponent + own.e + own.e;
         let density = (per_length * shape.per_area) * pow2(-exponent);
-        let offset = flush3(self.axis(0) * x, pow2(-120)) + flush3(self.axis(1) * y, pow2(-120));
+        let offset = flush3(self.axis(0) * x, MIN_OFFSET) + flush3(self.axis(1) * y, MIN_OFFSET);
         let p = self.center() + offset;
         let n = own.emission.normal * per_length;
         LightPoint {

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::EmissiveTriangle;
+use super::{EmissiveTriangle, MIN_OFFSET};
 use crate::emission::flux;
 use crate::exact;
 use crate::point::ShadingPoint;
@@ -134,14 +134,14 @@ pub(super) const MAX_DENSITY: f32 = exact::pow2(120);
 
 /// A uniformly distributed point on the triangle at `p0` with edges `e1` and `e2`, from two numbers in [0, 1): a point of the
 /// parallelogram, folded over its diagonal (G. Turk, "Generating random points in triangles", Graphics Gems, 1990). No root,
-/// and both numbers stay stratified but for the fold.
+/// and both numbers stay stratified but for the fold. Parts of edges below 2^-103 m count as zero: no sum is subnormal.
 #[inline]
 #[must_use]
 pub fn uniform_point(p0: Vec3, e1: Vec3, e2: Vec3, u: f32, v: f32) -> Vec3 {
     let fold = u + v > 1.0;
     let a = if fold { 1.0 - u } else { u };
     let b = if fold { 1.0 - v } else { v };
-    (p0 + e1 * a) + e2 * b
+    (p0 + flush3(e1 * a, MIN_OFFSET)) + flush3(e2 * b, MIN_OFFSET)
 }
 
 #[cfg(test)]

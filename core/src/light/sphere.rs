@@ -140,11 +140,14 @@ impl Light for SphereLight {
         let sees = gap > pow2(-24);
         let gap = if sees { gap } else { 1.0 };
         let axis = d * exact::div(1.0, distance);
-        let below = uv[0] * gap;
+        let below = flush(uv[0] * gap, pow2(-60));
         let ring = exact::sqrt(below * (2.0 - below));
         let [cos, sin] = circle(uv[1]);
         let [s, t] = basis(axis);
-        let n = (s * (ring * cos) + t * (ring * sin)) + axis * (1.0 - below);
+        let n = flush3(
+            (s * (ring * cos) + t * (ring * sin)) + axis * (1.0 - below),
+            pow2(-60),
+        );
         let p = self.center() + n * self.radius;
         let own = significand(self.radius);
         let exponent = exponent(self.radius);

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::record::{Each, Light, checked_emission, checked_place, greatest, of_mesh_at_place, shining};
-use super::{INVALID, LightError, LightPoint};
+use super::{INVALID, LightError, LightPoint, MIN_OFFSET};
 use crate::bounds::LightBounds;
 use crate::cone::Cone;
 use crate::emission::{bounded_phi, luminance_of};
@@ -193,7 +193,7 @@ impl Light for BoxLight {
             e
         };
         let third = unit_f32(hash(uv[0].to_bits() ^ hash(uv[1].to_bits())));
-        let along = |k: usize, u: f32| flush3(self.axis(k) * (2.0 * u - 1.0), pow2(-120));
+        let along = |k: usize, u: f32| flush3(self.axis(k) * (2.0 * u - 1.0), MIN_OFFSET);
         let p = self.center() + ((along(0, uv[0]) + along(1, uv[1])) + along(2, third));
         LightPoint {
             p: [p.x, p.y, p.z],

@@ -32,7 +32,7 @@ pub(crate) mod row {
     pub const H: usize = 9;
 }
 
-/// Least exponent of a set's size: 2^-100 m, the least difference of coordinates.
+/// Least exponent of a set's size: 2^-100 m, the least coordinate that is not zero.
 pub(crate) const LEAST_EXPONENT: i32 = -100;
 /// Lengths that are computed count as zero below this, metres: 2^-120. A device would flush some of them.
 pub(crate) const LEAST_LENGTH: f32 = pow2(-120);

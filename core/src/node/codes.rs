@@ -114,11 +114,11 @@ pub(super) fn frame_of<const W: usize>(sets: &Lanes<W>) -> Frame {
     }
 }
 
-/// Exponent of the least unit of a frame: 2^-88 m. A centre's whole words of 2^-31 units and the least breadth, 2^-30, are normal numbers then,
-/// and a code of a centre, 2^-14 or 2^-15 units, is below the least difference of coordinates.
-const LEAST_UNIT_EXPONENT: i32 = -88;
-/// The least unit of a frame with lights in it.
-const LEAST_UNIT: f32 = pow2(LEAST_UNIT_EXPONENT + 1);
+/// Exponent of the least unit of a frame: 2^-87 m. A centre's whole words of 2^-31 units and the least breadth, 2^-30, are normal numbers then,
+/// and a code of a centre, 2^-14 or 2^-15 units, is below the least coordinate that is not zero.
+const LEAST_UNIT_EXPONENT: i32 = -87;
+/// The least unit.
+const LEAST_UNIT: f32 = pow2(LEAST_UNIT_EXPONENT);
 
 /// √2, and its half.
 pub(crate) const SQRT_2: f32 = core::f32::consts::SQRT_2;

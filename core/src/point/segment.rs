@@ -6,6 +6,7 @@ use glam::Vec3;
 use super::{PointError, Receiver, ShadingPoint};
 use crate::exact::{self, div, pow2};
 use crate::instance::Instance;
+use crate::light::MIN_OFFSET;
 use crate::vector::{abs3, flush3, greatest_exponent, length_squared, max3};
 
 /// A piece of a ray through a volume, from one point to another: light reaches it everywhere. What
@@ -76,7 +77,8 @@ impl RaySegment {
     #[inline]
     #[must_use]
     pub fn at(&self, part: f32) -> [f32; 3] {
-        let p = vector(self.from) * (1.0 - part) + vector(self.to) * part;
+        let from = flush3(vector(self.from) * (1.0 - part), MIN_OFFSET);
+        let p = from + flush3(vector(self.to) * part, MIN_OFFSET);
         [p.x, p.y, p.z]
     }
 
@@ -92,7 +94,7 @@ impl RaySegment {
     pub fn sample(&self, center: Vec3, u: f32) -> SegmentSample {
         let view = self.view(center);
         let mut piece = view.whole();
-        let mut u = exact::clamp(u, 0.0, 1.0);
+        let mut u = exact::flush(exact::clamp(u, 0.0, 1.0), LEAST_LENGTH);
         for _ in 0..HALVINGS {
             let (middle, distance) = view.bisected(&piece);
             let is_after = u >= 0.5;

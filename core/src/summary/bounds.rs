@@ -4,9 +4,10 @@ use glam::Vec3;
 
 use super::{Lanes, SUMMARY_WORDS, Summary};
 use crate::bounds::LightBounds;
+use crate::exact::pow2;
 use crate::instance::Instance;
 use crate::light::{Light, LightSlots};
-use crate::vector::length_squared;
+use crate::vector::{flush3, length_squared};
 
 /// A constant of its own: rust-gpu does not fold an expression of literals.
 const TWELFTH: f32 = 1.0 / 12.0;
@@ -69,10 +70,10 @@ impl Summary for LightBounds {
         (self.min + self.max) * 0.5
     }
 
-    /// That of points spread evenly over the box.
+    /// That of points spread evenly over the box, of extents below 2^-60 m none.
     #[inline(always)]
     fn spread(&self) -> f32 {
-        let extent = self.max - self.min;
+        let extent = flush3(self.max - self.min, pow2(-60));
         length_squared(extent) * TWELFTH
     }
 

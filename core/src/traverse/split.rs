@@ -4,14 +4,17 @@ use super::choose::{FULL, Share};
 use super::random::Random64;
 use super::sample::{SampledLight, light_of};
 use super::walk::Walk;
-use crate::exact;
+use crate::exact::{self, pow2};
 use crate::importance::ImportanceModel;
 use crate::node::Node;
 use crate::point::ShadingPoint;
 use crate::summary::Summary;
 use crate::trail::Path;
 use crate::tree::{INVALID, LightTree};
-use crate::vector::length_squared;
+use crate::vector::{flush3, length_squared};
+
+/// Parts of the weight, gains and variances count as zero below this: 2^-120.
+const LEAST_GAIN: f32 = pow2(-120);
 
 /// A subtree that gets a light of its own.
 #[derive(Clone, Copy)]
@@ -55,7 +58,7 @@ pub(super) fn sample_split<N: Node<W>, I: ImportanceModel<N, W>, const W: usize,
         let mut place = k;
         for slot in 0..W {
             if weights[slot] > 0.0 {
-                let part = parent.part * exact::div(weights[slot], sum);
+                let part = exact::flush(parent.part * exact::div(weights[slot], sum), LEAST_GAIN);
                 let mut walk = parent.walk;
                 // All numbers lead to each child.
                 let share = Share {
@@ -68,7 +71,11 @@ pub(super) fn sample_split<N: Node<W>, I: ImportanceModel<N, W>, const W: usize,
                 subtrees[place] = Subtree {
                     walk,
                     part,
-                    gain: if walk.done { 0.0 } else { part * spread },
+                    gain: if walk.done {
+                        0.0
+                    } else {
+                        exact::flush(part * spread, LEAST_GAIN)
+                    },
                 };
                 place = count;
                 count += 1;
@@ -113,8 +120,9 @@ fn greatest(subtrees: &[Subtree]) -> Option<usize> {
 /// Variance of the lights' positions against their squared distance, 0 to 1: how much a weight that is a mean may be off.
 #[inline(always)]
 fn relative_spread<S: Summary>(summary: &S, point: &ShadingPoint) -> f32 {
-    let away = summary.center() - point.position();
-    let spread = summary.spread();
+    // No square is subnormal.
+    let away = flush3(summary.center() - point.position(), pow2(-62));
+    let spread = exact::flush(summary.spread(), LEAST_GAIN);
     let squared = length_squared(away) + spread;
     if squared > 0.0 { spread / squared } else { 1.0 }
 }

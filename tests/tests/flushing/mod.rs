@@ -95,10 +95,13 @@ where
         );
     }
     if let Some(light) = bvh.triangle(sample.light, sample.instance) {
-        let on = light.point_for(at.position(), [third, fourth].map(exact::unit_f32));
         all.extend(words(&[light]));
-        all.extend(words(&[on]));
-        all.extend(on.irradiance(at).map(f32::to_bits));
+        let (u, v) = (exact::unit_f32(third), exact::unit_f32(fourth));
+        for uv in [[u, v], [u, u], [1.0 - u, u], [f32::MIN_POSITIVE, v]] {
+            let on = light.point_for(at.position(), uv);
+            all.extend(words(&[on]));
+            all.extend(on.irradiance(at).map(f32::to_bits));
+        }
     }
     all
 }
@@ -182,6 +185,23 @@ macro_rules! points {
     };
 }
 
+/// A receiver at `point` that mirrors somewhere.
+fn glossy(random: &mut Random, point: ShadingPoint) -> GlossyPoint {
+    let receiver = GlossyPoint {
+        point,
+        mirror: scenes::normal(random),
+        diffuse: 0.5,
+        specular: 0.3,
+        exponent: exact::pow2(random.below(17) as i32),
+    };
+    receiver.checked().expect("a receiver in the domain")
+}
+
+/// A number that depends on the point alone.
+fn random_of(point: &ShadingPoint) -> Random64 {
+    Random64::from(point.p[0].to_bits() ^ point.n[0].to_bits())
+}
+
 #[test]
 fn triangles_by_moments() {
     check::<MomentNode<8>, 8, PLAIN_ROWS>(|bvh, random, sizes, differing| {
@@ -194,14 +214,12 @@ fn triangles_by_moments() {
             Flux
         )(bvh, random, sizes, differing);
         let point = scenes::point(random, sizes);
-        let receiver = GlossyPoint {
-            point,
-            mirror: random.direction(),
-            diffuse: 0.5,
-            specular: 0.3,
-            exponent: exact::pow2(random.below(17) as i32),
-        };
-        ask::<_, Glossy<Moments>, _, 8>(bvh, &receiver, &point, random, differing);
+        ask::<_, Glossy<Moments>, _, 8>(bvh, &glossy(random, point), &point, random, differing);
+        let split = in_both(|| {
+            let (lights, count) = bvh.by::<Moments>().sample_split::<12>(&point, random_of(&point));
+            words(&lights[..count])
+        });
+        note(differing, &format!("several lights for {point:?}"), &split);
         let receiver = TransmissivePoint {
             point,
             front: 0.5,
@@ -212,7 +230,19 @@ fn triangles_by_moments() {
         let receiver = RaySegment { from: point.p, to };
         ask::<_, Defensive<Subtended<Moments>, 6>, _, 8>(bvh, &receiver, &point, random, differing);
         let (u, on) = (random.unit(), scenes::point(random, sizes).p);
-        let both = in_both(|| words(&[receiver.sample(Vec3::from(on), u)]));
+        let both = in_both(|| {
+            [0.0, u, exact::pow2(-24), f32::MIN_POSITIVE]
+                .into_iter()
+                .flat_map(|u| {
+                    let sample = receiver.sample(Vec3::from(on), u);
+                    [
+                        words(&[sample]),
+                        receiver.at(sample.part).map(f32::to_bits).to_vec(),
+                    ]
+                    .concat()
+                })
+                .collect()
+        });
         note(
             differing,
             &format!("a distance for {receiver:?} and {on:?}"),
@@ -240,8 +270,13 @@ fn triangles_by_bounds() {
             to: to.p,
         };
         ask::<_, Subtended<Eq4>, _, 4>(bvh, &receiver, &from, random, differing);
+        ask::<_, Glossy<Eq4>, _, 4>(bvh, &glossy(random, from), &from, random, differing);
     });
-    check::<FullNode<4>, 4, PLAIN_ROWS>(points!(FullNode<4>, 4, Eq4, Cycles, Pbrt, Falcor));
+    check::<FullNode<4>, 4, PLAIN_ROWS>(|bvh, random, sizes, differing| {
+        points!(FullNode<4>, 4, Eq4, Cycles, Pbrt, Falcor)(bvh, random, sizes, differing);
+        let point = scenes::point(random, sizes);
+        ask::<_, Glossy<Eq4>, _, 4>(bvh, &glossy(random, point), &point, random, differing);
+    });
 }
 
 #[test]

@@ -14,10 +14,12 @@ pub trait Any: Sized {
     fn any(random: &mut Random, p: [f32; 3], size: f32) -> Self;
 }
 
-/// About one length in four is none.
+/// Some lengths are none, or the same but for some units in the last place.
 fn vector(random: &mut Random, size: f32) -> [f32; 3] {
-    [0; 3].map(|_| match random.below(4) {
+    [0; 3].map(|_| match random.below(6) {
         0 => 0.0,
+        1 => size * (1.0 + f32::EPSILON * random.below(3) as f32),
+        2 => -size,
         _ => random.between(-size, size),
     })
 }
@@ -155,7 +157,15 @@ fn size(random: &mut Random) -> f32 {
     }
 }
 
-/// Any map; one in three is even, of any scale.
+/// A map whose sums cancel: of two columns to one unit in the last place.
+fn cancelling(random: &mut Random) -> [[f32; 3]; 3] {
+    let c = log_uniform(random, -50, 4);
+    let almost = -c * (1.0 + f32::EPSILON * random.below(3) as f32);
+    let third = [0.0, c, c * exact::pow2(-40)][random.below(3) as usize];
+    [[c, c, 0.0], [almost, c, 0.0], [0.0, almost, third]]
+}
+
+/// Any map, of any scale.
 fn transform(random: &mut Random) -> Transform {
     let reach = match random.below(3) {
         0 => 0.0,
@@ -164,9 +174,13 @@ fn transform(random: &mut Random) -> Transform {
     };
     let kind = placing::kind(random);
     let mut map = placing::transform(random, kind, reach);
-    if random.below(3) == 0 {
-        let scale = log_uniform(random, -60, 20);
-        map.columns = map.columns.map(|column| column.map(|x| x * scale));
+    match random.below(4) {
+        0 => {
+            let scale = log_uniform(random, -60, 20);
+            map.columns = map.columns.map(|column| column.map(|x| x * scale));
+        }
+        1 => map.columns = cancelling(random),
+        _ => {}
     }
     map
 }
@@ -198,19 +212,23 @@ where
     (bvh, sizes)
 }
 
-/// A point near what is in the scene, in a volume one time in four.
-pub fn point(random: &mut Random, sizes: &[f32]) -> ShadingPoint {
-    let size = sizes[random.below(sizes.len() as u32) as usize] * [0.0, 1.0, 30.0][random.below(3) as usize];
-    let n = match random.below(4) {
+/// A unit direction, or zero; one in four about along an axis.
+pub fn normal(random: &mut Random) -> [f32; 3] {
+    match random.below(4) {
         0 => [0.0; 3],
         1 => {
-            // About along an axis.
             let tiny =
                 [0; 2].map(|_| log_uniform(random, -99, -12) * [0.0, 1.0, -1.0][random.below(3) as usize]);
             [tiny[0], 1.0, tiny[1]]
         }
         _ => random.direction(),
-    };
+    }
+}
+
+/// A point near what is in the scene, in a volume one time in four.
+pub fn point(random: &mut Random, sizes: &[f32]) -> ShadingPoint {
+    let size = sizes[random.below(sizes.len() as u32) as usize] * [0.0, 1.0, 30.0][random.below(3) as usize];
+    let n = normal(random);
     let p = vector(random, size.min(exact::pow2(39)));
     ShadingPoint { p, n }.checked().expect("a point in the domain")
 }
