@@ -319,13 +319,13 @@ fn lights_with_masks() {
 #[test]
 fn merges() {
     let random = &mut Random::new(1);
-    let mut length = |random: &mut Random| match random.below(4) {
+    let length = |random: &mut Random| match random.below(4) {
         0 => 0.0,
         1 => log_uniform(random, -120, -60),
         _ => log_uniform(random, -110, -95),
     };
     for round in 0..20_000 {
-        let mut place = |random: &mut Random| [length(random), -length(random)][random.below(2) as usize];
+        let place = |random: &mut Random| [length(random), -length(random)][random.below(2) as usize];
         let near = [0; 3].map(|_| place(random));
         let sets = [0; 8].map(|_| {
             let c = near.map(|x| match random.below(3) {

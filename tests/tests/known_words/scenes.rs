@@ -125,5 +125,5 @@ fn scene<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(known: u64) 
 fn scenes() {
     scene::<CompactNode<4>, Eq4, 4>(0x8ee9_dff6_15c4_5c09);
     scene::<FullNode<2>, Eq4, 2>(0x8c42_b79f_740b_8848);
-    scene::<MomentNode<8>, Moments, 8>(0xbe55_9493_16f1_b76a);
+    scene::<MomentNode<8>, Moments, 8>(0xb090_15df_81ae_c286);
 }

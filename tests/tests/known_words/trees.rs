@@ -190,13 +190,13 @@ fn full_nodes() {
 #[test]
 fn moment_nodes() {
     bvh::<MomentNode<4>, Moments, 4>([
-        0x786d_9e0e_6e16_5e9e,
-        0xf3f3_6993_c445_a64e,
+        0x2d5f_3068_03ff_a277,
+        0x93b8_fb57_1eaa_ee13,
         0xf869_a053_4ab2_5673,
     ]);
     bvh::<MomentNode<8>, Defensive<Moments, 6>, 8>([
-        0x358c_041d_9f5d_d3d9,
-        0xe35c_e5a5_08f8_d451,
+        0x65aa_8589_4d00_4020,
+        0xd0d1_10d9_f94d_d864,
         0xe4a5_0810_372d_ee6c,
     ]);
 }
