@@ -12,7 +12,7 @@ use lightbvh_host::vulkan::Options;
 use lightbvh_kernels::kinds::{AnyNode, light_point_for};
 use lightbvh_kernels::query::{PointsPush, Query};
 use lightbvh_tests::devices::on_each_device;
-use lightbvh_tests::generate::Random;
+use lightbvh_tests::generate::{Random, across};
 use lightbvh_tests::placing::{self, Kind};
 
 type Scene = Bvh<AnyNode, DefaultImportance, 8>;
@@ -87,24 +87,18 @@ fn light(random: &mut Random, number: usize, reach: f32) -> AnyLight {
             flags,
         }
         .into(),
-        6 => {
-            // Any direction across the axis.
-            let [x, y, z] = axis;
-            let across = if x.abs() < 0.6 { [0.0, -z, y] } else { [-z, 0.0, x] };
-            let length = across.iter().map(|x| x * x).sum::<f32>().sqrt();
-            ProfileLight {
-                p,
-                intensity: shine,
-                axis,
-                across: across.map(|x| x / length),
-                cos_outer: -0.25,
-                whole: 0.7,
-                mean_cosine: 0.5,
-                mesh,
-                flags: flags * ProfileLight::MIRRORED,
-            }
-            .into()
+        6 => ProfileLight {
+            p,
+            intensity: shine,
+            axis,
+            across: across(axis),
+            cos_outer: -0.25,
+            whole: 0.7,
+            mean_cosine: 0.5,
+            mesh,
+            flags: flags * ProfileLight::MIRRORED,
         }
+        .into(),
         _ => BoxLight {
             p,
             half: [a, b, c],

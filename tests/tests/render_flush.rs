@@ -21,53 +21,37 @@ use lightbvh_tests::generate::Random;
 use lightbvh_tests::soup::{in_cube, soup};
 use proptest::prelude::*;
 
+use crate::flushing::in_both;
 use crate::flushing::scenes::Any;
-
-/// Default of the control and status register: every exception masked, round to nearest.
-const IEEE: u32 = 0x1f80;
-/// The same, subnormal results flushed to zero (bit 15) and subnormal operands read as zero (bit 6).
-const FLUSHING: u32 = 0x9fc0;
 
 /// Reflections of the paths.
 const BOUNCES: u32 = 4;
 
-/// All pixels by direct lighting and by paths, computed in one thread under the given mode.
-#[inline(never)]
-fn render_under<L: Emitter, P: PickLight>(
-    mode: u32,
+/// All pixels by direct lighting and by paths, computed in one thread in each of the two modes.
+fn rendered<L: Emitter, P: PickLight>(
     scene: &Scene<'_, L>,
     camera: &Camera,
     params: &RenderParams,
     picker: &P,
-) -> Vec<u32> {
-    // SAFETY: loads the register from a live u32; the mode before is restored before anything else of this thread runs.
-    unsafe { core::arch::asm!("ldmxcsr [{}]", in(reg) &mode) }
-    let words = (0..params.width * params.height)
-        .flat_map(|pixel| {
-            let pixel = std::hint::black_box(pixel);
-            let direct = render_pixel(scene, camera, params, picker, pixel);
-            let paths = path_pixel(scene, camera, params, BOUNCES, picker, pixel);
-            [direct, paths].into_iter().flatten().map(f32::to_bits)
-        })
-        .collect();
-    // SAFETY: as above.
-    unsafe { core::arch::asm!("ldmxcsr [{}]", in(reg) &IEEE) }
-    words
+) -> [Vec<u32>; 2] {
+    in_both(|| {
+        (0..params.width * params.height)
+            .flat_map(|pixel| {
+                let pixel = std::hint::black_box(pixel);
+                let direct = render_pixel(scene, camera, params, picker, pixel);
+                let paths = path_pixel(scene, camera, params, BOUNCES, picker, pixel);
+                [direct, paths].into_iter().flatten().map(f32::to_bits)
+            })
+            .collect()
+    })
 }
 
 #[test]
 fn the_flushing_mode_flushes() {
-    let tiny = std::hint::black_box(f32::MIN_POSITIVE);
-    // SAFETY: as above.
-    unsafe { core::arch::asm!("ldmxcsr [{}]", in(reg) &FLUSHING) }
-    let flushed = std::hint::black_box(tiny) * std::hint::black_box(0.5);
-    // SAFETY: as above.
-    unsafe { core::arch::asm!("ldmxcsr [{}]", in(reg) &IEEE) }
-    assert_eq!(flushed.to_bits(), 0);
-    assert_ne!(
-        (std::hint::black_box(tiny) * std::hint::black_box(0.5)).to_bits(),
-        0
-    );
+    let [plain, flushed] =
+        in_both(|| (std::hint::black_box(f32::MIN_POSITIVE) * std::hint::black_box(0.5)).to_bits());
+    assert_eq!(flushed, 0);
+    assert_ne!(plain, 0);
 }
 
 proptest! {
@@ -98,14 +82,10 @@ proptest! {
         let instances = listed(lights.len() as u32);
         let emitters = Emitters { triangles: &lights, instances: &instances };
         let scene = Scene { sky: NoSky, surfaces: bvh.surfaces(), materials: &[material], emitters };
-        let view = View {
-            eye: [0.0, 0.0, 2.0 * size], right: [1.0, 0.0, 0.0], up: [0.0, 1.0, 0.0], forward: [0.0, 0.0, -1.0], yfov: 1.0,
-        };
-        let params = RenderParams { width: 16, height: 16, samples: 4, first: seed % 3, all: seed / 3 % 9, candidates: 1 + 3 * (seed % 2), scattered: seed / 2 % 3, part: seed % 5, parts: seed % 7, seed, jitter: seed, background: [0.0, exact::pow2(bright), 0.3] };
-        let camera = camera(&view, 16, 16);
+        let (camera, mut params) = looking(&mut random, size);
+        params.background[1] = exact::pow2(bright);
         let picker = Power { thresholds: &thresholds };
-        let plain = render_under(IEEE, &scene, &camera, &params, &picker);
-        let flushed = render_under(FLUSHING, &scene, &camera, &params, &picker);
+        let [plain, flushed] = rendered(&scene, &camera, &params, &picker);
         prop_assert!(plain.iter().all(|&word| f32::from_bits(word).is_finite()));
         prop_assert_eq!(plain, flushed);
     }
@@ -176,8 +156,7 @@ proptest! {
         let scene = Scene::new(nodes, blocks, &materials, &lights, &instances, sky, skin);
         let (camera, params) = looking(random, size);
         let picker = Uniform { count: lights.len() as u32 };
-        let plain = render_under(IEEE, &scene, &camera, &params, &picker);
-        let flushed = render_under(FLUSHING, &scene, &camera, &params, &picker);
+        let [plain, flushed] = rendered(&scene, &camera, &params, &picker);
         prop_assert!(plain.iter().all(|&word| f32::from_bits(word).is_finite()));
         prop_assert_eq!(plain, flushed);
     }

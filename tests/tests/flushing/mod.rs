@@ -14,7 +14,7 @@ use lightbvh::light::{AnyLight, Light, LinkedAny, LinkedTriangle};
 use lightbvh::moments::LightMoments;
 use lightbvh::node::{
     CompactNode, FullMomentNode, FullNode, LeanMomentNode, LinkedMomentNode, LinkedSpotMomentNode, Lit,
-    MomentNode, Node, SpotMomentNode, TwoSidedMomentNode,
+    MomentLayout, MomentNode, Node, SpotMomentNode, TwoSidedMomentNode,
 };
 use lightbvh::point::Receiver;
 use lightbvh::refit::{self, LIMITED_ROWS, PLAIN_ROWS, assembled, bottom_child, top_child};
@@ -30,7 +30,7 @@ const FLUSHING: u32 = 0x9fc0;
 const SCENES: u32 = 2000;
 
 /// What `compute` returns in each of the two modes.
-fn in_both<T>(compute: impl Fn() -> T) -> [T; 2] {
+pub fn in_both<T>(compute: impl Fn() -> T) -> [T; 2] {
     [IEEE, FLUSHING].map(|mode| {
         // SAFETY: loads the register from a live u32; the mode before is back before anything else of this thread runs.
         unsafe { core::arch::asm!("ldmxcsr [{}]", in(reg) &mode) }
@@ -293,26 +293,22 @@ fn lights_of_every_kind() {
     check::<Bounds, 4, PLAIN_ROWS>(points!(Bounds, 4, Eq4));
 }
 
+/// A query of a tree with masks.
+fn ask_masked<N: MomentLayout<8>>(
+    bvh: &Bvh<N, (), 8>,
+    random: &mut Random,
+    sizes: &[f32],
+    differing: &mut Differing,
+) {
+    let point = scenes::point(random, sizes);
+    let mask = 1 + random.below(15);
+    ask::<_, Linked<Leveled<Moments, 9>>, _, 8>(bvh, &LinkedPoint { point, mask }, &point, random, differing);
+}
+
 #[test]
 fn lights_with_masks() {
-    type Masks = Lit<LinkedMomentNode<8>, LinkedTriangle>;
-    check::<Masks, 8, LIMITED_ROWS>(|bvh, random, sizes, differing| {
-        let point = scenes::point(random, sizes);
-        let receiver = LinkedPoint {
-            point,
-            mask: 1 + random.below(15),
-        };
-        ask::<_, Linked<Leveled<Moments, 9>>, _, 8>(bvh, &receiver, &point, random, differing);
-    });
-    type Both = Lit<LinkedSpotMomentNode<8>, LinkedAny>;
-    check::<Both, 8, LIMITED_ROWS>(|bvh, random, sizes, differing| {
-        let point = scenes::point(random, sizes);
-        let receiver = LinkedPoint {
-            point,
-            mask: 1 + random.below(15),
-        };
-        ask::<_, Linked<Leveled<Moments, 9>>, _, 8>(bvh, &receiver, &point, random, differing);
-    });
+    check::<Lit<LinkedMomentNode<8>, LinkedTriangle>, 8, LIMITED_ROWS>(ask_masked);
+    check::<Lit<LinkedSpotMomentNode<8>, LinkedAny>, 8, LIMITED_ROWS>(ask_masked);
 }
 
 /// Moments themselves, of sets nearer to each other and smaller than lights of the domain are.

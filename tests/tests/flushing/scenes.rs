@@ -6,7 +6,7 @@ use lightbvh::light::{
 };
 use lightbvh::node::Node;
 use lightbvh::{Bvh, EmissiveTriangle, ShadingPoint, Transform, exact};
-use lightbvh_tests::generate::{Random, extreme_triangle, log_uniform};
+use lightbvh_tests::generate::{Random, across, extreme_triangle, log_uniform};
 use lightbvh_tests::placing;
 
 /// A light of the kind about `p`, of lengths of about `size` metres.
@@ -101,23 +101,18 @@ impl Any for AnyLight {
                 flags,
             }
             .into(),
-            6 => {
-                let [x, y, z] = axis;
-                let across = if x.abs() < 0.6 { [0.0, -z, y] } else { [-z, 0.0, x] };
-                let length = across.iter().map(|x| x * x).sum::<f32>().sqrt();
-                ProfileLight {
-                    p,
-                    intensity: shine,
-                    axis,
-                    across: across.map(|x| x / length),
-                    cos_outer,
-                    whole: exact::pow2(-(random.below(40) as i32)),
-                    mean_cosine: random.between(cos_outer, 1.0),
-                    mesh,
-                    flags: random.below(2) * ProfileLight::MIRRORED,
-                }
-                .into()
+            6 => ProfileLight {
+                p,
+                intensity: shine,
+                axis,
+                across: across(axis),
+                cos_outer,
+                whole: exact::pow2(-(random.below(40) as i32)),
+                mean_cosine: random.between(cos_outer, 1.0),
+                mesh,
+                flags: random.below(2) * ProfileLight::MIRRORED,
             }
+            .into(),
             _ => BoxLight {
                 p,
                 half,
