@@ -38,7 +38,8 @@ pub struct ShadingPoint {
 }
 
 impl ShadingPoint {
-    /// Brings the point into the domain of this crate, or says why it cannot be. Sampling and pmf do not check again.
+    /// Brings the point into the domain of this crate, or says why it cannot be. Sampling and pmf do not check again, but for an assertion in
+    /// debug builds.
     ///
     /// Components smaller than [`MIN_COORDINATE`] become zero (with the sign of zero dropped); nothing else changes.
     ///
@@ -147,10 +148,13 @@ impl core::fmt::Display for PointError {
         match *self {
             Self::Coordinate { axis, value } => write!(
                 f,
-                "coordinate {} of a shading point is {}, expected a finite number of magnitude at most 2^40 (1.1e12); \
-                 bring the scene nearer to its origin",
+                "coordinate {} of a shading point is {}, expected a finite number of magnitude at most 2^40 (1.1e12); {}",
                 ['x', 'y', 'z'][axis],
-                Number(value)
+                Number(value),
+                match value.is_finite() {
+                    true => "bring the scene nearer to its origin",
+                    false => "leave the point out, for it is nowhere",
+                }
             ),
             Self::Normal { n: [x, y, z] } => write!(
                 f,

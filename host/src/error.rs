@@ -66,7 +66,7 @@ pub enum HostError {
     Rebuild(#[from] RebuildError),
     /// A result that cannot be kept.
     #[error(
-        "cannot write {path}: {source}; free space or choose another folder with --out, then run the command again"
+        "cannot write {path}: {source}; choose another folder with --out, or free space, then run the command again"
     )]
     Store {
         /// The file.

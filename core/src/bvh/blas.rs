@@ -108,7 +108,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             powers: Powers::of(triangles),
             ..Blas::none::<N::Light>(mesh)
         };
-        put(&mut self.blases, index, empty.clone(), &empty);
+        // Places before it that a stage keeps hold nothing yet.
+        put(&mut self.blases, index, empty, &Blas::none::<N::Light>(INVALID));
         put(
             &mut self.roots,
             index,

@@ -242,12 +242,19 @@ impl fmt::Display for EditReason {
             Self::Transform(error) => write!(f, "{error}"),
             Self::Radiance { value } => write!(
                 f,
-                "factor on radiance {}, expected 0 or a number from 2^-60 to 2^60 (8.7e-19 to 1.2e18); put the rest into the mesh",
-                Number(*value)
+                "factor on radiance {}, expected 0 or a number from 2^-60 to 2^60 (8.7e-19 to 1.2e18){}",
+                Number(*value),
+                // A greater or smaller one is told in two; no factor makes light negative.
+                if *value > 0.0 {
+                    "; put the rest into the mesh"
+                } else {
+                    "; nothing shines less than 0"
+                }
             ),
             Self::Count { expected, found } => write!(
                 f,
-                "{found} lights for a mesh of {expected}; add a mesh of its own instead"
+                "{found} light{} for a mesh of {expected}; add a mesh of its own instead",
+                if *found == 1 { "" } else { "s" }
             ),
             Self::Range {
                 first,
@@ -260,7 +267,11 @@ impl fmt::Display for EditReason {
             ),
             Self::InUse { instances } => {
                 let s = if *instances == 1 { "" } else { "s" };
-                write!(f, "the mesh still has {instances} instance{s}; remove them first")
+                let those = if *instances == 1 { "it" } else { "them" };
+                write!(
+                    f,
+                    "the mesh still has {instances} instance{s}; remove {those} first"
+                )
             }
             Self::TooMany => write!(
                 f,

@@ -152,7 +152,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// [`triangles`](Self::triangles) and [`instances`](Self::instances) are kept for [`world_light`](crate::refit::world_light).
     ///
     /// No new light gets such a number before it is taken. The exception keeps numbers from running out where they never are: once more
-    /// than 65,536 numbers wait, and more than there are lights, all of them are free, and the first range is that of every number there was.
+    /// than 65,536 numbers wait, and more than there are lights or than half of what is left of 2^30, all of them are free, and the first range is that of every number there was.
     /// The edit at which that happens takes time in proportion to all that waited.
     #[must_use]
     pub fn removed_lights(&self) -> &[Range<u32>] {

@@ -412,7 +412,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let part = Blas::none::<N::Light>(mesh);
         let nothing = BlasRoot::new(INVALID, &N::Summary::EMPTY);
         for (index, slot) in parts.zip(0..) {
-            put(&mut self.blases, index, part.clone(), &part);
+            put(
+                &mut self.blases,
+                index,
+                part.clone(),
+                &Blas::none::<N::Light>(INVALID),
+            );
             put(&mut self.roots, index, nothing, &nothing);
             self.roots[index as usize] = refit::root(&self.nodes, root.link(slot));
         }

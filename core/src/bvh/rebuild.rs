@@ -17,7 +17,7 @@ use crate::node::{Holds, Node};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RebuildParams {
     /// The top level is once it is worse than when it was built by this factor, as below: 1 for whenever something has changed, infinite
-    /// for never. Of a top level of more than 1024 instances a [`Rebuilder`](crate::Rebuilder) builds parts that are worse by as much,
+    /// for never. Of one of 513 to 1024 instances a [`Rebuilder`](crate::Rebuilder) asks for its root alone as well, which counts twice. Of a top level of more than 1024 instances a [`Rebuilder`](crate::Rebuilder) builds parts that are worse by as much,
     /// and the nodes above them where those lost a twentieth at least. At the default of 1.1 trees were better than at 1, for two thirds to three quarters of
     /// the time where lamps mix and about the same where clusters of them change places (`docs/dynamics.md`, "When it pays").
     ///

@@ -16,7 +16,8 @@ pub struct LightPoint {
     /// The point, metres.
     pub p: [f32; 3],
     /// Density over the light's area, 1/m², at most 2^120; 0 where it has none. Of a triangle, a rectangle and a disc the inverse of their
-    /// area, of a sphere that of the part a receiver may see; [`IS_POINT`](Self::IS_POINT) and [`IS_VOLUME`](Self::IS_VOLUME) say what else it is.
+    /// area, of a sphere that of the part a receiver may see, the same for all its points (where a ray met the light, that of any
+    /// [`point_for`](super::Light::point_for) the receiver is the density); [`IS_POINT`](Self::IS_POINT) and [`IS_VOLUME`](Self::IS_VOLUME) say what else it is.
     ///
     /// For a light chosen with probability `pmf`, seen at distance `d` under the cosine `c` of its normal, the density over solid
     /// angle is `pmf · density · d² / c` (pbrt-v4, section 6.5.4).

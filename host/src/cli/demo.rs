@@ -10,7 +10,7 @@ use serde_json::json;
 
 use super::range::{self, MAX_SIDE, given};
 use super::verify::tally::{Kind, Tally};
-use super::{Context, Outcome, devices, table, times};
+use super::{Context, Outcome, devices, table, target, times};
 use crate::backend::{
     Backend, Bvh, CpuBackend, DeviceBackend, Integrator, SAMPLED_RECORD, Sampler, SceneArrays,
 };
@@ -78,10 +78,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         given("--width", width, 1..=MAX_SIDE),
         given("--height", height, 1..=MAX_SIDE),
     ])?;
-    std::fs::create_dir_all(&args.out).map_err(|source| HostError::Folder {
-        path: args.out.clone(),
-        source,
-    })?;
+    target::folder(&args.out)?;
     let opened = devices::open(context)?;
     let scene = Scene::open(SCENE)?;
     let lights = lights_at(&scene, 0)?;

@@ -59,7 +59,9 @@ enum Command {
     Verify(verify::Args),
     /// Time build, refit, sample and pmf, and measure what accuracy costs.
     Bench(bench::Args),
-    /// Compute the variance of one light sample exactly, scene by scene.
+    /// Compute the variance of one light sample exactly, scene by scene. Columns `of 8` and `of 32` are the squared error of the mean of so many
+    /// candidates by one number, `split 8` and `split 32` that of adaptive splitting, over the square of what there is; `nothing` is the share
+    /// of samples that contribute nothing. Means are those of a few points where variance is great: compare them by thousands of points.
     Variance(variance::Args),
     /// Measure speed against accuracy for each choice: structure, importance, width, builder, candidates.
     Trade(trade::Args),
@@ -78,11 +80,21 @@ enum Command {
     Soak(soak::Args),
     /// List the Vulkan devices and whether their arithmetic is exact.
     Info,
-    /// Check every invariant of the light BVHs of a scene, over its lights as they stand in the world: bytes are of a tree for each
-    /// instance, where `inspect` and `trade` share those of meshes.
+    /// Check every invariant of the light BVHs of a scene, over its lights as they stand in the world. No instances share a mesh there, so a
+    /// light takes more bytes than in the tables of `inspect` and `trade`.
     Validate(validate::Args),
     /// Write a scene as a .glb file.
     Export(export::Args),
+}
+
+impl Command {
+    /// Whether it ever runs a device.
+    fn runs_devices(&self) -> bool {
+        !matches!(
+            self,
+            Self::Variance(_) | Self::Inspect(_) | Self::Numbers(_) | Self::Validate(_) | Self::Export(_)
+        )
+    }
 }
 
 /// What all commands share.
@@ -118,6 +130,19 @@ pub fn main() -> ExitCode {
             return ExitCode::from(u8::try_from(code).unwrap_or(2));
         }
     };
+    let named = [
+        ("--device", args.device.is_some()),
+        ("--validation", args.validation),
+    ];
+    if let Some((option, _)) = named
+        .iter()
+        .find(|(_, is_given)| *is_given && !args.command.runs_devices())
+    {
+        news!(
+            "lightbvh: {option} is for commands that run devices, and this one runs on the CPU alone; leave it out"
+        );
+        return ExitCode::from(2);
+    }
     let context = Context {
         json: args.json,
         device: args.device,

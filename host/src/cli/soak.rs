@@ -30,7 +30,7 @@ const AFTER: u32 = 3;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// Number of frames, 100 to 10^8.
+    /// Number of frames, 100 to 10^8. That memory is flat is judged from 8,000 on.
     #[arg(long, default_value_t = 100_000)]
     frames: u32,
     /// Chooses all edits.

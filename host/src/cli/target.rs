@@ -4,6 +4,7 @@ use std::fs;
 use std::io::{Error, ErrorKind, Result};
 use std::path::Path;
 
+use crate::error::HostError;
 use crate::render::FilmError;
 
 /// Whether a path ends so, in letters of either case.
@@ -12,7 +13,27 @@ pub(super) fn ends_in(path: &Path, endings: &[&str]) -> bool {
     path.extension().is_some_and(is_own)
 }
 
-/// Whether a file can stand there: its folder is one, and it is none itself.
+/// Makes a folder for output where it is not there, and writes to it.
+///
+/// # Errors
+/// [`HostError::Folder`] or [`HostError::Store`].
+pub(super) fn folder(path: &Path) -> std::result::Result<(), HostError> {
+    let made = match path.is_file() {
+        true => Err(Error::new(ErrorKind::AlreadyExists, "it is a file")),
+        false => fs::create_dir_all(path),
+    };
+    let path = || path.to_owned();
+    made.map_err(|source| HostError::Folder { path: path(), source })?;
+    writable(&path()).map_err(|source| HostError::Store { path: path(), source })
+}
+
+/// Whether files can be written to a folder: only writing tells.
+fn writable(folder: &Path) -> Result<()> {
+    let trial = folder.join(format!(".lightbvh.{}.tmp", std::process::id()));
+    fs::write(&trial, b"").and_then(|()| fs::remove_file(&trial))
+}
+
+/// Whether a file can stand there: its folder is one, and can be written to, and it is none itself.
 ///
 /// # Errors
 /// What is in the way.
@@ -23,7 +44,12 @@ pub(super) fn check(path: &Path) -> Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
     match fs::metadata(folder) {
-        Ok(found) if found.is_dir() => Ok(()),
+        Ok(found) if found.is_dir() => writable(folder).map_err(|error| {
+            Error::new(
+                error.kind(),
+                format!("nothing can be written to its folder: {error}"),
+            )
+        }),
         Ok(_) => Err(Error::new(
             ErrorKind::NotADirectory,
             "what its folder should be is a file",
@@ -48,6 +74,10 @@ pub(super) fn picture(path: &Path) -> std::result::Result<(), FilmError> {
 mod tests {
     use super::*;
 
+    fn folder_is(path: &Path) -> bool {
+        super::folder(path).is_ok() && path.is_dir()
+    }
+
     #[test]
     fn names_that_cannot_be_written_are_told() {
         let folder = std::env::temp_dir().join(format!("lightbvh-target-{}", std::process::id()));
@@ -57,6 +87,7 @@ mod tests {
         assert_eq!(said("b.png"), Ok(()));
         assert_eq!(said("file"), Ok(()), "is written over");
         assert_eq!(said("a.png"), Err(String::from("it is a folder")));
+        assert!(folder_is(&folder.join("new")) && folder_is(&folder) && !folder_is(&folder.join("file")));
         assert!(said("file/b.png").is_err() && said("none/b.png").is_err());
         assert!(check(Path::new("b.png")).is_ok());
         fs::remove_dir_all(&folder).expect("the folder");

@@ -9,6 +9,7 @@
 use alloc::vec::Vec;
 
 use super::rebuild::{PART, PAYS, TopCopy};
+use super::settle::MOST;
 use crate::bvh::{Bvh, Taken, Trails};
 use crate::node::{Node, kind};
 use crate::tree::INVALID;
@@ -108,7 +109,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let root = self.top.number(self.top.root) as usize;
         if self.top.counts[root] <= PART {
             search.left = 0;
-            let is_worn = has_changed && self.quality(self.top.root).drift() >= worse;
+            let is_worn = has_changed && self.is_worn_whole(worse);
             if is_worn {
                 return alloc::vec![self.copy_whole_part()];
             }
@@ -200,6 +201,16 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         (is_worn || self.is_untried(node, asked)).then_some(Worn::Part(node, is_worn))
     }
 
+    /// Whether a top level of one part has lost its shape: all its nodes together, or its root alone, where that has more instances below
+    /// than edits build anew. Edits keep the nodes below as they were built, and in the mean over all levels what the root lost is little.
+    /// It counts twice (measured: `tests::motion`).
+    fn is_worn_whole(&self, worse: f64) -> bool {
+        let quality = self.quality(self.top.root);
+        let is_beyond_edits = self.top.counts[self.top.number(self.top.root) as usize] > MOST;
+        quality.drift() >= worse
+            || (is_beyond_edits && is_worn_by(2.0 * f64::from(quality.own()), worse, LEAST))
+    }
+
     /// Of the highest nodes that have more than [`PART`] instances below, the one that has most to gain: of which most instances are
     /// told apart least well. What lost less than `least` is not worn.
     fn worn_above(&self, asked: Asked, least: f64) -> Option<u32> {
@@ -228,7 +239,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     fn urgency(&self, node: u32, asked: Asked, least: f64) -> f64 {
         let number = self.top.number(node) as usize;
         let own = f64::from(self.quality(node).own());
-        let is_worn = own >= least.max(1.0 - 1.0 / asked.worse.max(1.0));
+        let is_worn = is_worn_by(own, asked.worse, least);
         let untried = if least <= LEAST && self.is_untried(node, asked) {
             LEAST
         } else {
@@ -262,6 +273,11 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         let share = if count <= PART { 8 } else { 2 };
         stirred > 0 && u64::from(stirred) * share >= u64::from(count)
     }
+}
+
+/// Whether a node that lost `own` is worse by itself by the factor `worse`, and lost at least `least`.
+fn is_worn_by(own: f64, worse: f64, least: f64) -> bool {
+    own >= least && 1.0 / (1.0 - own).max(1e-6) >= worse
 }
 
 #[cfg(test)]

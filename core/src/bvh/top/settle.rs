@@ -1,9 +1,9 @@
 //! Subtrees that edits have touched, built anew.
 //!
-//! An insertion looks at one node of each level, so trees get worse by and by. After an edit the nodes above it are looked at from
-//! the lowest up: one of `n` instances, at most [`MOST`], is built anew after `n / OFTEN` edits below it. So an edit costs
+//! An insertion looks at one node of each level, so trees get worse by and by. After an edit the nodes above it are looked at: the highest
+//! of those that have `n` instances, at most [`MOST`], and `n / OFTEN` edits below them, is built anew. So an edit costs
 //! [`OFTEN`] instances' share of a build on each of the levels below [`MOST`], on average, and one build of [`MOST`] at most, whatever the
-//! number of instances is. The levels above keep their nodes: insertion alone keeps them as good as new (measured:
+//! number of instances is, a move one where it was and one where it is. The levels above keep their nodes: insertion alone keeps them as good as new (measured:
 //! `docs/dynamics.md`). Nodes over a few subtrees taken as they are, in place of instances, were worse than no building at all.
 
 use alloc::vec::Vec;
@@ -30,21 +30,32 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     pub(in crate::bvh) fn settle_some(&mut self, most: u64) {
         let mut left = most;
         for start in core::mem::take(&mut self.top.touched) {
-            let mut node = start;
-            // It may have gone since: then what took its place was built with it.
-            while self.top.number(node) != INVALID {
-                let number = self.top.number(node) as usize;
-                let count = self.top.counts[number];
-                if count > MOST || u64::from(count) > left {
-                    break;
-                }
-                if self.top.heights[number] > 1 && self.top.edits[number] >= count.div_ceil(OFTEN) {
-                    left -= u64::from(count);
-                    self.build_anew(node);
-                }
-                node = self.parents[node as usize];
+            if let Some((node, count)) = self.highest_due(start, left) {
+                left -= u64::from(count);
+                self.build_anew(node);
             }
         }
+    }
+
+    /// The highest node from `start` up that is to be built anew, of at most `most` instances, and how many it has: those below it are
+    /// built with it, once. None where `start` has gone, for what took its place was built with it.
+    fn highest_due(&self, start: u32, most: u64) -> Option<(u32, u32)> {
+        let (mut highest, mut built) = (None, 0);
+        let mut node = start;
+        while self.top.number(node) != INVALID {
+            let number = self.top.number(node) as usize;
+            let count = self.top.counts[number];
+            if count > MOST || u64::from(count) > most {
+                break;
+            }
+            // What is built is one more edit for the nodes above.
+            if self.top.heights[number] > 1 && self.top.edits[number] + built >= count.div_ceil(OFTEN) {
+                highest = Some((node, count));
+                built += 1;
+            }
+            node = self.parents[node as usize];
+        }
+        highest
     }
 
     /// Builds the subtree below `node` anew, by what the nodes know of the instances.

@@ -10,7 +10,9 @@ use alloc::vec::Vec;
 
 use super::misplaced::{STIRS, SWAYS, distance};
 use crate::bvh::{Bvh, Trails};
-use crate::node::{Node, kind};
+use crate::node::Node;
+#[cfg(feature = "std")]
+use crate::node::kind;
 use crate::summary::Summary;
 use crate::tree::INVALID;
 

@@ -6,6 +6,8 @@ use serde::Serialize;
 const GROWTH: f64 = 1.2;
 /// The process has room besides the scene, bytes: lists that keep their capacity, and the allocator's own.
 const ROOM: f64 = 16e6;
+/// Frames in which rebuilds come in by each rule once.
+const ROUND: u32 = 4 * super::RULED;
 
 /// Sums of a quantity over the second and the last quarter.
 #[derive(Clone, Copy, Debug, Default)]
@@ -25,13 +27,14 @@ impl Quarters {
         self.counts[at] += 1;
     }
 
-    fn means(&self, room: f64) -> Means {
+    fn means(&self, room: f64, judged: bool) -> Means {
         let mean = |at: usize| self.sums[at] / f64::from(self.counts[at].max(1));
         let (second_quarter, last_quarter) = (mean(0), mean(1));
         Means {
             second_quarter,
             last_quarter,
             flat: last_quarter <= second_quarter * GROWTH + room,
+            judged,
         }
     }
 }
@@ -42,6 +45,23 @@ pub(super) struct Means {
     pub second_quarter: f64,
     pub last_quarter: f64,
     pub flat: bool,
+    /// Whether each quarter saw a round of all rules by which rebuilds come in: else they differ by those.
+    pub judged: bool,
+}
+
+impl Means {
+    /// Whether nothing speaks against it.
+    pub fn is_good(&self) -> bool {
+        self.flat || !self.judged
+    }
+
+    pub fn verdict(&self) -> &'static str {
+        match (self.flat, self.judged) {
+            (true, _) => "flat",
+            (false, true) => "GROWS",
+            (false, false) => "not judged over fewer than 8,000 frames",
+        }
+    }
 }
 
 /// What the scene and the process hold.
@@ -72,14 +92,18 @@ impl Memory {
         }
     }
 
+    fn is_judged(&self) -> bool {
+        self.frames >= 4 * ROUND
+    }
+
     /// Of [`lightbvh::Bvh::memory`].
     pub fn scene(&self) -> Means {
-        self.scene.means(0.0)
+        self.scene.means(0.0, self.is_judged())
     }
 
     /// Of all that the process has in memory.
     pub fn process(&self) -> Means {
-        self.process.means(ROOM)
+        self.process.means(ROOM, self.is_judged())
     }
 }
 
@@ -94,6 +118,9 @@ mod tests {
             flat.take(frame / 100, 1e6 + f64::from(frame % 7));
             grows.take(frame / 100, 1e6 + 1e4 * f64::from(frame));
         }
-        assert!(flat.means(0.0).flat && !grows.means(0.0).flat);
+        assert!(flat.means(0.0, true).is_good() && !grows.means(0.0, true).is_good());
+        assert!(grows.means(0.0, false).is_good() && !grows.means(0.0, false).flat);
+        let [short, long] = [7_999, 8_000].map(|frames| Memory::new(frames).scene().judged);
+        assert!(!short && long);
     }
 }

@@ -126,8 +126,8 @@ impl Report {
             && self.edits.inline == 0
             && self.edits.copied <= self.bytes
             && self.nodes_each() <= NODES
-            && self.memory.flat
-            && self.process.flat
+            && self.memory.is_good()
+            && self.process.is_good()
             && equal
     }
 }
@@ -179,7 +179,7 @@ pub(super) fn print(context: &Context, report: &Report) -> Result<(), HostError>
             "memory of the {what}: {:.2} MB in the second quarter, {:.2} MB in the last: {}",
             means.second_quarter * 1e-6,
             means.last_quarter * 1e-6,
-            if means.flat { "flat" } else { "GROWS" }
+            means.verdict()
         )?;
     }
     for device in &report.devices {

@@ -254,3 +254,25 @@ fn wrong_words_are_refused() {
         .for_each(|word| *word &= !(1 << 31));
     assert!(LightBvh::from_words(&other).is_err());
 }
+
+/// A frame that refits all instances of a mesh has all of them follow its tree: their leaves are computed anyway.
+#[test]
+fn where_a_mesh_is_to_be_refitted_all_follow_at_once() {
+    let (mut bvh, mesh, mut own) = scene(0);
+    for frame in 0..200 {
+        let mut one = lamps(2)[0];
+        one.radiance = [1.0 + 0.01 * frame as f32; 3];
+        bvh.set_triangle_range(mesh, 0, std::vec![one]).expect("its own");
+        let start = own.begin_frame(&mut bvh).expect("no panic");
+        bvh.refit();
+        own.end_frame(&bvh);
+        if start.adopted > 0 {
+            assert_eq!(bvh.handing_over(), 0);
+            let new = bvh.meshes[0].blas;
+            assert!(bvh.instances[..COUNT as usize].iter().all(|own| own.blas == new));
+            is_sound(&bvh);
+            return;
+        }
+    }
+    panic!("no tree came");
+}

@@ -153,3 +153,37 @@ fn what_changed_while_it_was_built_is_built_again() {
         assert!(!rebuilder.is_busy());
     }
 }
+
+/// Whichever triangle changes meanwhile, the first and the last too.
+#[test]
+fn what_changes_at_either_end_reaches_the_new_tree() {
+    for first in [0, COUNT - 1] {
+        let (mut bvh, mesh, mut rebuilder) = scene();
+        let mut one = lamps(2)[first as usize];
+        until_adopted(&mut bvh, &mut rebuilder, |bvh, frame| {
+            one.radiance = [1.0 + 0.1 * frame as f32; 3];
+            bvh.set_triangle_range(mesh, first, std::vec![one])
+                .expect("its own");
+        });
+        let id = bvh.instance_id(2).expect("there");
+        let light = bvh.lights_of(id).expect("there").start + first;
+        let found = bvh.triangle(light, id.index()).expect("there");
+        assert_eq!(found.radiance, one.radiance, "triangle {first}");
+    }
+}
+
+/// A mesh that comes and goes while a tree is built beside it takes a place behind the one that is kept for the tree: what is written in any
+/// frame can be read.
+#[test]
+fn what_is_written_beside_a_mesh_that_came_and_went_is_read() {
+    let (mut bvh, _, mut rebuilder) = scene();
+    until_adopted(&mut bvh, &mut rebuilder, |bvh, frame| {
+        let guest = bvh.add_mesh(lamps(frame)[..3].to_vec()).expect("a mesh");
+        if frame % 2 == 0 {
+            bvh.remove_mesh(guest).expect("unused");
+        }
+        let read =
+            LightBvh::from_words(&bvh.to_words()).unwrap_or_else(|error| panic!("frame {frame}: {error}"));
+        assert!(read.to_words() == bvh.to_words(), "frame {frame}");
+    });
+}

@@ -64,7 +64,9 @@ fn second_moment(scene: &LightBvh, points: &[[f32; 3]]) -> f64 {
         };
         let (mut mean, mut square) = (0.0, 0.0);
         for index in 0..scene.instances().len() as u32 {
-            let id = scene.instance_id(index).expect("an instance");
+            let Some(id) = scene.instance_id(index) else {
+                continue;
+            };
             let light = scene.lights_of(id).expect("an instance").start;
             let lamp = scene.triangle(light, index).expect("a light");
             let to: [f64; 3] = core::array::from_fn(|k| f64::from(lamp.p[0][k]) - f64::from(p[k]));

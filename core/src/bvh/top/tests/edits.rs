@@ -196,3 +196,32 @@ fn subtrees_are_built_anew_after_a_sixteenth_of_their_instances() {
         }
     }
 }
+
+/// What is due at several levels is built once: a move has two subtrees of at most 512 instances built, the one where it was and the one
+/// where it is. Among lamps at all distances nearly all nodes of a path are due together.
+#[test]
+fn no_subtree_is_built_within_another() {
+    let random = &mut Random(12);
+    let mut scene = LightBvh::default();
+    let mesh = lamp(&mut scene);
+    let far = |random: &mut Random| {
+        let reach = crate::exact::pow2(38 - (60.0 * random.unit()) as i32);
+        Transform::at((random.vector() * reach).to_array())
+    };
+    let add = (0..1000).map(|_| Edit::AddInstance {
+        mesh,
+        transform: Transform::at(random.vector().to_array()),
+        radiance: 1.0,
+    });
+    let ids = scene.apply(add.collect()).expect("instances").instances;
+    scene.refit();
+    let mut most = 0;
+    for _ in 0..4000 {
+        let id = ids[(random.unit() * 999.0) as usize];
+        scene.set_transform(id, far(random)).expect("there");
+        most = most.max(scene.changes.new.top_nodes.len());
+        scene.refit();
+    }
+    // Nodes of two such trees, about half full, and two paths.
+    assert!(most < 2 * (512 / 4 + 2 * scene.depth() as usize), "{most}");
+}

@@ -6,7 +6,6 @@ mod pictures;
 mod tables;
 mod tree;
 
-use std::fs;
 use std::path::Path;
 
 use image::ExtendedColorType;
@@ -23,6 +22,7 @@ use self::tree::{Drawn, drawn};
 use super::Point;
 use super::update::{Followed, Frame, Update};
 use crate::backend::{Backend, CpuBackend, Integrator, Sampler};
+use crate::cli::target;
 use crate::error::HostError;
 use crate::method::Builder;
 use crate::metrics::Judge;
@@ -53,15 +53,7 @@ struct SceneShown {
 impl Report {
     /// Of so many scenes, into `folder`, which is made where it is not there: better now than after the measurements.
     pub fn begin(folder: &Path, scenes: usize) -> Result<Self, HostError> {
-        fs::create_dir_all(folder).map_err(|source| HostError::Folder {
-            path: folder.to_owned(),
-            source,
-        })?;
-        // A folder that is there may still not be written to.
-        let path = folder.join("trade.html.begun");
-        write_whole(&path, b"")
-            .and_then(|()| fs::remove_file(&path))
-            .map_err(|source| HostError::Store { path, source })?;
+        target::folder(folder)?;
         Ok(Self {
             made: Made::now(),
             scenes: Vec::new(),
