@@ -46,8 +46,8 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
     /// `lightbvh_gpu::Mirror` does by itself.
     ///
     /// The words may be anything that gives a sound light BVH, damaged ones too: there is no checksum, and a turned bit may be another
-    /// lamp. Reading takes time in proportion to them, but for sorting, and for each at most 640 bytes of memory, room
-    /// to grow among them, of which most is never written; then every invariant is checked by [`validate`](Self::validate), which takes as much again.
+    /// lamp. Reading takes time in proportion to them, but for sorting, and for each some 550 bytes of memory at worst (seen
+    /// with empty nodes), room to grow among them; then every invariant is checked by [`validate`](Self::validate), which takes as much again.
     ///
     /// # Errors
     /// [`ReadError`], which says which word is wrong or what of the tree does not hold.

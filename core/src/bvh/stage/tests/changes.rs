@@ -171,19 +171,3 @@ fn what_changes_at_either_end_reaches_the_new_tree() {
         assert_eq!(found.radiance, one.radiance, "triangle {first}");
     }
 }
-
-/// A mesh that comes and goes while a tree is built beside it takes a place behind the one that is kept for the tree: what is written in any
-/// frame can be read.
-#[test]
-fn what_is_written_beside_a_mesh_that_came_and_went_is_read() {
-    let (mut bvh, _, mut rebuilder) = scene();
-    until_adopted(&mut bvh, &mut rebuilder, |bvh, frame| {
-        let guest = bvh.add_mesh(lamps(frame)[..3].to_vec()).expect("a mesh");
-        if frame % 2 == 0 {
-            bvh.remove_mesh(guest).expect("unused");
-        }
-        let read =
-            LightBvh::from_words(&bvh.to_words()).unwrap_or_else(|error| panic!("frame {frame}: {error}"));
-        assert!(read.to_words() == bvh.to_words(), "frame {frame}");
-    });
-}
