@@ -171,3 +171,29 @@ fn what_changes_at_either_end_reaches_the_new_tree() {
         assert_eq!(found.radiance, one.radiance, "triangle {first}");
     }
 }
+
+/// A file of a frame in which another mesh came and went can be read: the place behind all, which the stage keeps, is nobody's.
+#[test]
+fn a_mesh_that_came_and_went_meanwhile_leaves_nothing() {
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(lamps(1)).expect("a mesh");
+    bvh.add_instance(mesh, Transform::IDENTITY).expect("one");
+    bvh.refit();
+    let mut rebuilder = Own::new(RebuilderParams {
+        swap: Swap::Deterministic,
+        bytes: BYTES,
+        ..RebuilderParams::default()
+    });
+    bvh.set_triangles(mesh, lamps(2)).expect("as many");
+    bvh.refit();
+    rebuilder.end_frame(&bvh);
+    let frames = until_adopted(&mut bvh, &mut rebuilder, |bvh, frame| {
+        let guest = bvh.add_mesh(lamps(3)[..3].to_vec()).expect("a mesh");
+        bvh.remove_mesh(guest).expect("not used");
+        bvh.refit();
+        let words = bvh.to_words();
+        let again = LightBvh::from_words(&words).unwrap_or_else(|error| panic!("{frame}: {error}"));
+        assert!(again.to_words() == words, "{frame}");
+    });
+    assert!(frames > 20, "{frames}");
+}
