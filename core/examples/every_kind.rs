@@ -1,7 +1,7 @@
 //! A room with lights of every kind in one tree, and one light sample of it.
 //!
-//! `cargo run --release -p lightbvh --example every_kind` (seconds). Prints what share of the samples each kind gets and what a point receives of
-//! it, and checks that the sum is right.
+//! `cargo run --release -p lightbvh --example every_kind` (seconds). Prints what share of the samples each kind gets and what a
+//! point receives of it, and checks that the sum is right.
 
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::light::{
@@ -10,9 +10,10 @@ use lightbvh::light::{
 use lightbvh::node::{Lit, SpotMomentNode};
 use lightbvh::{Bvh, Defensive, EmissiveTriangle, Moments, ShadingPoint, Transform};
 
-/// Nodes over lights of any kind that know the cones of spots. Where a scene has one kind alone, its own type in place of `AnyLight` is smaller, and
-/// `MomentNode` in place of `SpotMomentNode` where it has no spots. A node knows the cone of spots that share it with no others: those of many lamps want a mesh of
-/// their own, bright ones a light BVH of their own (docs/walk.md, section 8).
+/// Nodes over lights of any kind that know the cones of spots. Where a scene has one kind alone, its own type in place of
+/// `AnyLight` is smaller, and `MomentNode` in place of `SpotMomentNode` where it has no spots. A node knows the cone of spots
+/// that share it with no others: those of many lamps want a mesh of their own, bright ones a light BVH of their own
+/// (docs/walk.md, section 8).
 type Room = Bvh<Lit<SpotMomentNode<8>, AnyLight>, Defensive<Moments, 6>, 8>;
 
 const TRIALS: u32 = 200_000;

@@ -1,7 +1,7 @@
 //! Light that a thin fog sends along a ray: one lamp and one place for each trial.
 //!
-//! `cargo run --release -p lightbvh --example fog` (seconds). Prints the squared error of a lamp chosen for the middle of the ray and a place
-//! anywhere on it, and of a lamp chosen by the ray and a place for that lamp; checks that the means are right.
+//! `cargo run --release -p lightbvh --example fog` (seconds). Prints the squared error of a lamp chosen for the middle of the
+//! ray and a place anywhere on it, and of a lamp chosen by the ray and a place for that lamp; checks that the means are right.
 
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::importance::{RaySegment, SegmentSample, Subtended};

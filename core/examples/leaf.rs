@@ -1,7 +1,7 @@
 //! A leaf that lets light through: both of its sides receive, each its own part.
 //!
-//! `cargo run --release -p lightbvh --example leaf` (seconds). Prints the squared error of one light, chosen as for a point in a volume and by
-//! an importance that knows both sides, and checks that the means are right.
+//! `cargo run --release -p lightbvh --example leaf` (seconds). Prints the squared error of one light, chosen as for a point in
+//! a volume and by an importance that knows both sides, and checks that the means are right.
 
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::importance::{Transmissive, TransmissivePoint};

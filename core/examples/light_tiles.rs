@@ -1,9 +1,10 @@
-//! Light tiles: a grid of cells, each with lights chosen for its middle before the frame, from which points then draw instead of walking
-//! the tree. After C. Wyman & A. Panteleev, "Rearchitecting Spatiotemporal Resampling for Production", HPG 2021 (section 5, tiles
-//! of presampled lights), and J. Boksansky et al., "Rendering Many Lights with Grid-Based Reservoirs", Ray Tracing Gems II, 2021.
+//! Light tiles: a grid of cells, each with lights chosen for its middle before the frame, from which points then draw instead
+//! of walking the tree. After C. Wyman & A. Panteleev, "Rearchitecting Spatiotemporal Resampling for Production", HPG 2021
+//! (section 5, tiles of presampled lights), and J. Boksansky et al., "Rendering Many Lights with Grid-Based Reservoirs", Ray
+//! Tracing Gems II, 2021.
 //!
-//! `cargo run --release -p lightbvh --example light_tiles` (seconds). Prints the error and the time of one resampled light for a point,
-//! each from as many candidates, and checks that the means are right.
+//! `cargo run --release -p lightbvh --example light_tiles` (seconds). Prints the error and the time of one resampled light for
+//! a point, each from as many candidates, and checks that the means are right.
 
 use std::time::Instant;
 
@@ -103,8 +104,8 @@ fn cell_of(point: &ShadingPoint) -> usize {
     of(point.p[0]) + SIDE * of(point.p[2])
 }
 
-/// Irradiance by a lamp, taken as a point; without shadows. Its shadow ray would go to one of the candidates, taken in proportion to
-/// `irradiance / pmf`, and carry the mean of those.
+/// Irradiance by a lamp, taken as a point; without shadows. Its shadow ray would go to one of the candidates, taken in
+/// proportion to `irradiance / pmf`, and carry the mean of those.
 fn irradiance(triangle: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
     let [x, y, z] = std::array::from_fn(|axis| f64::from(triangle.p[0][axis] - point.p[axis]));
     let square = x * x + y * y + z * z;

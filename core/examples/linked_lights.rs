@@ -1,7 +1,7 @@
 //! Lights that light some things alone: masks of lights and of receivers.
 //!
-//! `cargo run -p lightbvh --example linked_lights` (seconds). A stage: bit 0 is its floor, bit 1 the actors, bit 2 the audience. Prints how
-//! likely each lamp is for each of them, and checks that no lamp is chosen for what it does not light.
+//! `cargo run -p lightbvh --example linked_lights` (seconds). A stage: bit 0 is its floor, bit 1 the actors, bit 2 the
+//! audience. Prints how likely each lamp is for each of them, and checks that no lamp is chosen for what it does not light.
 
 use lightbvh::exact::hash;
 use lightbvh::importance::{Leveled, Linked, LinkedPoint};
@@ -13,8 +13,8 @@ const FLOOR: u32 = 1;
 const ACTORS: u32 = 2;
 const AUDIENCE: u32 = 4;
 
-/// Nodes that know masks, over triangles that have them; an importance over what a receiver may take. In place of a share of uniform choice
-/// each child keeps 1/512 of its node's weight.
+/// Nodes that know masks, over triangles that have them; an importance over what a receiver may take. In place of a share of
+/// uniform choice each child keeps 1/512 of its node's weight.
 type Stage = Bvh<Lit<LinkedMomentNode<8>, LinkedTriangle>, Linked<Leveled<Moments, 9>>, 8>;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -1,10 +1,10 @@
-//! One shadow ray for a glossy surface: to a light as sampled, to one of eight candidates resampled, to one that an importance chose which
-//! knows the lobe.
+//! One shadow ray for a glossy surface: to a light as sampled, to one of eight candidates resampled, to one that an importance
+//! chose which knows the lobe.
 //!
-//! `cargo run --release -p lightbvh --example one_of_many` (seconds). Prints the squared error of each before visibility, and checks that the
-//! means are right. A ray into the lobe that finds a light shares it with these by the balance heuristic (E. Veach and L. Guibas, 1995): the
-//! density of a light's point over solid angle is `pmf · density · d² / cos`, with the pmf of [`LightBvh::pmf`] or
-//! `LightTree::pmf_for`.
+//! `cargo run --release -p lightbvh --example one_of_many` (seconds). Prints the squared error of each before visibility, and
+//! checks that the means are right. A ray into the lobe that finds a light shares it with these by the balance heuristic (E.
+//! Veach and L. Guibas, 1995): the density of a light's point over solid angle is `pmf · density · d² / cos`, with the pmf of
+//! [`LightBvh::pmf`] or `LightTree::pmf_for`.
 
 use lightbvh::exact::{hash, unit_f32};
 use lightbvh::importance::Glossy;
@@ -113,7 +113,8 @@ fn uv(number: u32) -> [f32; 2] {
     [1, 2].map(|k| unit_f32(hash(number ^ hash(k))))
 }
 
-/// What a point of a light sends to the viewer, without shadow: over its density, so that the mean over uniform points is the light's.
+/// What a point of a light sends to the viewer, without shadow: over its density, so that the mean over uniform points is the
+/// light's.
 fn contribution(light: &EmissiveTriangle, uv: [f32; 2], receiver: &GlossyPoint) -> f32 {
     let on = light.point(uv);
     let wide = |v: [f32; 3]| v.map(f64::from);

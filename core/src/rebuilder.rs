@@ -1,10 +1,10 @@
 //! Rebuilds on a thread beside the frame (paper section 3.5).
 //!
 //! [`end_frame`](Rebuilder::end_frame) takes a copy of what is to be built and hands it to a worker thread,
-//! [`begin_frame`](Rebuilder::begin_frame) swaps the result in. In between the scene is free: it may be sampled, edited
-//! and refitted as ever. A large mesh is copied to the builder, and its tree put in place, a piece in each frame: the bytes that a
-//! frame copies are bounded ([`RebuilderParams::bytes`]), whatever is built beside it. The paper lets the next frame wait for the rebuild if it must; here that is a choice,
-//! [`Swap::Deterministic`].
+//! [`begin_frame`](Rebuilder::begin_frame) swaps the result in. In between the scene is free: it may be sampled, edited and
+//! refitted as ever. A large mesh is copied to the builder, and its tree put in place, a piece in each frame: the bytes that a
+//! frame copies are bounded ([`RebuilderParams::bytes`]), whatever is built beside it. The paper lets the next frame wait for
+//! the rebuild if it must; here that is a choice, [`Swap::Deterministic`].
 
 mod clock;
 mod handover;
@@ -47,19 +47,21 @@ pub struct RebuilderParams {
     pub swap: Swap,
     /// What is built anew.
     pub rebuild: RebuildParams,
-    /// Bytes that the start of a frame copies of meshes that are built anew, at least 16 KiB; 256 KiB, the default, take 0.1 ms as a rule. In
-    /// frames in which a part of the top level may come in, a quarter of them. A
-    /// mesh of less than a 256th as many triangles is put in place at once, as is a single level, whose lights are its triangles; a
-    /// larger one over the frames that it takes, 112 bytes for a triangle before it is built, and its nodes and trails after it; memory that
-    /// is new counts three times. Then instances follow the new tree, 256 in a frame, all at once where the mesh itself
-    /// changes. A subtree that lost its
-    /// shape while the mesh as a whole has not, of a node for each 128 bytes at most, is built anew alone.
+    /// Bytes that the start of a frame copies of meshes that are built anew, at least 16 KiB; 256 KiB, the default, take 0.1 ms
+    /// as a rule. In frames in which a part of the top level may come in, a quarter of them. A mesh of less than a 256th as
+    /// many triangles is put in place at once, as is a single level, whose lights are its triangles; a larger one over the
+    /// frames that it takes, 112 bytes for a triangle before it is built, and its nodes and trails after it; memory that is new
+    /// counts three times. Then instances follow the new tree, 256 in a frame, all at once where the mesh itself changes. A
+    /// subtree that lost its shape while the mesh as a whole has not, of a node for each 128 bytes at most, is built anew
+    /// alone.
     pub bytes: u32,
     /// Large meshes that are under way at a time, each with a thread of its own; at least 1. By default 2.
     pub meshes: u32,
     /// Most instances of the parts of the top level that a frame hands to the worker; at least 1024, the default, with which
-    /// start and end of a frame take 0.1 to 0.2 ms, and more than 0.3 ms once in some hundreds to ten thousand, by the machine and how busy it is (`docs/dynamics.md`). Each further 1000 take about 0.1 ms more of each. Where all of many instances move their own ways, what is built in a frame decides how good the tree is: with *N* of them every part has its turn in *N* over
-    /// this many frames.
+    /// start and end of a frame take 0.1 to 0.2 ms, and more than 0.3 ms once in some hundreds to ten thousand, by the machine
+    /// and how busy it is (`docs/dynamics.md`). Each further 1000 take about 0.1 ms more of each. Where all of many instances
+    /// move their own ways, what is built in a frame decides how good the tree is: with *N* of them every part has its turn in
+    /// *N* over this many frames.
     pub leaves: u32,
 }
 
@@ -81,8 +83,8 @@ impl Default for RebuilderParams {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct FrameStart {
-    /// Whether parts of the top level, or small meshes, that were built came back; those that gain nothing, or whose place is gone, change nothing.
-    /// Large meshes are counted by `adopted` and `parts`.
+    /// Whether parts of the top level, or small meshes, that were built came back; those that gain nothing, or whose place is
+    /// gone, change nothing. Large meshes are counted by `adopted` and `parts`.
     pub swapped: bool,
     /// How long this call waited for threads, under [`Swap::Deterministic`] alone; zero where there is no clock.
     pub waited: Duration,
@@ -90,18 +92,20 @@ pub struct FrameStart {
     pub built: Duration,
     /// Number of large meshes whose new trees took their places since the last frame began.
     pub adopted: u32,
-    /// Number of parts of large meshes that were built anew, the rest of their trees being as good as it was, and put in place since then.
+    /// Number of parts of large meshes that were built anew, the rest of their trees being as good as it was, and put in place
+    /// since then.
     pub parts: u32,
-    /// Number of large meshes, and of parts of them, whose new trees came to nothing since then: the mesh is gone or was built by other means,
-    /// building failed, or a part found no tree of as many nodes. Deformation drops none: what changes meanwhile is computed in the new tree.
+    /// Number of large meshes, and of parts of them, whose new trees came to nothing since then: the mesh is gone or was built
+    /// by other means, building failed, or a part found no tree of as many nodes. Deformation drops none: what changes
+    /// meanwhile is computed in the new tree.
     pub dropped: u32,
-    /// Whether large meshes wait because another `Rebuilder` has some of the same light BVH under way. One for each light BVH is enough: a
-    /// second one begins no large mesh as long as the first has one under way.
+    /// Whether large meshes wait because another `Rebuilder` has some of the same light BVH under way. One for each light BVH
+    /// is enough: a second one begins no large mesh as long as the first has one under way.
     pub is_second: bool,
     /// Number of large meshes that are under way or wait for it.
     pub under_way: u32,
-    /// What of [`RebuilderParams::bytes`] went into them in this call: bytes copied, written for the first time, and nodes computed at bytes that take
-    /// as long. What changes meanwhile is computed in the new trees beside that.
+    /// What of [`RebuilderParams::bytes`] went into them in this call: bytes copied, written for the first time, and nodes
+    /// computed at bytes that take as long. What changes meanwhile is computed in the new trees beside that.
     pub copied: u32,
     /// Whether it was built at the end of its frame on the frame's own thread, since no other could be started.
     pub inline: bool,
@@ -134,9 +138,9 @@ impl fmt::Display for RebuildError {
 
 impl core::error::Error for RebuildError {}
 
-/// Runs the rebuilds of one [`Bvh`] beside its frames (paper section 3.5), [`begin_frame`](Self::begin_frame) before the frame's edits and
-/// [`end_frame`](Self::end_frame) after its refit: that of the top level and of small meshes, one at a time, and those of
-/// [some](RebuilderParams::meshes) large meshes.
+/// Runs the rebuilds of one [`Bvh`] beside its frames (paper section 3.5), [`begin_frame`](Self::begin_frame) before the
+/// frame's edits and [`end_frame`](Self::end_frame) after its refit: that of the top level and of small meshes, one at a time,
+/// and those of [some](RebuilderParams::meshes) large meshes.
 ///
 /// Dropping it waits for its threads to end the rebuilds that they run, if any: 0.3 s for a mesh of 10^6 triangles;
 /// [`detach`](Self::detach) does not. Where no thread can be started (a limit of
@@ -214,8 +218,8 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
         }
     }
 
-    /// Ends without waiting: threads that still build go on alone until that is done, and what they build is dropped. Where their code may be
-    /// unloaded meanwhile, as that of a plugin, drop it instead, which waits.
+    /// Ends without waiting: threads that still build go on alone until that is done, and what they build is dropped. Where
+    /// their code may be unloaded meanwhile, as that of a plugin, drop it instead, which waits.
     pub fn detach(mut self) {
         let workers = self.worker.iter_mut().chain(self.meshes.workers());
         workers.for_each(Worker::detach);
@@ -325,8 +329,9 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
         Ok(())
     }
 
-    /// Opens or closes some of the instances that a rebuilt top level asks it for: as many parts go and come as a node has children, and each is put
-    /// in where it costs least, which is as long as what else a frame has time for. Where a part of a large top level comes in, one in [`HELD`] frames.
+    /// Opens or closes some of the instances that a rebuilt top level asks it for: as many parts go and come as a node has
+    /// children, and each is put in where it costs least, which is as long as what else a frame has time for. Where a part of a
+    /// large top level comes in, one in [`HELD`] frames.
     fn reopen_some<I, T: Trails>(&mut self, scene: &mut Bvh<N, I, W, T>, most: usize) {
         if self.reopens.is_some_and(|of| !of.is_of_same(scene.now())) {
             self.reopening = Queue::default();
@@ -347,9 +352,9 @@ impl<N: Node<W>, const W: usize> Rebuilder<N, W> {
         }
     }
 
-    /// Starts the next rebuild, unless one is under way or there is nothing to build. Comes after the frame's
-    /// [`Bvh::refit`]. Takes time in proportion to the meshes refitted since the last rebuild started, to the instances of the part of the
-    /// top level that is rebuilt, at most [`RebuilderParams::leaves`], and to the triangles of small meshes that are built anew.
+    /// Starts the next rebuild, unless one is under way or there is nothing to build. Comes after the frame's [`Bvh::refit`].
+    /// Takes time in proportion to the meshes refitted since the last rebuild started, to the instances of the part of the top
+    /// level that is rebuilt, at most [`RebuilderParams::leaves`], and to the triangles of small meshes that are built anew.
     pub fn end_frame<I, T: Trails>(&mut self, scene: &Bvh<N, I, W, T>) {
         let now = scene.now();
         self.search.note_frame(now);

@@ -46,7 +46,8 @@ impl Transform {
         }
     }
 
-    /// The map of a 3 × 4 matrix by rows, the translation in the last column, as `VkTransformMatrixKHR` and DXR's instances have it.
+    /// The map of a 3 × 4 matrix by rows, the translation in the last column, as `VkTransformMatrixKHR` and DXR's instances
+    /// have it.
     #[must_use]
     pub const fn from_rows([x, y, z]: [[f32; 4]; 3]) -> Self {
         Self {
@@ -55,8 +56,8 @@ impl Transform {
         }
     }
 
-    /// `light` as it stands in the world where this map puts its mesh, as part of mesh light `mesh`: what a light BVH over instances makes of
-    /// it, to the bit, but for the instance's factor on radiance.
+    /// `light` as it stands in the world where this map puts its mesh, as part of mesh light `mesh`: what a light BVH over
+    /// instances makes of it, to the bit, but for the instance's factor on radiance.
     #[must_use]
     pub fn place<L: Light>(&self, light: &L, mesh: u32) -> L {
         light.in_world(&self.instance_by(1.0, light.flux_power()), mesh)

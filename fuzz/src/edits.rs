@@ -18,9 +18,9 @@ use crate::{Forms, input};
 /// Most rebuilds that are under way at once.
 const FLYING: usize = 2;
 
-/// A scene whose meshes and instances come, move, shine, bend and go, in batches that may hold refused edits, while trees
-/// are built anew: a refused batch changes nothing and names an edit that is wrong; a frame's work keeps its bound; after every frame the scene is valid
-/// and its lights are where the edits put them; in the end a scene built from scratch holds the same.
+/// A scene whose meshes and instances come, move, shine, bend and go, in batches that may hold refused edits, while trees are
+/// built anew: a refused batch changes nothing and names an edit that is wrong; a frame's work keeps its bound; after every
+/// frame the scene is valid and its lights are where the edits put them; in the end a scene built from scratch holds the same.
 pub fn edits(data: &[u8], forms: Forms) {
     for form in forms.of(data, 4) {
         let u = &mut Unstructured::new(data);

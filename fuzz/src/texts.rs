@@ -174,7 +174,8 @@ const NUMBERS: &[&str] = &[
     "",
 ];
 
-/// A pbrt, OBJ or PLY file, of any bytes or of words that such files are made of: refused, or a scene whose frames hold numbers in the domain.
+/// A pbrt, OBJ or PLY file, of any bytes or of words that such files are made of: refused, or a scene whose frames hold numbers
+/// in the domain.
 pub fn texts(data: &[u8], _: Forms) {
     let run = |u: &mut Unstructured<'_>| -> Result<()> {
         let kind: u8 = u.arbitrary()?;

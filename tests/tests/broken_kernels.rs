@@ -33,8 +33,8 @@ const KERNELS: [&str; 13] = [
     "pmf_eq4",
 ];
 
-/// Differing words of nodes, samples, pmfs, of both importances together; and the verdict of the self-test. The quantised moments of
-/// a node round away most of what contraction does to them; the bounds of Eq. 4 do not.
+/// Differing words of nodes, samples, pmfs, of both importances together; and the verdict of the self-test. The quantised
+/// moments of a node round away most of what contraction does to them; the bounds of Eq. 4 do not.
 struct Seen {
     verdict: Exactness,
     different: [u64; 3],

@@ -1,8 +1,8 @@
-//! Lights that come, go and move in every frame while ReSTIR hands samples on over frames and pixels, trees being rebuilt beside it: no
-//! reservoir ever points at another light than the one that was chosen.
+//! Lights that come, go and move in every frame while ReSTIR hands samples on over frames and pixels, trees being rebuilt
+//! beside it: no reservoir ever points at another light than the one that was chosen.
 //!
-//! A sample keeps its two numbers in the unit square as long as it is handed on. So what a reservoir's light was when it was chosen,
-//! instance and triangle, is kept beside those, and must be what its number says in each later frame.
+//! A sample keeps its two numbers in the unit square as long as it is handed on. So what a reservoir's light was when it was
+//! chosen, instance and triangle, is kept beside those, and must be what its number says in each later frame.
 
 use std::collections::HashMap;
 use std::sync::Arc;

@@ -264,8 +264,14 @@ fn files() {
     let reason = EditReason::Radiance { value: -1.0 };
     says(
         &ReadError::Instance { instance: 3, reason },
-        &["instance 3: factor on radiance -1"],
+        &["instance 3: factor on radiance -1", "nothing shines less than 0"],
     );
+    says(
+        &EditReason::Radiance { value: 1e30 },
+        &["factor on radiance 1e30", "put the rest into the mesh"],
+    );
+    let nothing = EditReason::Radiance { value: f32::NAN }.to_string();
+    assert!(nothing.ends_with("(8.7e-19 to 1.2e18)"), "{nothing}");
 }
 
 #[test]

@@ -233,8 +233,8 @@ fn surfaces_behind_occluders() {
     surfaces_converge(2, true);
 }
 
-/// Of a gloss no closed form is at hand: with directions that the surface reflects into the mean is that of lights as picked, and where
-/// most of it is one light in a mirror the error is a fraction, with a quarter of the shadow rays.
+/// Of a gloss no closed form is at hand: with directions that the surface reflects into the mean is that of lights as picked,
+/// and where most of it is one light in a mirror the error is a fraction, with a quarter of the shadow rays.
 #[test]
 fn scattered_candidates_agree_with_lights_as_picked() {
     let random = &mut Random::new(4);

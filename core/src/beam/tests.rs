@@ -32,8 +32,8 @@ fn rotation(random: &mut Random) -> [[f64; 3]; 3] {
     ]
 }
 
-/// Lamps stood outside of their own beams where a mesh far from its own origin is brought back: two of 34,000 lit lights were told that they do not
-/// reach a point.
+/// Lamps stood outside of their own beams where a mesh far from its own origin is brought back: two of 34,000 lit lights were
+/// told that they do not reach a point.
 #[test]
 fn a_beam_holds_what_a_map_brings_back() {
     let mut random = Random(7);
@@ -81,7 +81,8 @@ fn a_beam_holds_what_a_map_brings_back() {
     assert_eq!(still.to_world(&instance).radius, 0.0);
 }
 
-/// Columns of lengths `lengths` times `scale`, turned, with `by` of the first axis added to the second, of the second to the third, of the third to the first.
+/// Columns of lengths `lengths` times `scale`, turned, with `by` of the first axis added to the second, of the second to the
+/// third, of the third to the first.
 fn map(random: &mut Random, scale: f64, lengths: [f64; 3], by: [f64; 3]) -> Transform {
     let turn = rotation(random);
     let columns: [[f64; 3]; 3] = core::array::from_fn(|j| {

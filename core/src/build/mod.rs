@@ -29,8 +29,8 @@ pub struct BuildParams {
     pub buckets: u32,
     /// What the wide builder spends; the others do not ask.
     pub effort: Effort,
-    /// Whether the top level may hold the subtrees of a large mesh in place of the whole: less variance where meshes lie within each
-    /// other, for a record more of each subtree. Scenes of meshes that are small against the whole stay as they are.
+    /// Whether the top level may hold the subtrees of a large mesh in place of the whole: less variance where meshes lie within
+    /// each other, for a record more of each subtree. Scenes of meshes that are small against the whole stay as they are.
     pub opens: bool,
 }
 

@@ -22,17 +22,18 @@ pub struct Added {
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Does a batch of edits in their order, all or none. Sampling is as good as before after the next [`refit`](Self::refit); until then
-    /// probabilities are exact and no light that is gone is returned, but there may be none where one was removed, and lights that
-    /// were added may have the uniform share alone.
+    /// Does a batch of edits in their order, all or none. Sampling is as good as before after the next [`refit`](Self::refit);
+    /// until then probabilities are exact and no light that is gone is returned, but there may be none where one was removed,
+    /// and lights that were added may have the uniform share alone.
     ///
-    /// Time is in proportion to the edits, to the triangles in them, and to the instances of each mesh that is deformed as a whole,
-    /// reaches farther than before, or has lights of another [`flux_power`](crate::light::Light::flux_power) than before, as often as it is. An instance that is added, removed, or put in elsewhere since it moved far or
-    /// changed its radiance by more than a factor of 2, takes one node of each level, and on average a share of 16 instances in building
+    /// Time is in proportion to the edits, to the triangles in them, and to the instances of each mesh that is deformed as a
+    /// whole, reaches farther than before, or has lights of another [`flux_power`](crate::light::Light::flux_power) than
+    /// before, as often as it is. An instance that is added, removed, or put in elsewhere since it moved far or changed its
+    /// radiance by more than a factor of 2, takes one node of each level, and on average a share of 16 instances in building
     /// subtrees of at most 512 anew; a mirror copies what that writes (measured: `docs/dynamics.md`). One call puts in
-    /// elsewhere 64 instances at most, and one more for each 64 that there are; the others keep their places until they move again, or a
-    /// rebuild. Where at least as many instances are added as there are, the top level is built anew within the call. A mesh is
-    /// built within the call that adds it: 0.2 to 0.4 µs for each triangle.
+    /// elsewhere 64 instances at most, and one more for each 64 that there are; the others keep their places until they move
+    /// again, or a rebuild. Where at least as many instances are added as there are, the top level is built anew within the
+    /// call. A mesh is built within the call that adds it: 0.2 to 0.4 µs for each triangle.
     ///
     /// # Errors
     /// [`EditError`] naming the first edit that cannot be done; the scene is as before then.
@@ -147,7 +148,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         is_same::<12>(words(&self.placed[index as usize].transform), words(transform))
     }
 
-    /// Whether an instance has this radiance, and nothing is to be done for it: where many come on at once, some are not where their light belongs yet.
+    /// Whether an instance has this radiance, and nothing is to be done for it: where many come on at once, some are not where
+    /// their light belongs yet.
     fn shines_so(&self, index: u32, radiance: f32) -> bool {
         let is_same = self.placed[index as usize].radiance.to_bits() == radiance.to_bits();
         is_same && !self.shines_otherwise(index).0

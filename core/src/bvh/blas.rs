@@ -30,7 +30,8 @@ pub(super) struct Blas {
     /// Its nodes, unless `is_unlisted`: then they have to be listed first.
     pub levels: Levels,
     pub is_unlisted: bool,
-    /// Nodes for whose subtrees none of as many nodes was found, so that parts below them are tried, until these are of another tree.
+    /// Nodes for whose subtrees none of as many nodes was found, so that parts below them are tried, until these are of another
+    /// tree.
     pub misfits: Vec<u32>,
     pub depth: u32,
     pub extent: Extent,
@@ -56,7 +57,8 @@ pub(super) struct Blas {
     pub opened: u32,
     /// Triangles that changed since the tree was made, those that are brighter than the others counting as so many more.
     pub unsettled: u32,
-    /// Whether a tree came to nothing since instances are opened into another number of parts: the next one waits until they are closed.
+    /// Whether a tree came to nothing since instances are opened into another number of parts: the next one waits until they
+    /// are closed.
     pub is_staged_only: bool,
     /// The tree that was the mesh's before this one, while instances still follow it.
     pub outgoing: Option<Outgoing>,

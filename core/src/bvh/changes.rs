@@ -99,7 +99,8 @@ pub(super) struct Pending {
     pub written_trails: Vec<Range<u32>>,
     /// Indices of instances whose words changed; may repeat.
     pub written_instances: Vec<u32>,
-    /// Whether all instances may have changed: their lists, which are empty then but for what came since, would be longer than the arrays.
+    /// Whether all instances may have changed: their lists, which are empty then but for what came since, would be longer than
+    /// the arrays.
     pub all_instances: bool,
     /// Whether all nodes may have been written, and so are to be computed. Their triangles are no others for that.
     pub all_nodes: bool,
@@ -156,9 +157,9 @@ impl Pending {
         self.all_nodes |= other.all_nodes;
     }
 
-    /// Says that all of an array may have changed once its list has more than three times as many entries, so many `instances`, `nodes` and
-    /// `triangles`: no edit waits for repeated ones to be sought, and what a refit or a plan then does takes no longer than the edits that
-    /// came before it.
+    /// Says that all of an array may have changed once its list has more than three times as many entries, so many `instances`,
+    /// `nodes` and `triangles`: no edit waits for repeated ones to be sought, and what a refit or a plan then does takes no
+    /// longer than the edits that came before it.
     ///
     /// Before that repeated entries of short lists are dropped once they have doubled since that was done last.
     pub fn bound(&mut self, instances: usize, nodes: usize, triangles: usize) {

@@ -25,7 +25,8 @@ struct Batch<L> {
     removed_meshes: BTreeSet<MeshId>,
     /// Change of a mesh's number of instances.
     uses: BTreeMap<MeshId, i64>,
-    /// Extents of meshes that were deformed or looked at, and transforms of moved instances and of added ones, which have no id yet.
+    /// Extents of meshes that were deformed or looked at, and transforms of moved instances and of added ones, which have no id
+    /// yet.
     extents: Extents,
     transforms: BTreeMap<InstanceId, Transform>,
     added: BTreeMap<MeshId, Vec<Transform>>,

@@ -82,9 +82,9 @@ impl InstanceId {
         }
     }
 
-    /// Index of the instance among [`Bvh::instances`](super::Bvh::instances), and of the mesh light that its triangles
-    /// belong to. Free for another one as soon as the instance is removed, so lights are told apart over frames by their numbers; indices
-    /// of instances added one by one have gaps, where parts of opened meshes have theirs.
+    /// Index of the instance among [`Bvh::instances`](super::Bvh::instances), and of the mesh light that its triangles belong
+    /// to. Free for another one as soon as the instance is removed, so lights are told apart over frames by their numbers;
+    /// indices of instances added one by one have gaps, where parts of opened meshes have theirs.
     #[must_use]
     pub fn index(self) -> u32 {
         self.index
@@ -95,8 +95,8 @@ impl InstanceId {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Edit<L = EmissiveTriangle> {
-    /// A new mesh, not in the world yet. Triangles are in the mesh's own space; their `mesh` is ignored. Its bottom level is built within
-    /// the call, 0.2 to 0.4 µs for each triangle.
+    /// A new mesh, not in the world yet. Triangles are in the mesh's own space; their `mesh` is ignored. Its bottom level is
+    /// built within the call, 0.2 to 0.4 µs for each triangle.
     AddMesh {
         /// At least one.
         triangles: Vec<L>,
@@ -247,8 +247,10 @@ impl fmt::Display for EditReason {
                 // A greater or smaller one is told in two; no factor makes light negative.
                 if *value > 0.0 {
                     "; put the rest into the mesh"
-                } else {
+                } else if *value < 0.0 {
                     "; nothing shines less than 0"
+                } else {
+                    ""
                 }
             ),
             Self::Count { expected, found } => write!(

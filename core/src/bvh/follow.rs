@@ -64,12 +64,12 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Moves or changes all triangles of a BVH built over [`Lights`], and refits it: the triangles of mesh `k` are those of mesh light
-    /// `k`, or all of them in a single-level BVH.
+    /// Moves or changes all triangles of a BVH built over [`Lights`], and refits it: the triangles of mesh `k` are those of
+    /// mesh light `k`, or all of them in a single-level BVH.
     ///
     /// # Errors
-    /// [`FollowError`] naming the mesh light whose number of triangles is another (0 where there is no such), or that would be out of
-    /// range where an instance has moved it meanwhile; the BVH is as before then.
+    /// [`FollowError`] naming the mesh light whose number of triangles is another (0 where there is no such), or that would be
+    /// out of range where an instance has moved it meanwhile; the BVH is as before then.
     pub fn follow(&mut self, lights: &Lights<N::Light>) -> Result<(), FollowError> {
         let counts = self.mesh_counts();
         counts.check(lights)?;

@@ -1,7 +1,8 @@
 //! Meshes that become brighter or dimmer by their lights: the top level was built for other fluxes.
 //!
-//! A node does not see that it is no longer a good one: lights that outshine all others lie in one of its children, and it tells those apart as
-//! well as before. So the nodes above count all that the mesh outshines as built anew, and a rebuilder tries them.
+//! A node does not see that it is no longer a good one: lights that outshine all others lie in one of its children, and it
+//! tells those apart as well as before. So the nodes above count all that the mesh outshines as built anew, and a rebuilder
+//! tries them.
 
 use super::{Bvh, Trails};
 use crate::node::Node;
@@ -67,8 +68,8 @@ impl KnownFlux {
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// After a refit of these roots: looks for meshes whose flux is another one. In time in proportion to their instances, times the depth of the
-    /// top level, and to nothing where there are none.
+    /// After a refit of these roots: looks for meshes whose flux is another one. In time in proportion to their instances,
+    /// times the depth of the top level, and to nothing where there are none.
     pub(super) fn note_fluxes(&mut self, roots: &[u32]) {
         for &blas in roots {
             let phi = self.root_of(blas).phi();
@@ -92,7 +93,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// By how much a bottom level was brighter, where it blinks: one that was opened for its light is not closed and opened with it.
+    /// By how much a bottom level was brighter, where it blinks: one that was opened for its light is not closed and opened
+    /// with it.
     pub(super) fn was_brighter(&self, blas: u32) -> f64 {
         let own = &self.blases[blas as usize];
         own.known_flux.was_brighter(self.root_of(blas).phi())
@@ -104,8 +106,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         f64::from(self.nodes[self.top.root as usize].merged().phi()) / f64::from(count.max(1))
     }
 
-    /// After `leaves` were put in: those that outshine what is usual were put where they cost least in a tree that was built without them, which may
-    /// be a bad one with them.
+    /// After `leaves` were put in: those that outshine what is usual were put where they cost least in a tree that was built
+    /// without them, which may be a bad one with them.
     pub(super) fn unsettle_bright(&mut self, leaves: &[u32], usual: f64) {
         self.epoch += u64::from(!leaves.is_empty());
         for &leaf in leaves {
@@ -120,9 +122,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Something below `node` and all above it has another flux, `flux` at most. What it outshines in a node is as good as unbuilt: that share
-    /// of its instances, and no fewer than of the node below, for what is little among all may be much where it is. It counts as of the
-    /// present epoch, so what is built from before it does not cover it.
+    /// Something below `node` and all above it has another flux, `flux` at most. What it outshines in a node is as good as
+    /// unbuilt: that share of its instances, and no fewer than of the node below, for what is little among all may be much
+    /// where it is. It counts as of the present epoch, so what is built from before it does not cover it.
     pub(super) fn unsettle_above(&mut self, node: u32, flux: f64) {
         let (mut node, mut affected) = (node, LEAST);
         while node != INVALID {

@@ -28,8 +28,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.lights.used_end().max(forgotten.map_or(0, |all| all.end))
     }
 
-    /// Light `light` of the instance of index `instance` in the world, as a [`SampledLight`](crate::SampledLight) names them; `None` where there is
-    /// no such. In a single-level BVH, where samples name no instance, that is not looked at.
+    /// Light `light` of the instance of index `instance` in the world, as a [`SampledLight`](crate::SampledLight) names them;
+    /// `None` where there is no such. In a single-level BVH, where samples name no instance, that is not looked at.
     #[must_use]
     pub fn triangle(&self, light: u32, instance: u32) -> Option<N::Light> {
         let index = if self.single { 0 } else { instance };
@@ -42,7 +42,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         Some(self.triangles[triangle as usize].in_world(own, index))
     }
 
-    /// The id of the instance of index `instance`, as a [`SampledLight`](crate::SampledLight) names it; `None` where there is no such.
+    /// The id of the instance of index `instance`, as a [`SampledLight`](crate::SampledLight) names it; `None` where there is
+    /// no such.
     #[must_use]
     pub fn instance_id(&self, instance: u32) -> Option<InstanceId> {
         let placed = self.placed.get(instance as usize).filter(|placed| placed.live)?;
@@ -78,8 +79,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         })
     }
 
-    /// All lights in the world by number, up to the greatest in use. Their `mesh` is the index of the instance; numbers not in use get triangles without radiance of
-    /// mesh `u32::MAX`. [`to_lights`](Self::to_lights) has those in use alone.
+    /// All lights in the world by number, up to the greatest in use. Their `mesh` is the index of the instance; numbers not in
+    /// use get triangles without radiance of mesh `u32::MAX`. [`to_lights`](Self::to_lights) has those in use alone.
     #[must_use]
     pub fn world_lights(&self) -> Vec<N::Light> {
         let dark = N::Light::DARK;
@@ -97,8 +98,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// All lights as triangles that stand in the world, a mesh light for each instance in the order of their indices: what
-    /// [`two_level`](Bvh::two_level), [`single_level`](Bvh::single_level) and [`BuildParams::within`](crate::BuildParams::within) take. Time
-    /// and memory in proportion to the lights.
+    /// [`two_level`](Bvh::two_level), [`single_level`](Bvh::single_level) and
+    /// [`BuildParams::within`](crate::BuildParams::within) take. Time and memory in proportion to the lights.
     ///
     /// # Errors
     /// [`LightsError`] naming a light that its instance puts outside of the domain.
@@ -143,25 +144,27 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.light_count
     }
 
-    /// Numbers of lights that are no more, until [`take_removed_lights`](Self::take_removed_lights), in the order in which they went;
-    /// ranges do not overlap but for the first of those below. Every other light keeps its number. A temporal method replaces each
-    /// [`Reservoir`](crate::reservoir::Reservoir) of such a light by its [`occluded`](crate::reservoir::Reservoir::occluded): the
-    /// light sends nothing any more, but the samples that it stands for still count; an empty reservoir in its place is biased. Its
-    /// sample still names the light: a weight of 0 says not to look it up. In a frame: [`apply`](Self::apply), take the removed lights,
-    /// replace their reservoirs, then resample; old surfaces are asked for old lights, so copies of the last frame's
-    /// [`triangles`](Self::triangles) and [`instances`](Self::instances) are kept for [`world_light`](crate::refit::world_light).
+    /// Numbers of lights that are no more, until [`take_removed_lights`](Self::take_removed_lights), in the order in which they
+    /// went; ranges do not overlap but for the first of those below. Every other light keeps its number. A temporal method
+    /// replaces each [`Reservoir`](crate::reservoir::Reservoir) of such a light by its
+    /// [`occluded`](crate::reservoir::Reservoir::occluded): the light sends nothing any more, but the samples that it stands
+    /// for still count; an empty reservoir in its place is biased. Its sample still names the light: a weight of 0 says not to
+    /// look it up. In a frame: [`apply`](Self::apply), take the removed lights, replace their reservoirs, then resample; old
+    /// surfaces are asked for old lights, so copies of the last frame's [`triangles`](Self::triangles) and
+    /// [`instances`](Self::instances) are kept for [`world_light`](crate::refit::world_light).
     ///
-    /// No new light gets such a number before it is taken. The exception keeps numbers from running out where they never are: once more
-    /// than 65,536 numbers wait, and more than there are lights or than half of what is left of 2^30, all of them are free, and the first range is that of every number there was.
-    /// The edit at which that happens takes time in proportion to all that waited.
+    /// No new light gets such a number before it is taken. The exception keeps numbers from running out where they never are:
+    /// once more than 65,536 numbers wait, and more than there are lights or than half of what is left of 2^30, all of them are
+    /// free, and the first range is that of every number there was. The edit at which that happens takes time in proportion to
+    /// all that waited.
     #[must_use]
     pub fn removed_lights(&self) -> &[Range<u32>] {
         &self.removed_lights
     }
 
-    /// Takes the [numbers of lights that are no more](Self::removed_lights) since they were taken last. From now on new lights may
-    /// get them. An engine that keeps no numbers over frames calls this too, for what it leaves waits in memory and in files: 16 bytes
-    /// for each removed instance, up to the limit above.
+    /// Takes the [numbers of lights that are no more](Self::removed_lights) since they were taken last. From now on new lights
+    /// may get them. An engine that keeps no numbers over frames calls this too, for what it leaves waits in memory and in
+    /// files: 16 bytes for each removed instance, up to the limit above.
     pub fn take_removed_lights(&mut self) -> Vec<Range<u32>> {
         let removed = core::mem::take(&mut self.removed_lights);
         let given_back = usize::from(core::mem::take(&mut self.forgotten));

@@ -327,8 +327,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         size_of_val(&*self.nodes) + size_of_val(&*self.instances) + size_of_val(&*self.trails)
     }
 
-    /// Bytes of all its arrays: what sampling reads, the triangles, and what edits and refits need. Lists of what has changed are not
-    /// counted.
+    /// Bytes of all its arrays: what sampling reads, the triangles, and what edits and refits need. Lists of what has changed
+    /// are not counted.
     #[must_use]
     pub fn memory(&self) -> usize {
         let levels = self.blases.iter().map(|blas| &blas.levels);

@@ -29,8 +29,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         Ok(added.instances[0])
     }
 
-    /// Moves an instance, anywhere: it keeps its id and its lights' numbers. One that goes away from those around it is put in elsewhere
-    /// in the top level.
+    /// Moves an instance, anywhere: it keeps its id and its lights' numbers. One that goes away from those around it is put in
+    /// elsewhere in the top level.
     ///
     /// # Errors
     /// [`EditReason`]; nothing is changed then.
@@ -55,10 +55,11 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.one(Edit::SetTriangles { mesh, triangles }).map(|_| ())
     }
 
-    /// Changes the triangles of a mesh from index `first` on, as many as are given. Takes time in proportion to them and to the depth
-    /// of the mesh's tree, of which a [`refit`](Self::refit) then computes the paths to them; all of it where they are more than a
-    /// sixteenth of the mesh, and in a BVH without trails. Only where they reach farther from the mesh's origin than any triangle did,
-    /// each instance of the mesh is looked at; where an instance would then reach beyond 2^40 m, the whole mesh.
+    /// Changes the triangles of a mesh from index `first` on, as many as are given. Takes time in proportion to them and to the
+    /// depth of the mesh's tree, of which a [`refit`](Self::refit) then computes the paths to them; all of it where they are
+    /// more than a sixteenth of the mesh, and in a BVH without trails. Only where they reach farther from the mesh's origin
+    /// than any triangle did, each instance of the mesh is looked at; where an instance would then reach beyond 2^40 m, the
+    /// whole mesh.
     ///
     /// # Errors
     /// [`EditReason`], [`EditReason::Range`] where they are not all in the mesh; nothing is changed then.

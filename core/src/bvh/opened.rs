@@ -1,9 +1,10 @@
-//! Large meshes opened: the top level holds the subtrees below the root of a bottom level in place of the whole (partial re-braiding,
-//! Benthin et al. 2017).
+//! Large meshes opened: the top level holds the subtrees below the root of a bottom level in place of the whole (partial
+//! re-braiding, Benthin et al. 2017).
 //!
-//! A part of an opened instance is a leaf of the top level with a record of its own, which follows that of the instance: the same map,
-//! the same lights, another root. Parts of one mesh share what is known of their subtrees, which stands among the roots of bottom
-//! levels. Nothing else knows of parts: lights are listed, numbered and named by the instance that they belong to.
+//! A part of an opened instance is a leaf of the top level with a record of its own, which follows that of the instance: the
+//! same map, the same lights, another root. Parts of one mesh share what is known of their subtrees, which stands among the
+//! roots of bottom levels. Nothing else knows of parts: lights are listed, numbered and named by the instance that they belong
+//! to.
 //!
 //! What an instance costs the top level is what its lights cost by Ward's criterion, flux times variance of position. It is opened
 //! where that is more than a part [`OPENS`] of what all lights together cost, and closed again below a part [`CLOSES`].
@@ -23,8 +24,8 @@ use crate::tree::INVALID;
 
 /// An instance that costs more than this part of the whole is opened. There are at most as many as its inverse.
 pub(super) const OPENS: f64 = 1.0 / 8192.0;
-/// An opened instance that costs less than this part of the whole is closed: less than [`OPENS`], so that what moves does not open and
-/// close from frame to frame.
+/// An opened instance that costs less than this part of the whole is closed: less than [`OPENS`], so that what moves does not
+/// open and close from frame to frame.
 pub(super) const CLOSES: f64 = OPENS / 4.0;
 
 /// Most instances that are opened or closed as a rebuilt top level is put in place.
@@ -215,7 +216,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.note_reopened(&changed);
     }
 
-    /// The tree was built over what these instances were before they were opened or closed. Among few others it has been decided anew.
+    /// The tree was built over what these instances were before they were opened or closed. Among few others it has been
+    /// decided anew.
     pub(crate) fn note_reopened(&mut self, instances: &[u32]) {
         // A refit that computes nothing leaves the epoch as it is.
         self.epoch += u64::from(!instances.is_empty());
@@ -230,7 +232,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Opens and closes, and returns those that were not so yet, which are still to be noted. Where it is done `beside` the frames, nodes above are computed once for all parts.
+    /// Opens and closes, and returns those that were not so yet, which are still to be noted. Where it is done `beside` the
+    /// frames, nodes above are computed once for all parts.
     pub(super) fn reopen_some(&mut self, open: &[u32], close: &[u32], beside: bool) -> Vec<u32> {
         let mut changed = Vec::new();
         for (list, wanted) in [(open, true), (close, false)] {

@@ -42,8 +42,8 @@ impl Powers {
         }
     }
 
-    /// The power that all lights have. Where they differ it is that of surfaces: weights then are as far off as their own powers are from
-    /// it, and positive all the same.
+    /// The power that all lights have. Where they differ it is that of surfaces: weights then are as far off as their own
+    /// powers are from it, and positive all the same.
     fn common<L: Light>(self) -> u32 {
         if !L::HAS_FLUX_POWERS {
             L::FLUX_POWER

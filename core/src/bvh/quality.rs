@@ -1,11 +1,12 @@
 //! How much worse a bottom level is than when it was built: what decides whether it is built anew.
 //!
-//! A node stands for the lights below each of its children by a few moments. What it cannot tell apart is the share of its lights'
-//! variance of position that lies within its inner children, r = Σ Φ_c s²_c / (Φ σ²), from 0 to 1 and without unit or scale. In σ² is
-//! each light's own extent, in s² the distance of their centers alone: no tree tells points of one light apart, and lamps that start
-//! at one point as r = 0 have all to lose. As refits stretch the nodes, r grows. The mean of its growth over a tree's nodes, by
-//! flux, is what of the order of its lights the tree has lost: 0 as built and for any motion of the whole, 0.6 to 0.85 where
-//! the triangles change places at random. Each node is compared with itself, so nothing that happens elsewhere hides it.
+//! A node stands for the lights below each of its children by a few moments. What it cannot tell apart is the share of its
+//! lights' variance of position that lies within its inner children, r = Σ Φ_c s²_c / (Φ σ²), from 0 to 1 and without unit or
+//! scale. In σ² is each light's own extent, in s² the distance of their centers alone: no tree tells points of one light apart,
+//! and lamps that start at one point as r = 0 have all to lose. As refits stretch the nodes, r grows. The mean of its growth
+//! over a tree's nodes, by flux, is what of the order of its lights the tree has lost: 0 as built and for any motion of the
+//! whole, 0.6 to 0.85 where the triangles change places at random. Each node is compared with itself, so nothing that happens
+//! elsewhere hides it.
 //!
 //! Means of subtrees are kept by node and computed along the paths of a refit. They follow from the words of the nodes and what was
 //! noted at the build, however many refits lie between.
@@ -123,7 +124,8 @@ struct About<const W: usize> {
 impl<const W: usize> About<W> {
     #[inline(always)]
     fn of<N: Node<W>>(node: &N) -> Self {
-        // Component by component, each an array over the slots: processors compute several at a time, but for the sums, whose order counts.
+        // Component by component, each an array over the slots: processors compute several at a time, but for the sums, whose
+        // order counts.
         let (mut flux, mut from) = ([0.0; W], [[0.0; W]; 3]);
         // Positions from the first child's, for the differences of `f32` are exact.
         let first = node.summary(0).center().to_array().map(f64::from);

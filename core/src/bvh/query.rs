@@ -80,7 +80,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.arrays().sample_many_for(receiver, random)
     }
 
-    /// [`sample_batch`](Self::sample_batch) for such receivers; see [`LightTree::sample_batch_for`]. Features `simd` and `prefetch` are for points alone.
+    /// [`sample_batch`](Self::sample_batch) for such receivers; see [`LightTree::sample_batch_for`]. Features `simd` and
+    /// `prefetch` are for points alone.
     pub fn sample_batch_for<P: Receiver>(
         &self,
         receivers: &[P],
@@ -123,9 +124,9 @@ impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
 }
 
 impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
-    /// Probability with which [`sample`](Self::sample) returns `light` of `instance`, as a [`SampledLight`] names them, at `point`:
-    /// to the bit the one that comes with the sample. 0 where there is no such light, and where it is not that instance's. A single level has
-    /// one instance, whichever is named.
+    /// Probability with which [`sample`](Self::sample) returns `light` of `instance`, as a [`SampledLight`] names them, at
+    /// `point`: to the bit the one that comes with the sample. 0 where there is no such light, and where it is not that
+    /// instance's. A single level has one instance, whichever is named.
     ///
     /// For a triangle of a mesh that a ray of the caller's hits, [`pmf_of`](Self::pmf_of) asks by the instance's id.
     #[must_use]
@@ -137,8 +138,8 @@ impl<N: Node<W>, I: ImportanceModel<N, W>, const W: usize> Bvh<N, I, W> {
         self.tree().pmf(point, light, instance)
     }
 
-    /// [`pmf`](Self::pmf) of triangle `triangle`, as the mesh was given, of an instance: what multiple importance sampling asks where a
-    /// ray hits it. `None` where there is no such instance, or its mesh has no such triangle.
+    /// [`pmf`](Self::pmf) of triangle `triangle`, as the mesh was given, of an instance: what multiple importance sampling asks
+    /// where a ray hits it. `None` where there is no such instance, or its mesh has no such triangle.
     #[must_use]
     pub fn pmf_of(&self, point: &ShadingPoint, instance: InstanceId, triangle: u32) -> Option<f32> {
         let light = self.light_of(instance, triangle)?;

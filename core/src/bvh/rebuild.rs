@@ -12,24 +12,27 @@ use super::{Bvh, Trails};
 use crate::build::{BuildParams, Topology, build_over};
 use crate::node::{Holds, Node};
 
-/// When trees are built anew: by default once they are 1.1 times worse than when they were built, either level. Any number is sound: NaN means
-/// never, and what is below 1 is taken as 1.
+/// When trees are built anew: by default once they are 1.1 times worse than when they were built, either level. Any number is
+/// sound: NaN means never, and what is below 1 is taken as 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RebuildParams {
-    /// The top level is once it is worse than when it was built by this factor, as below: 1 for whenever something has changed, infinite
-    /// for never. Of one of 513 to 1024 instances a [`Rebuilder`](crate::Rebuilder) asks for its root alone as well, which counts twice. Of a top level of more than 1024 instances a [`Rebuilder`](crate::Rebuilder) builds parts that are worse by as much,
-    /// and the nodes above them where those lost a twentieth at least. At the default of 1.1 trees were better than at 1, for two thirds to three quarters of
-    /// the time where lamps mix and about the same where clusters of them change places (`docs/dynamics.md`, "When it pays").
+    /// The top level is once it is worse than when it was built by this factor, as below: 1 for whenever something has changed,
+    /// infinite for never. Of one of 513 to 1024 instances a [`Rebuilder`](crate::Rebuilder) asks for its root alone as well,
+    /// which counts twice. Of a top level of more than 1024 instances a [`Rebuilder`](crate::Rebuilder) builds parts that are
+    /// worse by as much, and the nodes above them where those lost a twentieth at least. At the default of 1.1 trees were
+    /// better than at 1, for two thirds to three quarters of the time where lamps mix and about the same where clusters of them
+    /// change places (`docs/dynamics.md`, "When it pays").
     ///
-    /// Worse is what lost its order. That the order edits made is not that of a new tree, as after 10^4 lamps have come in in the order of a scan, is
-    /// seen by a rebuilder alone, which tries parts in which much was built; by [`Bvh::rebuild`](crate::Bvh::rebuild) such a tree stays, unless it is
-    /// [`eager`](Self::eager).
+    /// Worse is what lost its order. That the order edits made is not that of a new tree, as after 10^4 lamps have come in in
+    /// the order of a scan, is seen by a rebuilder alone, which tries parts in which much was built; by
+    /// [`Bvh::rebuild`](crate::Bvh::rebuild) such a tree stays, unless it is [`eager`](Self::eager).
     pub top: f64,
-    /// A bottom level is once it is worse than when it was built by more than this factor; infinite for never. The factor is
-    /// 1 / (1 - l), where l is the mean by flux, over the nodes, of how much more of their lights' variance of position lies between the
-    /// lights of each of their children: 0 as built, wherever the mesh goes, however it is scaled, and whatever happens elsewhere; 0.65 to 0.85, a factor of 3
-    /// to 7, where all triangles changed places. What only a device has refitted is not seen to lose quality. From 1.01 on a
-    /// [`Rebuilder`](crate::Rebuilder) also builds a mesh anew once at rest, of which one triangle in 32 changed a few at a time.
+    /// A bottom level is once it is worse than when it was built by more than this factor; infinite for never. The factor is 1
+    /// / (1 - l), where l is the mean by flux, over the nodes, of how much more of their lights' variance of position lies
+    /// between the lights of each of their children: 0 as built, wherever the mesh goes, however it is scaled, and whatever
+    /// happens elsewhere; 0.65 to 0.85, a factor of 3 to 7, where all triangles changed places. What only a device has refitted
+    /// is not seen to lose quality. From 1.01 on a [`Rebuilder`](crate::Rebuilder) also builds a mesh anew once at rest, of
+    /// which one triangle in 32 changed a few at a time.
     pub drift: f64,
 }
 
@@ -45,8 +48,9 @@ impl Default for RebuildParams {
 const LARGE: usize = 512;
 
 impl RebuildParams {
-    /// The top level whatever it lost, as the paper does in each frame; bottom levels as by default. By [`Bvh::rebuild`](crate::Bvh::rebuild) that is
-    /// the whole of it; by a [`Rebuilder`](crate::Rebuilder), where it has more than 1024 instances, each part in which anything changed, in turn.
+    /// The top level whatever it lost, as the paper does in each frame; bottom levels as by default. By
+    /// [`Bvh::rebuild`](crate::Bvh::rebuild) that is the whole of it; by a [`Rebuilder`](crate::Rebuilder), where it has more
+    /// than 1024 instances, each part in which anything changed, in turn.
     #[must_use]
     pub fn eager() -> Self {
         Self {
@@ -75,8 +79,8 @@ const EAGER: f64 = 1.01;
 /// Most instances of subtrees that are built anew for what came while a tree was built and was put into it.
 pub(super) const ADOPTED: u64 = 64;
 
-/// Entries of the lists of what changed that are not sorted: the refit that comes next takes them, and to sort those of a part was a
-/// tenth of the time that putting it in place took.
+/// Entries of the lists of what changed that are not sorted: the refit that comes next takes them, and to sort those of a part
+/// was a tenth of the time that putting it in place took.
 const MANY: usize = 8192;
 
 /// Work for any thread: a copy of what is to be built anew.
@@ -216,7 +220,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         found
     }
 
-    /// Whether a bottom level is to be built anew once it is at rest. What lost a hundredth is built by those who ask for it, at rest or not.
+    /// Whether a bottom level is to be built anew once it is at rest. What lost a hundredth is built by those who ask for it,
+    /// at rest or not.
     #[cfg(feature = "std")]
     pub(crate) fn is_to_rest(&self, blas: u32, params: &RebuildParams) -> bool {
         params.drift >= EAGER && self.is_unsettled(blas)
@@ -256,8 +261,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         own.is_some_and(|own| !own.nodes.is_empty() && !own.is_outgoing) && self.drift(blas) > params.drift
     }
 
-    /// What `params` wants built anew, and why, the top level first: it as a whole, in the mean over its lights, while a rebuilder asks
-    /// each part of a large one, and tries those in which much was built besides. A tree that is as built is not due. In time in proportion to the meshes refitted since they were built.
+    /// What `params` wants built anew, and why, the top level first: it as a whole, in the mean over its lights, while a
+    /// rebuilder asks each part of a large one, and tries those in which much was built besides. A tree that is as built is not
+    /// due. In time in proportion to the meshes refitted since they were built.
     #[must_use]
     pub fn due(&self, params: &RebuildParams) -> Vec<Due> {
         let top = Due {
@@ -309,8 +315,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.install_as(rebuilt, true).map(|_| ())
     }
 
-    /// The same, and unless it `opens` them, but for opening and closing instances: returns those that are still to be opened, those to be
-    /// closed, and bottom levels whose trees have to wait for that.
+    /// The same, and unless it `opens` them, but for opening and closing instances: returns those that are still to be opened,
+    /// those to be closed, and bottom levels whose trees have to wait for that.
     pub(crate) fn install_as(
         &mut self,
         rebuilt: Rebuilt<N, W>,
@@ -362,7 +368,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         Ok((changes, unfit))
     }
 
-    /// So much of a bottom level changed while its tree was built, which counts as built for it as it is: it may want another at rest.
+    /// So much of a bottom level changed while its tree was built, which counts as built for it as it is: it may want another
+    /// at rest.
     fn note_unsettled(&mut self, blas: u32, unsettled: u32) {
         self.blases[blas as usize].unsettled = unsettled;
         if unsettled > 0 {

@@ -37,8 +37,8 @@ pub(super) struct InstanceState {
     pub hung: u64,
     /// Its radiance then; of one that flickers, the greatest since.
     pub hung_radiance: f32,
-    /// Whether it was put in elsewhere for being dimmer before. From then on only being brighter is a reason: a lamp that flickers stays
-    /// where its light belongs.
+    /// Whether it was put in elsewhere for being dimmer before. From then on only being brighter is a reason: a lamp that
+    /// flickers stays where its light belongs.
     pub flickers: bool,
     /// Its centre then, metres; NaN before it is moved for the first time.
     pub hung_center: [f32; 3],
@@ -71,7 +71,8 @@ impl InstanceState {
         self.hung_center = [f32::NAN; 3];
     }
 
-    /// Radiance as it was put where it is, the sign telling of [`flickers`](Self::flickers), and the centre then: words of the format.
+    /// Radiance as it was put where it is, the sign telling of [`flickers`](Self::flickers), and the centre then: words of the
+    /// format.
     pub fn hung_words(&self) -> [u32; 4] {
         let sign = if self.flickers { -1.0 } else { 1.0 };
         let [x, y, z] = self.hung_center;

@@ -51,11 +51,13 @@ impl RefitPlan {
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Says what changed since the last call: the lists of [`work`](Self::work), for a mirror on a device that does them in its place,
-    /// call by call without gaps. Whether and when the BVH is refitted here does not matter to what it says. The first call says what changed since
-    /// the last [`refit`](Self::refit); a mirror takes over all arrays before it. Arrays that are longer than before are longer in the mirror, whose
-    /// new places may hold anything: lists name a place once something stands there, and no walk comes to it before. Arrays never get shorter, and what is
-    /// in use of their nodes and roots [`plan_of_everything`](Self::plan_of_everything) says. The words of places that are not in use any more may differ from a mirror's.
+    /// Says what changed since the last call: the lists of [`work`](Self::work), for a mirror on a device that does them in its
+    /// place, call by call without gaps. Whether and when the BVH is refitted here does not matter to what it says. The first
+    /// call says what changed since the last [`refit`](Self::refit); a mirror takes over all arrays before it. Arrays that are
+    /// longer than before are longer in the mirror, whose new places may hold anything: lists name a place once something
+    /// stands there, and no walk comes to it before. Arrays never get shorter, and what is in use of their nodes and roots
+    /// [`plan_of_everything`](Self::plan_of_everything) says. The words of places that are not in use any more may differ from
+    /// a mirror's.
     ///
     /// To read the arrays beside the lists, drop what this returns and ask [`work`](Self::work), before the next refit.
     ///
@@ -78,8 +80,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         &self.planned
     }
 
-    /// A refit of everything, for a mirror that has just taken all arrays over: its ranges of what was written are empty, for nothing is left to be copied.
-    /// To compare a mirror, compare the nodes and roots that it lists; for the rest, what [`triangle`](Self::triangle) and the instances that are live name.
+    /// A refit of everything, for a mirror that has just taken all arrays over: its ranges of what was written are empty, for
+    /// nothing is left to be copied. To compare a mirror, compare the nodes and roots that it lists; for the rest, what
+    /// [`triangle`](Self::triangle) and the instances that are live name.
     #[must_use]
     pub fn plan_of_everything(&self) -> RefitPlan {
         let used = || (0..).zip(&self.blases).filter(|(_, blas)| !blas.nodes.is_empty());

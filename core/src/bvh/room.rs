@@ -1,8 +1,9 @@
 //! Room in the arrays for what is built beside the frames.
 //!
-//! An array that grows moves all that it holds, which takes longer than a frame may, and memory that is written for the first time costs
-//! a page fault for each 4 KiB. So room is reserved as meshes come in, whose calls pay for their triangles anyway; what is reserved takes no
-//! memory before it is written. A frame then fills as much of it as it may, before anything is put there.
+//! An array that grows moves all that it holds, which takes longer than a frame may, and memory that is written for the first
+//! time costs a page fault for each 4 KiB. So room is reserved as meshes come in, whose calls pay for their triangles anyway;
+//! what is reserved takes no memory before it is written. A frame then fills as much of it as it may, before anything is put
+//! there.
 
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -11,8 +12,8 @@ use super::quality::Quality;
 use super::{Bvh, Trails};
 use crate::node::Node;
 
-/// So many bytes are copied in the time in which one is written for the first time: a page fault is 0.25 µs at best and 10 µs on a virtual
-/// machine that has to ask for the page.
+/// So many bytes are copied in the time in which one is written for the first time: a page fault is 0.25 µs at best and 10 µs
+/// on a virtual machine that has to ask for the page.
 const FRESH: usize = 3;
 /// So many of the largest mesh find room beside what there is.
 const MESHES: usize = 2;
@@ -36,8 +37,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Has room for [`MESHES`] new trees of the largest mesh and a few small ones; in no time where it is there. A new tree may have
-    /// a few nodes more.
+    /// Has room for [`MESHES`] new trees of the largest mesh and a few small ones; in no time where it is there. A new tree may
+    /// have a few nodes more.
     pub(super) fn reserve_room(&mut self) {
         let [triangles, nodes] = self.largest;
         let triangles = self.triangles.len() + MESHES * triangles;
@@ -99,9 +100,10 @@ fn next(length: usize, end: u32, size: usize, bytes: &mut usize) -> u32 {
     end.min((length + more) as u32)
 }
 
-/// Has room for as many entries, where the system has it: nobody has asked for them yet. Where there is not, the list gets twice the room: with no more than is asked for,
-/// the next small mesh would move a list that a large one has just moved, 30 ms of 10^6 triangles. And no less than a quarter of what there is, so that
-/// meshes that come one by one move it seldom: a list of *n* entries was moved by every third call, *n*² bytes in all.
+/// Has room for as many entries, where the system has it: nobody has asked for them yet. Where there is not, the list gets
+/// twice the room: with no more than is asked for, the next small mesh would move a list that a large one has just moved, 30 ms
+/// of 10^6 triangles. And no less than a quarter of what there is, so that meshes that come one by one move it seldom: a list
+/// of *n* entries was moved by every third call, *n*² bytes in all.
 pub(super) fn reserve<E>(list: &mut Vec<E>, length: usize) {
     let room = length.saturating_sub(list.len());
     if list.capacity() - list.len() < room {

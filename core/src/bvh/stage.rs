@@ -1,9 +1,9 @@
 //! Bottom levels built beside the frames and put in place piece by piece, so that no frame waits for a large mesh.
 //!
-//! A stage copies the triangles of a mesh a piece at a time, to where they will stand and for the builder; the builder, on a thread of
-//! its own, gives a tree that is refitted; its nodes and trails are put in place a piece at a time, beside those that are walked; what
-//! changed meanwhile is refitted there; then the instances are told of the new root and triangles, all at once. The order of lights
-//! is a hint: what is exact comes from the refit. Edits meanwhile write both places.
+//! A stage copies the triangles of a mesh a piece at a time, to where they will stand and for the builder; the builder, on a
+//! thread of its own, gives a tree that is refitted; its nodes and trails are put in place a piece at a time, beside those that
+//! are walked; what changed meanwhile is refitted there; then the instances are told of the new root and triangles, all at
+//! once. The order of lights is a hint: what is exact comes from the refit. Edits meanwhile write both places.
 
 mod dirty;
 mod fit;
@@ -122,7 +122,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.blases[blas as usize].triangles.len()
     }
 
-    /// Begins a stage for bottom level `blas`; `None` where there is no such, and in a single level, whose lights are its triangles.
+    /// Begins a stage for bottom level `blas`; `None` where there is no such, and in a single level, whose lights are its
+    /// triangles.
     pub(crate) fn begin_stage(&mut self, blas: u32, builder: &Builder) -> Option<(StageId, MeshJob<N>)> {
         let own = self.blases.get(blas as usize)?;
         if self.single || own.nodes.is_empty() || own.is_outgoing || own.outgoing.is_some() {
@@ -203,8 +204,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Gives up what nobody will bring to an end: all that is under way of builders that are gone, and what `builder` does not keep. Whether
-    /// another builder has any.
+    /// Gives up what nobody will bring to an end: all that is under way of builders that are gone, and what `builder` does not
+    /// keep. Whether another builder has any.
     pub(crate) fn drop_stages_but(&mut self, builder: &Builder, kept: impl Fn(StageId) -> bool) -> bool {
         let mut is_shared = false;
         for blas in self.staging.clone() {

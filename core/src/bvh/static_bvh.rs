@@ -11,8 +11,9 @@ use crate::point::{Receiver, ShadingPoint};
 use crate::traverse::{Random64, SampledLight};
 use crate::tree::{LightTree, TreeWords};
 
-/// What sampling reads of a [`Bvh`], for lights that stay as they are: nodes, instances, and with [`WithTrails`] trails. The triangles,
-/// and all that edits and refits need, are left out: the caller has the lights, and [`LightTree::triangle`] finds one.
+/// What sampling reads of a [`Bvh`], for lights that stay as they are: nodes, instances, and with [`WithTrails`] trails. The
+/// triangles, and all that edits and refits need, are left out: the caller has the lights, and [`LightTree::triangle`] finds
+/// one.
 ///
 /// ```
 /// # use lightbvh::{BuildParams, LightBvh, Lights, ShadingPoint, bvh::StaticBvh};

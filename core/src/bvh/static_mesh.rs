@@ -18,12 +18,12 @@ use crate::transform::Extent;
 use crate::traverse::{Random64, SampledLight};
 use crate::tree::LightTree;
 
-/// A [`Bvh`] for instances that move, are dimmed, come and go, of meshes that stay as they are. What refits of bottom levels read is left
-/// out: 56 bytes of each triangle, and the lists of their nodes. The caller has the triangles; [`lights_of`](Self::lights_of) says which
-/// of them a sample names, [`LightTree::triangle`] brings it into the world.
+/// A [`Bvh`] for instances that move, are dimmed, come and go, of meshes that stay as they are. What refits of bottom levels
+/// read is left out: 56 bytes of each triangle, and the lists of their nodes. The caller has the triangles;
+/// [`lights_of`](Self::lights_of) says which of them a sample names, [`LightTree::triangle`] brings it into the world.
 ///
-/// Nodes, samples and probabilities are those of the [`Bvh`] that it was made of, frame after frame. It is for the CPU: a device that
-/// refits takes over triangles too.
+/// Nodes, samples and probabilities are those of the [`Bvh`] that it was made of, frame after frame. It is for the CPU: a
+/// device that refits takes over triangles too.
 ///
 /// ```
 /// # use lightbvh::{Edit, EmissiveTriangle, LightBvh, ShadingPoint, Transform};
@@ -45,8 +45,8 @@ use crate::tree::LightTree;
 pub struct StaticMeshBvh<N: Holds, I, const W: usize, T = WithTrails>(Bvh<N, I, W, T>);
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// The same light BVH for meshes that stay as they are, refitted. Its ids stay; rebuilds of bottom levels that are under way come to
-    /// nothing.
+    /// The same light BVH for meshes that stay as they are, refitted. Its ids stay; rebuilds of bottom levels that are under
+    /// way come to nothing.
     #[must_use]
     pub fn into_static_meshes(mut self) -> StaticMeshBvh<N, I, W, T> {
         for blas in self.handing.clone() {

@@ -107,9 +107,9 @@ fn variance_of_eq_4() {
     about(variance::<CompactNode<4>, Eq4, 4>(&params), 2.436);
 }
 
-/// 1/64 of uniform choice bounds what the weights may underrate: the relative variance is at most 64 times the number of lights, at any
-/// point. One lamp in 300 is 10^6 times as bright, or each has a power of two of its own; points all over the room, and beside lamps, where these
-/// are behind each other's horizon.
+/// 1/64 of uniform choice bounds what the weights may underrate: the relative variance is at most 64 times the number of
+/// lights, at any point. One lamp in 300 is 10^6 times as bright, or each has a power of two of its own; points all over the
+/// room, and beside lamps, where these are behind each other's horizon.
 #[test]
 fn uniform_choice_bounds_the_worst() {
     let (plain, points) = scene();

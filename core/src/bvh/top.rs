@@ -1,9 +1,9 @@
 //! The top level: a tree over instances that edits change leaf by leaf and rebuilds replace.
 //!
 //! Its nodes lie anywhere among the nodes, and have numbers of their own: links upward, from a leaf to the root, stand in the
-//! records of instances by those numbers ([`Instance::place`](crate::Instance), `above`). So a subtree is moved by one link down and
-//! one up, whatever is below it. Every node but the root has two children or more, so there are fewer nodes than instances, and
-//! enough records.
+//! records of instances by those numbers ([`Instance::place`](crate::Instance), `above`). So a subtree is moved by one link
+//! down and one up, whatever is below it. Every node but the root has two children or more, so there are fewer nodes than
+//! instances, and enough records.
 
 mod adopt;
 mod come;
@@ -144,8 +144,8 @@ impl Top {
     }
 }
 
-/// How a top level is built as a whole: where meshes may be opened by twice as many buckets. Its leaves are few and large, so a plane
-/// that lies a little off costs more than below.
+/// How a top level is built as a whole: where meshes may be opened by twice as many buckets. Its leaves are few and large, so a
+/// plane that lies a little off costs more than below.
 fn in_full(params: &BuildParams) -> BuildParams {
     BuildParams {
         buckets: if params.opens {
@@ -254,8 +254,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         (to == kind::MESH).then_some(link)
     }
 
-    /// Notes all of the top level's nodes anew, which have the numbers by which `top.nodes` lists them: heights, counts, and the links
-    /// upward from each node and instance.
+    /// Notes all of the top level's nodes anew, which have the numbers by which `top.nodes` lists them: heights, counts, and
+    /// the links upward from each node and instance.
     pub(super) fn index_top(&mut self) {
         let numbers = self.top.nodes.len();
         let used = (0..).zip(&self.top.nodes).filter(|&(_, &node)| node != INVALID);

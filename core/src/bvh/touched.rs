@@ -11,8 +11,8 @@ use crate::levels::Levels;
 use crate::light::Light;
 use crate::node::{Node, kind};
 
-/// Where more than this share of a bottom level's triangles changed, all of it is swept. Paths to a sixteenth take 0.65 to 0.76 of a
-/// sweep's time where the triangles lie anywhere in the mesh, to an eighth 0.9 to 1.15 (10^5 and 10^6 triangles).
+/// Where more than this share of a bottom level's triangles changed, all of it is swept. Paths to a sixteenth take 0.65 to 0.76
+/// of a sweep's time where the triangles lie anywhere in the mesh, to an eighth 0.9 to 1.15 (10^5 and 10^6 triangles).
 const MOST: usize = 16;
 
 /// By node: the last search that came by.
@@ -84,8 +84,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         parts
     }
 
-    /// Bottom levels that changed in part, and the nodes of each that are to be computed. Those that changed so much that a sweep is no more work
-    /// become bottom levels that changed as a whole.
+    /// Bottom levels that changed in part, and the nodes of each that are to be computed. Those that changed so much that a
+    /// sweep is no more work become bottom levels that changed as a whole.
     pub(super) fn touched(&mut self, pending: &mut Pending) -> (Vec<u32>, Vec<Levels>) {
         let parts = self.parts(pending);
         pending.parts.clear();

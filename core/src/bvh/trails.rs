@@ -51,8 +51,9 @@ impl<N, I: ImportanceModel<N, W, P>, const W: usize, T: Trails, P> Sampled<N, I,
 }
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
-    /// The same light BVH without bit trails, 4 to 8 bytes less for each triangle: for direct lighting that chooses lights and never asks
-    /// what the probability of a given light would have been. Edits, refits and rebuilds go on as before and keep no trails.
+    /// The same light BVH without bit trails, 4 to 8 bytes less for each triangle: for direct lighting that chooses lights and
+    /// never asks what the probability of a given light would have been. Edits, refits and rebuilds go on as before and keep no
+    /// trails.
     ///
     /// Samples and their probabilities are the same words. The importance must have no share of uniform choice
     /// ([`Defensive`](crate::Defensive)), whose lights are found by their trails; another does not compile:

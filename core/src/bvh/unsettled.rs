@@ -1,7 +1,8 @@
 //! Meshes whose triangles change a few at a time: how much of a tree is not what it was made for.
 //!
-//! What a tree lost is measured by flux and node by node, and light reaches a point from dim triangles too: where each change is little, a tree
-//! is never worn, and after many it is far worse than a new one. So changes are counted, and a rebuilder makes a new tree once they are at rest.
+//! What a tree lost is measured by flux and node by node, and light reaches a point from dim triangles too: where each change
+//! is little, a tree is never worn, and after many it is far worse than a new one. So changes are counted, and a rebuilder
+//! makes a new tree once they are at rest.
 
 use super::{Bvh, Trails};
 use crate::node::Node;
@@ -16,8 +17,8 @@ const SHARE: u64 = 32;
 const MUCH: u64 = 8;
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Some triangles of bottom level `blas` are about to be these. One that outshines the mean of the mesh, as the last refit saw it, counts as
-    /// so many; what is as dim is known to none.
+    /// Some triangles of bottom level `blas` are about to be these. One that outshines the mean of the mesh, as the last refit
+    /// saw it, counts as so many; what is as dim is known to none.
     pub(super) fn unsettle_mesh(&mut self, blas: u32, triangles: &[N::Light]) {
         let count = self.blases[blas as usize].triangles.len();
         let mean = f64::from(self.root_of(blas).phi()) / count.max(1) as f64;
@@ -52,8 +53,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Whether a bottom level has rested since that epoch: nothing of it changed, or it is much of it that is unsettled, and no more than one in [`SHARE`]
-    /// of its triangles changed in any frame.
+    /// Whether a bottom level has rested since that epoch: nothing of it changed, or it is much of it that is unsettled, and no
+    /// more than one in [`SHARE`] of its triangles changed in any frame.
     #[cfg(feature = "std")]
     pub(crate) fn is_at_rest(&self, blas: u32, since: u64) -> bool {
         let own = self.blases.get(blas as usize);

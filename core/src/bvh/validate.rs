@@ -38,7 +38,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// - each node in use is reached once, through links that are in range, and knows its parent;
     /// - each live instance is a leaf of the top level exactly once, each triangle of a bottom level a leaf of it exactly
     ///   once, and their trails lead there;
-    /// - the lists of levels are complete and run from the deepest level to the root; heights and counts are those of what is below;
+    /// - the lists of levels are complete and run from the deepest level to the root; heights and counts are those of what is
+    ///   below;
     /// - every node of the top level but its root has two children or more;
     /// - ranges of nodes, triangles and lights in use do not overlap;
     /// - an instance's words are those of its transform, mesh and bottom level;

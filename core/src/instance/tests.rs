@@ -197,8 +197,8 @@ fn normals_come_back_at_unit_length() {
     }
 }
 
-/// Radiance in the world: scaled and kept within its range, zero where the triangle, its channel or the instance has none, and where
-/// the mesh's triangle has no area, though rounding gives it some in the world.
+/// Radiance in the world: scaled and kept within its range, zero where the triangle, its channel or the instance has none, and
+/// where the mesh's triangle has no area, though rounding gives it some in the world.
 #[test]
 fn radiance_in_the_world() {
     use crate::light::{EmissiveTriangle, MAX_RADIANCE, MIN_RADIANCE};

@@ -1,5 +1,5 @@
-//! Every kind of light against integrals in `f64`: flux, moments, the points that are sampled, what they send, and where instances put
-//! them.
+//! Every kind of light against integrals in `f64`: flux, moments, the points that are sampled, what they send, and where
+//! instances put them.
 
 extern crate std;
 

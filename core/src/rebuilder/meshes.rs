@@ -10,7 +10,8 @@ use crate::bvh::{Builder, Bvh, HANDED, MeshJob, MeshTree, StageId, Trails};
 use crate::levels::Levels;
 use crate::node::{Holds, Node};
 
-/// A mesh with at most one triangle for so many bytes is put in place at once: a sweep takes as long for a triangle as so many bytes.
+/// A mesh with at most one triangle for so many bytes is put in place at once: a sweep takes as long for a triangle as so many
+/// bytes.
 const SWEPT: u32 = 256;
 /// What a frame copies less where it puts a part of the top level in place, which takes as long as copying all of it does.
 const BESIDE: u32 = 4;
@@ -95,7 +96,8 @@ fn is_wanted<N: Node<W>, I, const W: usize, T: Trails>(
     scene.is_worn(blas, &params.rebuild) || scene.is_to_rest(blas, &params.rebuild)
 }
 
-/// Whether a bottom level gets its tree in one frame, built beside the others of the frame: a small one of few instances, and a single level.
+/// Whether a bottom level gets its tree in one frame, built beside the others of the frame: a small one of few instances, and a
+/// single level.
 fn is_at_once<N: Node<W>, I, const W: usize, T: Trails>(
     scene: &Bvh<N, I, W, T>,
     blas: u32,
@@ -168,8 +170,8 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
         !self.small.is_empty()
     }
 
-    /// Of those refitted lately, `worn` are to be built, once others are done, large ones among `strained` looked at, and `unsettled` ones built once
-    /// nothing of them has changed since the epoch `rests_since`.
+    /// Of those refitted lately, `worn` are to be built, once others are done, large ones among `strained` looked at, and
+    /// `unsettled` ones built once nothing of them has changed since the epoch `rests_since`.
     pub fn await_turn<I, T: Trails>(
         &mut self,
         [worn, strained, unsettled]: [Vec<u32>; 3],
@@ -208,8 +210,8 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
         flights.any(|flight| flight.blas == blas && flight.is_part == is_part)
     }
 
-    /// Those that are put in place at once next, in no more triangles than a frame may take, all of a single level; and whether they are so
-    /// many that nothing else should be.
+    /// Those that are put in place at once next, in no more triangles than a frame may take, all of a single level; and whether
+    /// they are so many that nothing else should be.
     pub fn next_small<I, T: Trails>(
         &mut self,
         scene: &Bvh<N, I, W, T>,
@@ -238,8 +240,8 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
         (now, room < all / 2)
     }
 
-    /// Brings all of them on, by no more than the frame may take, and a part [`BESIDE`] of it where it `shares` the frame with a part of the top level
-    /// that comes in.
+    /// Brings all of them on, by no more than the frame may take, and a part [`BESIDE`] of it where it `shares` the frame with
+    /// a part of the top level that comes in.
     pub fn begin_frame<I, T: Trails>(
         &mut self,
         scene: &mut Bvh<N, I, W, T>,
@@ -416,8 +418,8 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
                 (false, _) => &mut start.dropped,
             };
             *count += 1;
-            // Nobody asks for it again: what changed while it was built may have worn the new tree already, and what came to nothing is as
-            // worn as it was. A mesh of which a part found no tree may have other parts.
+            // Nobody asks for it again: what changed while it was built may have worn the new tree already, and what came to
+            // nothing is as worn as it was. A mesh of which a part found no tree may have other parts.
             match (flight.is_part, is_adopted) {
                 (true, true) => {}
                 (true, false) => self.strained.push(flight.blas),

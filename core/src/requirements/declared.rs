@@ -18,8 +18,8 @@ pub struct Changes {
     pub transforms: bool,
     /// Instances become brighter or dimmer, as a whole ([`Edit::SetRadiance`](crate::Edit::SetRadiance)).
     pub radiance: bool,
-    /// Meshes deform, or the emission of their triangles varies ([`Edit::SetTriangles`](crate::Edit::SetTriangles)); none turns from
-    /// one that shines from both sides into one that shines from one.
+    /// Meshes deform, or the emission of their triangles varies ([`Edit::SetTriangles`](crate::Edit::SetTriangles)); none turns
+    /// from one that shines from both sides into one that shines from one.
     pub triangles: bool,
     /// Instances of the same meshes come and go.
     pub instances: bool,

@@ -51,8 +51,9 @@ impl LightKinds {
         }
     }
 
-    /// The type of a node `width` wide over all of them, as Rust has it. With cones ([`SpotMomentNode`](crate::node::SpotMomentNode)) where
-    /// any light has one: without, points beside its cone choose it, which costs variance and no bias.
+    /// The type of a node `width` wide over all of them, as Rust has it. With cones
+    /// ([`SpotMomentNode`](crate::node::SpotMomentNode)) where any light has one: without, points beside its cone choose it,
+    /// which costs variance and no bias.
     #[must_use]
     pub fn node_type(&self, width: usize) -> String {
         let layout = match self.narrow {

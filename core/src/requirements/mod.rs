@@ -34,8 +34,8 @@ pub(crate) use scene::Placed;
 pub use scene::SceneLights;
 pub use transforms::{TOLERANCE, TransformKind};
 
-/// What is known of a scene's lights, and what is declared of their future. A plain structure: [`facts`](Self::facts) gives reasons,
-/// [`model`](Self::model) draws the conclusion.
+/// What is known of a scene's lights, and what is declared of their future. A plain structure: [`facts`](Self::facts) gives
+/// reasons, [`model`](Self::model) draws the conclusion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Requirements {
@@ -74,8 +74,8 @@ pub struct Requirements {
 }
 
 impl Requirements {
-    /// What `scene`, a `&Bvh` or `&Lights`, requires under what is `declared`. Takes time in proportion to its lights, about that of
-    /// a refit; triangles are sorted once more where their normals may cancel.
+    /// What `scene`, a `&Bvh` or `&Lights`, requires under what is `declared`. Takes time in proportion to its lights, about
+    /// that of a refit; triangles are sorted once more where their normals may cancel.
     #[must_use]
     pub fn of<'a>(scene: impl Into<SceneLights<'a>>, declared: Declared) -> Self {
         let scene = scene.into();

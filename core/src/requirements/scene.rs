@@ -9,8 +9,8 @@ use crate::lights::Lights;
 use crate::node::LightNode;
 use crate::transform::Transform;
 
-/// Validated lights: from a [`Bvh`], whose meshes are shared by instances, or from [`Lights`], each of whose mesh lights is a mesh that
-/// stands in the world.
+/// Validated lights: from a [`Bvh`], whose meshes are shared by instances, or from [`Lights`], each of whose mesh lights is a
+/// mesh that stands in the world.
 #[derive(Clone, Debug)]
 pub struct SceneLights<'a> {
     pub(super) meshes: Vec<&'a [EmissiveTriangle]>,

@@ -7,9 +7,9 @@ use alloc::vec::Vec;
 use super::{Layout, Model, Orientation, Requirements, Structure, TransformKind, Updates};
 
 impl Requirements {
-    /// The smallest model that is sufficient. Layout, trails and updates keep the bits of probabilities. One level in place of several,
-    /// or of a mesh that stands elsewhere than at the identity, is another tree, and without uniform choice probabilities are others
-    /// too: what that does to the variance depends on the scene, and `lightbvh inspect` measures it.
+    /// The smallest model that is sufficient. Layout, trails and updates keep the bits of probabilities. One level in place of
+    /// several, or of a mesh that stands elsewhere than at the identity, is another tree, and without uniform choice
+    /// probabilities are others too: what that does to the variance depends on the scene, and `lightbvh inspect` measures it.
     #[must_use]
     pub fn model(&self) -> Model {
         let default = Model::DEFAULT;
@@ -54,8 +54,8 @@ impl Requirements {
             && self.normals_to_come() == 0
     }
 
-    /// Triangles that may get a normal: needles that move, deform, or stand in the world otherwise than in their mesh, and those that start
-    /// to shine.
+    /// Triangles that may get a normal: needles that move, deform, or stand in the world otherwise than in their mesh, and
+    /// those that start to shine.
     fn normals_to_come(&self) -> usize {
         let changes = self.declared.changes;
         let moved = self.transform() > TransformKind::Identity;
@@ -63,8 +63,8 @@ impl Requirements {
         self.needles * widen + self.unlit * usize::from(changes.triangles)
     }
 
-    /// Whether a tree over triangles in the world can follow what changes, without another copy of any triangle: of one mesh that stays
-    /// where it is, or of several that stay as they are.
+    /// Whether a tree over triangles in the world can follow what changes, without another copy of any triangle: of one mesh
+    /// that stays where it is, or of several that stay as they are.
     pub(super) fn one_level_is_enough(&self) -> bool {
         self.needs_instances().is_empty()
     }

@@ -33,8 +33,8 @@ impl Extent {
         }
     }
 
-    /// Once triangles of extent `new` are in place of some of extent `old`: never less than the truth, in time in proportion to what
-    /// changed.
+    /// Once triangles of extent `new` are in place of some of extent `old`: never less than the truth, in time in proportion to
+    /// what changed.
     pub fn with(&self, old: &Self, new: &Self) -> Self {
         let grows = new.coordinate >= self.coordinate;
         Self {

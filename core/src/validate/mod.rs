@@ -1,7 +1,7 @@
 //! The invariants of a light BVH, checked one by one; the first that does not hold is named.
 //!
-//! [`Bvh::validate`](crate::Bvh::validate) trusts no word: links, kinds and trails may hold anything. It runs on the CPU only, takes
-//! time linear in the number of nodes, and needs as much memory again as the tree.
+//! [`Bvh::validate`](crate::Bvh::validate) trusts no word: links, kinds and trails may hold anything. It runs on the CPU only,
+//! takes time linear in the number of nodes, and needs as much memory again as the tree.
 
 mod bounds;
 

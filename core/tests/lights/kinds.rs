@@ -1,5 +1,5 @@
-//! A light BVH over each kind of light: probabilities sum to one, no light is lost, estimates converge to the sum over all lights, and
-//! edits, rebuilds and files go on with it.
+//! A light BVH over each kind of light: probabilities sum to one, no light is lost, estimates converge to the sum over all
+//! lights, and edits, rebuilds and files go on with it.
 
 use crate::kit::Random;
 use lightbvh::exact::hash;

@@ -153,7 +153,8 @@ fn no_part_at_all_counts_both_alike() {
     }
 }
 
-/// Mean relative variance of one sample, by enumeration of all lights, of `I` as told, and the greatest deviation of a sum of pmfs from 1.
+/// Mean relative variance of one sample, by enumeration of all lights, of `I` as told, and the greatest deviation of a sum of
+/// pmfs from 1.
 fn variance<N: LightNode<W>, I, P, const W: usize>(
     two: bool,
     parts: [f32; 2],

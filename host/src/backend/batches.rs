@@ -54,9 +54,9 @@ impl Integrator {
     }
 }
 
-/// The image of `params` from images of at most `most` samples each, which take the samples of a pixel one after another or, of paths,
-/// differ in their seed. Up to `most` samples it is `image` itself; beyond, the mean over all samples, added in order in `f64` and rounded
-/// once.
+/// The image of `params` from images of at most `most` samples each, which take the samples of a pixel one after another or, of
+/// paths, differ in their seed. Up to `most` samples it is `image` itself; beyond, the mean over all samples, added in order in
+/// `f64` and rounded once.
 pub(super) fn in_batches<E>(
     params: &RenderParams,
     integrator: Integrator,

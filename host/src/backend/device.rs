@@ -63,8 +63,8 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
         Ok(new)
     }
 
-    /// Uploads a BVH whose own nodes wait for nothing, as of one that was built a moment ago: choices without kernels of a refit have
-    /// such.
+    /// Uploads a BVH whose own nodes wait for nothing, as of one that was built a moment ago: choices without kernels of a
+    /// refit have such.
     ///
     /// # Errors
     /// [`BackendError`] when it does not fit, or the device fails.
@@ -147,7 +147,8 @@ impl<'d, C: Choice<W>, const W: usize> DeviceBackend<'d, C, W> {
         self.query_by(&self.kernel(kernel)?, queries)
     }
 
-    /// Answers queries pass by pass, by a kernel that takes what `sample` takes. A pass is one submission, with what was followed before it.
+    /// Answers queries pass by pass, by a kernel that takes what `sample` takes. A pass is one submission, with what was
+    /// followed before it.
     #[doc(hidden)]
     pub fn query_by<T: bytemuck::Pod>(
         &mut self,

@@ -99,8 +99,9 @@ impl<L> Default for HeldScene<L> {
 }
 
 impl<L: SceneLight> HeldScene<L> {
-    /// A frame's arrays for a kernel that chooses lights by `sampler`, once `pass` has run, which writes what differs from those of the frame
-    /// before. They are lit by `emitters` or, without, by the lights that the frame lists. Where `pass` does not run, what is held is not known any more: make it new then.
+    /// A frame's arrays for a kernel that chooses lights by `sampler`, once `pass` has run, which writes what differs from
+    /// those of the frame before. They are lit by `emitters` or, without, by the lights that the frame lists. Where `pass` does
+    /// not run, what is held is not known any more: make it new then.
     pub fn bring<'a>(
         &mut self,
         device: &Device,

@@ -1,4 +1,5 @@
-//! A BVH and its edits on a device: what changed is copied, the rest is computed there, all in one submission with what is asked next.
+//! A BVH and its edits on a device: what changed is copied, the rest is computed there, all in one submission with what is
+//! asked next.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -35,8 +36,8 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
     /// [`follow`](Follow::follow) without a wait: copies and refit go with the submission of what is asked next, or of
     /// [`flush`](Self::flush). Where more than 1 MiB is copied they are submitted at once.
     ///
-    /// Nothing of `bvh` depends on what becomes of the device. What fails here is copied as a whole the next time; where the device is lost,
-    /// another one takes over by [`new`](Self::new).
+    /// Nothing of `bvh` depends on what becomes of the device. What fails here is copied as a whole the next time; where the
+    /// device is lost, another one takes over by [`new`](Self::new).
     ///
     /// # Errors
     /// [`BackendError`] from a device.
@@ -159,8 +160,8 @@ impl<C: Choice<W>, const W: usize> DeviceBackend<'_, C, W> {
     }
 }
 
-/// Does a frame's copies of one array. Another buffer takes its place where it needs more room, or where something else reads it as it is;
-/// what stays is carried over by the device.
+/// Does a frame's copies of one array. Another buffer takes its place where it needs more room, or where something else reads
+/// it as it is; what stays is carried over by the device.
 fn renew<'a, T: Pod>(
     device: &Device,
     buffer: &mut Arc<Buffer<T>>,

@@ -32,8 +32,8 @@ impl<T> Default for Held<T> {
 }
 
 impl<T: Pod> Held<T> {
-    /// The array as `data`, once `pass` has run: the buffer that there is, or, where something else reads that as it was or it is too
-    /// small, another one with a copy of what stays.
+    /// The array as `data`, once `pass` has run: the buffer that there is, or, where something else reads that as it was or it
+    /// is too small, another one with a copy of what stays.
     pub fn bring<'a>(
         &mut self,
         device: &Device,
@@ -44,7 +44,8 @@ impl<T: Pod> Held<T> {
         self.follow(device, data, &changed, &[], pass)
     }
 
-    /// [`bring`](Self::bring), where elements change their places from frame to frame: those that the device has somewhere it copies itself.
+    /// [`bring`](Self::bring), where elements change their places from frame to frame: those that the device has somewhere it
+    /// copies itself.
     pub fn bring_known<'a>(
         &mut self,
         device: &Device,

@@ -11,7 +11,8 @@ use crate::vulkan::{Binding, Buffer, Device, Pass};
 
 /// The arrays of a light BVH on a device, which follows it by what [`Mirror`] tells of each frame.
 ///
-/// Arrays are read, changed as told, and written whole: it is for comparisons. [`DeviceBackend`](super::DeviceBackend) copies what changed.
+/// Arrays are read, changed as told, and written whole: it is for comparisons. [`DeviceBackend`](super::DeviceBackend) copies
+/// what changed.
 pub struct Mirrored<'d, N: Node<W>, const W: usize> {
     device: &'d Device,
     kernels: KernelSet,
@@ -98,8 +99,8 @@ impl<'d, N: Node<W>, const W: usize> Mirrored<'d, N, W> {
         Ok(self.roots.read()?)
     }
 
-    /// The results of a kernel over `count` invocations. It takes the arrays of the tree and, by the names of its bindings, `others`; what is named
-    /// nowhere are its results.
+    /// The results of a kernel over `count` invocations. It takes the arrays of the tree and, by the names of its bindings,
+    /// `others`; what is named nowhere are its results.
     ///
     /// # Errors
     /// [`BackendError`] from the device.

@@ -104,8 +104,8 @@ pub trait Backend<L: Emitter = EmissiveTriangle> {
         integrator: Integrator,
     ) -> Result<Timed<Vec<[f32; 3]>>, BackendError>;
 
-    /// Renders the next frame of `restir`: direct lighting, W/(m² sr), by rows from the upper left. Candidates from a light BVH come
-    /// from this backend's, and so do the lights then.
+    /// Renders the next frame of `restir`: direct lighting, W/(m² sr), by rows from the upper left. Candidates from a light BVH
+    /// come from this backend's, and so do the lights then.
     ///
     /// # Errors
     /// [`BackendError`] from a device.

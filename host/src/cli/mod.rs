@@ -59,9 +59,10 @@ enum Command {
     Verify(verify::Args),
     /// Time build, refit, sample and pmf, and measure what accuracy costs.
     Bench(bench::Args),
-    /// Compute the variance of one light sample exactly, scene by scene. Columns `of 8` and `of 32` are the squared error of the mean of so many
-    /// candidates by one number, `split 8` and `split 32` that of adaptive splitting, over the square of what there is; `nothing` is the share
-    /// of samples that contribute nothing. Means are those of a few points where variance is great: compare them by thousands of points.
+    /// Compute the variance of one light sample exactly, scene by scene. Columns `of 8` and `of 32` are the squared error of
+    /// the mean of so many candidates by one number, `split 8` and `split 32` that of adaptive splitting, over the square of
+    /// what there is; `nothing` is the share of samples that contribute nothing. Means are those of a few points where variance
+    /// is great: compare them by thousands of points.
     Variance(variance::Args),
     /// Measure speed against accuracy for each choice: structure, importance, width, builder, candidates.
     Trade(trade::Args),
@@ -71,8 +72,8 @@ enum Command {
     Numbers(numbers::Args),
     /// Compare the methods over an animation as the paper does: errors, times, graphs and close-ups.
     Compare(compare::Args),
-    /// Render scenes by every method in equal time, next to references: a page with a sheet of pictures for each scene. Exit status 1: a scene
-    /// could not be rendered, and the page says which.
+    /// Render scenes by every method in equal time, next to references: a page with a sheet of pictures for each scene. Exit
+    /// status 1: a scene could not be rendered, and the page says which.
     Gallery(gallery::Args),
     /// Check every extreme that the light BVH must survive, on the CPU and every device, against stated bounds.
     Stability(stability::Args),
@@ -80,8 +81,8 @@ enum Command {
     Soak(soak::Args),
     /// List the Vulkan devices and whether their arithmetic is exact.
     Info,
-    /// Check every invariant of the light BVHs of a scene, over its lights as they stand in the world. No instances share a mesh there, so a
-    /// light takes more bytes than in the tables of `inspect` and `trade`.
+    /// Check every invariant of the light BVHs of a scene, over its lights as they stand in the world. No instances share a
+    /// mesh there, so a light takes more bytes than in the tables of `inspect` and `trade`.
     Validate(validate::Args),
     /// Write a scene as a .glb file.
     Export(export::Args),

@@ -27,7 +27,8 @@ pub(super) struct Args {
     heuristic: Option<Builder>,
 }
 
-/// A structure over the lights as they stand in the world: two levels have a tree for each instance, which `inspect` and `trade` share.
+/// A structure over the lights as they stand in the world: two levels have a tree for each instance, which `inspect` and
+/// `trade` share.
 #[derive(Serialize)]
 struct Row {
     structure: Sampler,
@@ -81,8 +82,8 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
     Ok(Outcome::good_if(all_valid))
 }
 
-/// Every structure at every frame. The lights of a frame are made once, for both structures, and where nothing moves for all frames: of large
-/// scenes that takes as long as a refit.
+/// Every structure at every frame. The lights of a frame are made once, for both structures, and where nothing moves for all
+/// frames: of large scenes that takes as long as a refit.
 fn rows<C: Choice<W, Light: SceneLight>, const W: usize>(
     scene: &Scene,
     args: &Args,

@@ -1,8 +1,8 @@
 //! `lightbvh variance`: the exact relative variance of one light sample, scene by scene.
 //!
-//! At each point the unshadowed diffuse light of every light is computed, of triangles in closed form, and its probability is asked of the
-//! tree: no sampling is involved, so the figure has no noise but that of the choice of points. Of several candidates by numbers at
-//! equal distances the mean squared error is measured, by as many trials at each point.
+//! At each point the unshadowed diffuse light of every light is computed, of triangles in closed form, and its probability is
+//! asked of the tree: no sampling is involved, so the figure has no noise but that of the choice of points. Of several
+//! candidates by numbers at equal distances the mean squared error is measured, by as many trials at each point.
 
 mod gloss;
 pub(super) mod irradiance;
@@ -38,7 +38,8 @@ const TRIALS: u32 = 64;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// Scenes: random, street, square, carousel, stage, or .gltf, .glb, .pbrt, .obj and .ply files; the first four if none is named.
+    /// Scenes: random, street, square, carousel, stage, or .gltf, .glb, .pbrt, .obj and .ply files; the first four if none is
+    /// named.
     #[arg(long)]
     scene: Vec<String>,
     /// Points on the surfaces of each scene.
@@ -53,8 +54,8 @@ pub(super) struct Args {
     /// Every layout, width and importance, not only the default and the paper's.
     #[arg(long)]
     all: bool,
-    /// Of glossy surfaces instead, seen from the camera: by the default, and by `Glossy`, which is told of the lobe, without and with a
-    /// direction that the surface reflects into; and the time of a sample.
+    /// Of glossy surfaces instead, seen from the camera: by the default, and by `Glossy`, which is told of the lobe, without
+    /// and with a direction that the surface reflects into; and the time of a sample.
     #[arg(long, conflicts_with = "all")]
     gloss: bool,
 }
@@ -306,7 +307,8 @@ impl<L: SceneLight> Measured<'_, L> {
         })
     }
 
-    /// The squared error of an estimate relative to the squared mean, over trials and points that any light reaches; `None` where none does.
+    /// The squared error of an estimate relative to the squared mean, over trials and points that any light reaches; `None`
+    /// where none does.
     fn error(&self, estimate: impl Fn(&ShadingPoint, u32) -> Weighted) -> Option<f64> {
         let (mut error, mut points) = (0.0, 0_u32);
         for (number, (point, light)) in (0u32..).zip(self.subject.points.iter().zip(self.light)) {
@@ -330,8 +332,8 @@ pub(super) fn mean_of(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| mean(values))
 }
 
-/// The relative variance at each point that any light reaches, sorted, and the mean share of samples that contribute nothing; `None` where
-/// no light reaches any.
+/// The relative variance at each point that any light reaches, sorted, and the mean share of samples that contribute nothing;
+/// `None` where no light reaches any.
 fn variances<N: Node<W> + Holds<Light: SceneLight>, I: ImportanceModel<N, W>, const W: usize>(
     bvh: &Bvh<N, I, W>,
     subject: &Subject<<N as Holds>::Light>,

@@ -171,8 +171,8 @@ impl Film {
         (seen < MIN_LIT).then(|| format!("only {:.2} % of the image is lit", 100.0 * seen))
     }
 
-    /// The exposure that [`auto_exposure`](Self::auto_exposure) would take if it were not bounded, and the share of pixels that are not
-    /// black.
+    /// The exposure that [`auto_exposure`](Self::auto_exposure) would take if it were not bounded, and the share of pixels that
+    /// are not black.
     fn wanted_exposure(&self) -> (f32, f64) {
         let (mut sum, mut count) = (0.0, 0_u32);
         for &pixel in &self.pixels {

@@ -21,8 +21,8 @@ use std::ops::Range;
 /// test errs on hits of rays that begin within some thousand sizes of the scene, so that no box hides those.
 const PADDING: f32 = 1.0 / 4_194_304.0;
 
-/// What a node costs, in triangles. A triangle more in a leaf that has room costs nothing; of 1, 1.5, 2, 3 and 4 images of the built-in
-/// scenes take the least time with 3.
+/// What a node costs, in triangles. A triangle more in a leaf that has room costs nothing; of 1, 1.5, 2, 3 and 4 images of the
+/// built-in scenes take the least time with 3.
 const NODE_COST: f32 = 3.0;
 
 /// Why there is no ray BVH.
@@ -104,8 +104,8 @@ impl RayBvh {
         }
     }
 
-    /// By the number of a triangle in a [`Hit`](lightbvh_kernels::shading::trace::Hit) the index that it was built with; [`NONE`] in lanes
-    /// without one.
+    /// By the number of a triangle in a [`Hit`](lightbvh_kernels::shading::trace::Hit) the index that it was built with;
+    /// [`NONE`] in lanes without one.
     pub fn sources(&self) -> &[u32] {
         &self.sources
     }
@@ -130,8 +130,8 @@ fn snap_triangle(index: usize, triangle: &SurfaceTriangle) -> Result<SurfaceTria
     Ok(snapped)
 }
 
-/// PLOC with some reinsertion; one thread, so always the same tree. Where PLOC finds triangles too hard, reinsertion would take as long, and
-/// gain nothing.
+/// PLOC with some reinsertion; one thread, so always the same tree. Where PLOC finds triangles too hard, reinsertion would take
+/// as long, and gain nothing.
 fn build(triangles: &[SurfaceTriangle]) -> Bvh2 {
     let mut corners: Vec<Triangle> = triangles
         .iter()
@@ -247,8 +247,9 @@ impl<'a> Layout<'a> {
         }
     }
 
-    /// The children of a part of several leaves, in their order. Of those that there are the largest is replaced by its own children
-    /// (I. Wald, C. Benthin, S. Boulos, "Getting Rid of Packets", 2008), unless one then had more leaves than fit below it.
+    /// The children of a part of several leaves, in their order. Of those that there are the largest is replaced by its own
+    /// children (I. Wald, C. Benthin, S. Boulos, "Getting Rid of Packets", 2008), unless one then had more leaves than fit
+    /// below it.
     fn children(&self, part: &Part, levels: u32) -> Vec<Part> {
         let fits = |part: &Part| self.run(part).len() as u64 <= (WIDTH as u64).saturating_pow(levels - 1);
         let mut children = vec![part.clone()];

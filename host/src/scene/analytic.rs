@@ -17,8 +17,9 @@ pub struct AnalyticLight {
     pub kind: AnalyticKind,
     /// Linear RGB, not negative.
     pub color: [f32; 3],
-    /// Factor on the colour, not negative. Of points and spots radiant intensity, W/sr (glTF: candela), of profiles a number alone, of suns irradiance (glTF: lux), of
-    /// spheres, rectangles and discs radiance, W/(m² sr), of boxes what a metre adds to it, W/(m³ sr).
+    /// Factor on the colour, not negative. Of points and spots radiant intensity, W/sr (glTF: candela), of profiles a number
+    /// alone, of suns irradiance (glTF: lux), of spheres, rectangles and discs radiance, W/(m² sr), of boxes what a metre adds
+    /// to it, W/(m³ sr).
     pub intensity: f32,
     /// Of points and spots: metres from which on nothing arrives, 2^-20 to 2^40; without, light arrives everywhere.
     pub range: Option<f32>,

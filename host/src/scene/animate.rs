@@ -49,8 +49,9 @@ impl Pose {
         }
     }
 
-    /// The place of a node that carries what has directions and no size: a camera, a sun, a point, a spot. Scales do not change such things
-    /// (glTF 2.0, section 3.10; `KHR_lights_punctual`): where they are so small or so large that directions are lost, the rotations alone count.
+    /// The place of a node that carries what has directions and no size: a camera, a sun, a point, a spot. Scales do not change
+    /// such things (glTF 2.0, section 3.10; `KHR_lights_punctual`): where they are so small or so large that directions are
+    /// lost, the rotations alone count.
     pub fn unscaled(&self, data: &SceneData, node: u32) -> Affine {
         let mut world = self.world[node as usize];
         if world.keeps_directions() {

@@ -11,8 +11,8 @@ use crate::vector::{cross, sub};
 pub(super) const DEFAULT_YFOV: f32 = 0.872_664_6;
 
 impl Scene {
-    /// Where the frames are seen from of a scene that brings no camera, once a frame has been made: eye, a place that it looks at, both metres, and
-    /// the vertical field of view in radians; what [`seen_from`](Self::seen_from) takes.
+    /// Where the frames are seen from of a scene that brings no camera, once a frame has been made: eye, a place that it looks
+    /// at, both metres, and the vertical field of view in radians; what [`seen_from`](Self::seen_from) takes.
     pub fn chosen_camera(&self) -> Option<([f32; 3], [f32; 3], f32)> {
         let view = self.default_camera.get()?;
         // As far away as keeps the direction where the eye is far from the origin.
@@ -21,8 +21,8 @@ impl Scene {
         Some((view.eye, target, view.yfov))
     }
 
-    /// The scene as a camera at `eye` sees it that looks at `target`, both metres, with a vertical field of view of `yfov` radians; +Y is up. Its own
-    /// cameras are gone. Where both are one place it looks along −Z.
+    /// The scene as a camera at `eye` sees it that looks at `target`, both metres, with a vertical field of view of `yfov`
+    /// radians; +Y is up. Its own cameras are gone. Where both are one place it looks along −Z.
     ///
     /// # Errors
     /// As [`Scene::new`]: places beyond 2^40 m, fields of view that are none.

@@ -1,4 +1,5 @@
-//! Clips of a file of which one is shown at a time: those that move the same things exclude each other, for a format does not say which is meant.
+//! Clips of a file of which one is shown at a time: those that move the same things exclude each other, for a format does not
+//! say which is meant.
 
 use std::collections::BTreeSet;
 
@@ -43,8 +44,8 @@ impl SceneData {
         self.warnings.extend(self.clip_words());
     }
 
-    /// Shows the first animation of this name, or that at this place in the file, from 0, and the others that are named likewise; none besides. Of
-    /// those that move the same things the first.
+    /// Shows the first animation of this name, or that at this place in the file, from 0, and the others that are named
+    /// likewise; none besides. Of those that move the same things the first.
     ///
     /// # Errors
     /// The word that names none, what moves nothing where it names that, and the names that there are.
@@ -98,8 +99,9 @@ impl SceneData {
 }
 
 impl Scene {
-    /// Shows one after the other each animation that is left out, alone, the first `most` of them, and calls `with` for its place among them and the scene then. Returns what is
-    /// wrong with those that [`Scene::new`] would refuse, which are passed.
+    /// Shows one after the other each animation that is left out, alone, the first `most` of them, and calls `with` for its
+    /// place among them and the scene then. Returns what is wrong with those that [`Scene::new`] would refuse, which are
+    /// passed.
     pub fn each_clip(&self, most: usize, mut with: impl FnMut(usize, &Self)) -> Vec<String> {
         let mut scene = self.clone();
         let mut broken = Vec::new();

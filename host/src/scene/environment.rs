@@ -17,9 +17,9 @@ use super::texels::{Texels, size_for};
 const MOST: u32 = 1 << 14;
 const MOST_BYTES: u64 = 1 << 31;
 
-/// The environment map of a picture by longitude and latitude, `.hdr` or `.exr`, times `scale`: radiance in W/(m² sr). Its middle column lies in
-/// direction −Z, the columns go round towards +X, its first row is above (+Y). Pixels of `.hdr` pictures are divided by their `EXPOSURE` and
-/// `COLORCORR`. What is said of the picture goes to `warnings`.
+/// The environment map of a picture by longitude and latitude, `.hdr` or `.exr`, times `scale`: radiance in W/(m² sr). Its
+/// middle column lies in direction −Z, the columns go round towards +X, its first row is above (+Y). Pixels of `.hdr` pictures
+/// are divided by their `EXPOSURE` and `COLORCORR`. What is said of the picture goes to `warnings`.
 ///
 /// # Errors
 /// [`SceneError::Invalid`] for a file that is none, or too large, or has a radiance that is none.
@@ -113,7 +113,8 @@ pub fn read_environment(
     Ok(map)
 }
 
-/// The direction of what lies in direction (x, y, z) of a picture whose first row is about +z and whose first column goes from +x to +y.
+/// The direction of what lies in direction (x, y, z) of a picture whose first row is about +z and whose first column goes from
+/// +x to +y.
 fn of_picture([x, y, z]: [f64; 3]) -> [f64; 3] {
     [-y, z, x]
 }

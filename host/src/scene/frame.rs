@@ -72,8 +72,8 @@ pub struct Frame {
 const FAR_OFF: f64 = 1e-3;
 
 impl Frame {
-    /// Says how far off their surfaces rays start, where that is much beside the scene's size: in a scene that lies far from the origin coordinates are rounded to
-    /// as much, and light of what is nearer is lost.
+    /// Says how far off their surfaces rays start, where that is much beside the scene's size: in a scene that lies far from
+    /// the origin coordinates are rounded to as much, and light of what is nearer is lost.
     pub fn far_off(&self) -> Option<String> {
         let triangles = || self.triangles.iter().chain(&self.clear);
         let mut offsets: Vec<f32> = triangles()

@@ -158,7 +158,8 @@ impl Glow {
         self.with_traces([a, b, c], mean)
     }
 
-    /// A mean, and where a channel of it is zero while any texel at the triangle is not black, a trace: what glows anywhere is a light.
+    /// A mean, and where a channel of it is zero while any texel at the triangle is not black, a trace: what glows anywhere is
+    /// a light.
     fn with_traces(&self, corners: [[f32; 2]; 3], mean: [f32; 3]) -> [f32; 3] {
         if mean.iter().all(|&channel| channel > 0.0) || !self.glows_within(corners) {
             return mean;

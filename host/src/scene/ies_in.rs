@@ -1,7 +1,7 @@
 //! Photometric files: ANSI/IES LM-63 (1986 to 2019), types A, B and C.
 //!
-//! Read are the angles and the candela values with their factors; keywords and the tilt are not looked at, nor lamps, sizes and watts, which is
-//! what `EXT_lights_ies` asks of an implementation.
+//! Read are the angles and the candela values with their factors; keywords and the tilt are not looked at, nor lamps, sizes and
+//! watts, which is what `EXT_lights_ies` asks of an implementation.
 
 /// Largest file read, bytes.
 pub(super) const MAX_BYTES: usize = 1 << 24;
@@ -156,7 +156,8 @@ impl Photometry {
         from + (to - from) * column.2
     }
 
-    /// A horizontal angle of type C, -180 to 180, where the table has it: a file has a part of the circle, of which the rest is its image.
+    /// A horizontal angle of type C, -180 to 180, where the table has it: a file has a part of the circle, of which the rest is
+    /// its image.
     fn folded(&self, angle: f64) -> f64 {
         let (first, last) = (self.horizontal[0], self.horizontal[self.horizontal.len() - 1]);
         let turn = angle.rem_euclid(360.0);

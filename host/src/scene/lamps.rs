@@ -78,8 +78,8 @@ pub(super) fn place(data: &SceneData, pose: &Pose, out: &mut Frame) {
     }
 }
 
-/// What is seen of a light, the front of each triangle outside. A sphere's and a disc's facets lie within them: no ray to a point on such a light ends
-/// at its own surface.
+/// What is seen of a light, the front of each triangle outside. A sphere's and a disc's facets lie within them: no ray to a
+/// point on such a light ends at its own surface.
 fn shown(light: AnyLight, Facets { around, rings }: Facets) -> Vec<[[f64; 3]; 3]> {
     let circle = |k: usize| circle(k, around);
     if let Ok(RectangleLight { p, half, .. }) = RectangleLight::try_from(light) {

@@ -83,8 +83,8 @@ impl Scene {
         self.counts.analytic + self.counts.suns > 0 || self.data().environment.is_some()
     }
 
-    /// Whether only passes over all kinds of light show all of it: it has [other lights](Self::has_other_lights), or something is painted on
-    /// its surfaces.
+    /// Whether only passes over all kinds of light show all of it: it has [other lights](Self::has_other_lights), or something
+    /// is painted on its surfaces.
     pub fn has_kinds(&self) -> bool {
         self.has_other_lights() || self.data().is_painted()
     }

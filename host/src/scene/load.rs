@@ -13,8 +13,8 @@ pub const BUILT_IN: [&str; 3] = ["street", "square", "carousel"];
 pub const STAGE: &str = "stage";
 
 impl Scene {
-    /// Opens a built-in scene by name, or a file by path: `.pbrt`, `.obj` and `.ply`, each as it is or with `.gz` after it, or `.gltf` and `.glb`,
-    /// which is also what files of other names are taken for.
+    /// Opens a built-in scene by name, or a file by path: `.pbrt`, `.obj` and `.ply`, each as it is or with `.gz` after it, or
+    /// `.gltf` and `.glb`, which is also what files of other names are taken for.
     ///
     /// # Errors
     /// [`SceneError::UnknownScene`] for what is neither; what [`Scene::read_gltf`], [`Scene::read_pbrt`], [`Scene::read_obj`] and

@@ -130,7 +130,8 @@ pub struct Material {
     pub metallic: f32,
     /// Perceptual roughness in [0, 1].
     pub roughness: f32,
-    /// Whether alpha cuts parts of the surface out; where the reference renderer shows no [`paint`](Self::paint), it takes it as opaque.
+    /// Whether alpha cuts parts of the surface out; where the reference renderer shows no [`paint`](Self::paint), it takes it
+    /// as opaque.
     pub masked: bool,
     /// Share of light that goes straight through, in [0, 1]; see [`is_clear`](Self::is_clear).
     pub transmission: f32,
@@ -155,8 +156,8 @@ impl Default for Material {
 }
 
 impl Material {
-    /// Whether more light goes through than not. Where the reference renderer shows no [`paint`](Self::paint), it has no glass: surfaces of
-    /// such a material that do not emit are left out, so that lamps behind them are not hidden.
+    /// Whether more light goes through than not. Where the reference renderer shows no [`paint`](Self::paint), it has no glass:
+    /// surfaces of such a material that do not emit are left out, so that lamps behind them are not hidden.
     pub fn is_clear(&self) -> bool {
         self.transmission >= 0.5
     }
@@ -309,8 +310,8 @@ impl Scene {
         Arc::clone(self.paint.get_or_init(|| Arc::new(skin_words::words(&self.data))))
     }
 
-    /// Says how many triangles are of glass that leaves light as it is: nobody would see them. Of clear glass that tints, what is behind it says
-    /// that it is there.
+    /// Says how many triangles are of glass that leaves light as it is: nobody would see them. Of clear glass that tints, what
+    /// is behind it says that it is there.
     pub fn unseen_glass(&self) -> Option<String> {
         let unseen = |mesh: &Mesh| -> usize {
             let primitives = mesh.primitives.iter().map(|primitive| {

@@ -58,8 +58,8 @@ pub enum Opacity {
     Blended,
 }
 
-/// What is painted on a material: factors, and the textures that they multiply. The reference renderer shows it where it shows all kinds of
-/// light; where it shows triangles alone, the means in [`Material`](super::Material) stand for it.
+/// What is painted on a material: factors, and the textures that they multiply. The reference renderer shows it where it shows
+/// all kinds of light; where it shows triangles alone, the means in [`Material`](super::Material) stand for it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paint {
     /// Base colour, linear RGB, and opacity, each in [0, 1].
@@ -82,8 +82,8 @@ pub struct Paint {
     pub glow_texture: Option<Texture>,
     /// What of the surface is there.
     pub opacity: Opacity,
-    /// What of the light that falls on the surface goes straight through, times its base colour; in [0, 1]. From a half on, the surface is
-    /// clear glass, which is not seen itself.
+    /// What of the light that falls on the surface goes straight through, times its base colour; in [0, 1]. From a half on, the
+    /// surface is clear glass, which is not seen itself.
     pub transmission: f32,
 }
 

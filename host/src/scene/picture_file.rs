@@ -73,8 +73,8 @@ impl Pictures {
         mean
     }
 
-    /// A file whose mean is known, as a picture that is shown; `None` where its numbers are light, which bytes cannot hold, and where it cannot be read. With
-    /// `opacity` its opacity is that of another file: its alpha, or where that is opaque its red.
+    /// A file whose mean is known, as a picture that is shown; `None` where its numbers are light, which bytes cannot hold, and
+    /// where it cannot be read. With `opacity` its opacity is that of another file: its alpha, or where that is opaque its red.
     pub fn keep(&mut self, path: &Path, opacity: Option<&Path>) -> Option<Kept> {
         let source = (path.to_owned(), opacity.map(Path::to_owned));
         if let Some(known) = self.by_source.get(&source) {

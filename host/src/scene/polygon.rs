@@ -11,12 +11,13 @@ use notches::Notches;
 /// A place in the plane of a polygon.
 type Place = [f64; 2];
 
-/// Hands `n - 2` triangles of a polygon of `n` corners to `take`, each as three indices of corners, which turn as the polygon does. Nothing
-/// is handed over for less than 3 corners.
+/// Hands `n - 2` triangles of a polygon of `n` corners to `take`, each as three indices of corners, which turn as the polygon
+/// does. Nothing is handed over for less than 3 corners.
 ///
-/// It is the fan around the first corner, unless that turns a triangle over. Then ears are cut (G. Meisters, "Polygons Have Ears", 1975). The
-/// plane is that of two axes, across which Newell's normal is longest, so places and the signs of areas are all but exact. The triangles cover
-/// a simple polygon once, also one to whose outline seams join holes. Of others, and of those without an area, they are some.
+/// It is the fan around the first corner, unless that turns a triangle over. Then ears are cut (G. Meisters, "Polygons Have
+/// Ears", 1975). The plane is that of two axes, across which Newell's normal is longest, so places and the signs of areas are
+/// all but exact. The triangles cover a simple polygon once, also one to whose outline seams join holes. Of others, and of
+/// those without an area, they are some.
 ///
 /// Time is in proportion to `n log n`: what is left after [`Notches`] has looked into as many boxes as it may is a fan.
 pub(super) fn cut(corners: &[[f32; 3]], mut take: impl FnMut([usize; 3])) {
@@ -97,8 +98,8 @@ impl Ring {
         let count = self.places.len();
         let (mut left, mut first) = (count, 0);
         for strictly in [true, false] {
-            // Corners wait in line. Those beside a cut go to its end, or long thin triangles around one corner came out. A cut changes what
-            // they are, and nothing of others.
+            // Corners wait in line. Those beside a cut go to its end, or long thin triangles around one corner came out. A cut
+            // changes what they are, and nothing of others.
             let mut rounds = vec![0_u32; count];
             let mut line = VecDeque::with_capacity(2 * count);
             let mut corner = first;

@@ -118,7 +118,8 @@ fn over_directions(side: u32, value: impl Fn([f32; 3]) -> f64) -> [f64; 2] {
     for row in 0..fine {
         for column in 0..fine {
             let local = local_at([place(column), place(row)]);
-            // The octahedron |x| + |y| + |z| = 1 is 1/sum away in that direction; a part of the square is seen under the cube of that less.
+            // The octahedron |x| + |y| + |z| = 1 is 1/sum away in that direction; a part of the square is seen under the cube
+            // of that less.
             let sum: f64 = local.iter().map(|x| f64::from(x.abs())).sum();
             let own = cell * sum * sum * sum * value(local);
             sums[0] += own;

@@ -1,4 +1,5 @@
-//! The header of Radiance pictures (.hdr): what their pixels are times light (G. Ward, "Radiance File Formats", "Picture File Format (.hdr)").
+//! The header of Radiance pictures (.hdr): what their pixels are times light (G. Ward, "Radiance File Formats", "Picture File
+//! Format (.hdr)").
 
 use image::Rgb32FImage;
 use image::codecs::hdr::HdrDecoder;

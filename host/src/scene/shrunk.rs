@@ -1,4 +1,5 @@
-//! Pictures of skies brought down to what an environment map holds: it is known by places, and of pixels smaller than those some had been missed.
+//! Pictures of skies brought down to what an environment map holds: it is known by places, and of pixels smaller than those
+//! some had been missed.
 
 use image::Rgb32FImage;
 
@@ -6,7 +7,8 @@ use image::Rgb32FImage;
 const COLUMNS: u32 = 2048;
 const ROWS: u32 = 1024;
 
-/// Numbers that are no light, negative, infinite or none, count as 0: filters leave negative ones, half floats make suns infinite. What is said of them.
+/// Numbers that are no light, negative, infinite or none, count as 0: filters leave negative ones, half floats make suns
+/// infinite. What is said of them.
 pub(super) fn clean(picture: &mut Rgb32FImage) -> Option<String> {
     let is_light = |x: f32| (0.0..=f32::MAX).contains(&x);
     let mut first = None;
@@ -25,8 +27,8 @@ pub(super) fn clean(picture: &mut Rgb32FImage) -> Option<String> {
     ))
 }
 
-/// The picture in at most 2048 columns, and as many rows or half of them: each pixel's light goes to those of the smaller picture that it lies in, by solid
-/// angle. All its numbers are [`clean`].
+/// The picture in at most 2048 columns, and as many rows or half of them: each pixel's light goes to those of the smaller
+/// picture that it lies in, by solid angle. All its numbers are [`clean`].
 pub(super) fn shrunk(picture: Rgb32FImage, is_equal_area: bool) -> Rgb32FImage {
     let (width, height) = picture.dimensions();
     let rows = if is_equal_area { COLUMNS } else { ROWS };

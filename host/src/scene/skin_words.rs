@@ -14,8 +14,8 @@ use super::paint::{Opacity, Paint, Picture, Texture, Wrap};
 use super::profile;
 use super::srgb::linear_from_srgb;
 
-/// Most texels of all pictures: 2^24, so that they fit the smallest storage buffers seen (128 MiB) with room to spare. Larger pictures are
-/// halved until they fit.
+/// Most texels of all pictures: 2^24, so that they fit the smallest storage buffers seen (128 MiB) with room to spare. Larger
+/// pictures are halved until they fit.
 const MAX_TEXELS: u64 = 1 << 24;
 
 /// A frame's paint.

@@ -1,5 +1,5 @@
-//! `stage`: a small theatre with every kind of light, none of which the paper has: spots that swing, softboxes, lanterns, footlights,
-//! bulbs, glowing mist, and a sign of triangles among them.
+//! `stage`: a small theatre with every kind of light, none of which the paper has: spots that swing, softboxes, lanterns,
+//! footlights, bulbs, glowing mist, and a sign of triangles among them.
 //!
 //! The boards are y = 0, the back wall is z = −5.
 

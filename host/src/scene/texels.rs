@@ -1,7 +1,8 @@
 //! Texels of an environment map by the pixels of a picture: each pixel's light goes to the texels that it lies in.
 //!
-//! A map that is asked at places of its own misses pixels that are smaller than a texel, as those beside the poles are, or finds them too often. Here each
-//! pixel is cut into places, four or more to a texel each way, and each place counts by its solid angle.
+//! A map that is asked at places of its own misses pixels that are smaller than a texel, as those beside the poles are, or
+//! finds them too often. Here each pixel is cut into places, four or more to a texel each way, and each place counts by its
+//! solid angle.
 
 use std::f64::consts::{PI, TAU};
 
@@ -63,8 +64,8 @@ impl Texels {
         ];
     }
 
-    /// Adds a picture by longitude and latitude. `direction` leads to the map from a direction of the picture: its first row lies about +z, its
-    /// columns go counter-clockwise from +x.
+    /// Adds a picture by longitude and latitude. `direction` leads to the map from a direction of the picture: its first row
+    /// lies about +z, its columns go counter-clockwise from +x.
     pub fn add_longitude_latitude(
         &mut self,
         [width, height]: [u32; 2],
@@ -102,7 +103,8 @@ impl Texels {
         }
     }
 
-    /// Adds a square picture whose pixels have the same solid angle. `direction` leads to the map from a place of it, in [0, 1] each way.
+    /// Adds a square picture whose pixels have the same solid angle. `direction` leads to the map from a place of it, in [0, 1]
+    /// each way.
     pub fn add_equal_area(
         &mut self,
         side: u32,

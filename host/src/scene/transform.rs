@@ -131,7 +131,8 @@ impl Affine {
         [0, 1, 2].map(|row| v[row] + self.columns[3][row])
     }
 
-    /// Whether the lengths of all columns are such that their directions are exact in `f32`, and within the domain of a light BVH's transforms.
+    /// Whether the lengths of all columns are such that their directions are exact in `f32`, and within the domain of a light
+    /// BVH's transforms.
     pub fn keeps_directions(&self) -> bool {
         const LARGEST: f64 = (1_u64 << 40) as f64;
         let lengths = self.columns[..3].iter().map(|&v| dot(v, v).sqrt());

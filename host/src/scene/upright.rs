@@ -5,8 +5,8 @@ use super::model::Scene;
 use super::transform::Transform;
 
 impl Scene {
-    /// The scene of a file whose +Z is up, turned so that +Y is: (x, y, z) lies at (x, z, −y) then. For scenes whose roots are not animated, as OBJ's
-    /// and PLY's are.
+    /// The scene of a file whose +Z is up, turned so that +Y is: (x, y, z) lies at (x, z, −y) then. For scenes whose roots are
+    /// not animated, as OBJ's and PLY's are.
     ///
     /// # Errors
     /// As [`Scene::new`].

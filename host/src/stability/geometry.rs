@@ -58,8 +58,8 @@ pub fn can_contribute(light: &EmissiveTriangle, point: &ShadingPoint, margin: f6
     in_front && (n == DVec3::ZERO || triangle.p.iter().any(above))
 }
 
-/// Whether rounding in `f32` may leave nothing of the triangle's area: it is none, or below 2^-21 of the product of two of its edges.
-/// Such a light may count as one without area, and then emits nothing.
+/// Whether rounding in `f32` may leave nothing of the triangle's area: it is none, or below 2^-21 of the product of two of its
+/// edges. Such a light may count as one without area, and then emits nothing.
 pub fn may_lose_its_area(light: &EmissiveTriangle) -> bool {
     let triangle = Triangle::new(light);
     triangle.area() == 0.0 || triangle.condition.recip() < 1.0 / 2_097_152.0

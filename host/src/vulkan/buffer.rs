@@ -109,7 +109,8 @@ impl<T: Pod> Buffer<T> {
         self.memory.bytes as usize / Self::ELEMENT_BYTES
     }
 
-    /// Takes so many elements of the room for the array's, and returns whether there are so many. Those that are new are not known until they are written.
+    /// Takes so many elements of the room for the array's, and returns whether there are so many. Those that are new are not
+    /// known until they are written.
     pub fn set_len(&mut self, len: usize) -> bool {
         let fits = len <= self.room();
         self.len = if fits { len } else { self.len };

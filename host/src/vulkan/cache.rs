@@ -1,8 +1,9 @@
 //! Compiled pipelines on disk, so that a driver compiles each kernel once.
 //!
-//! One file for each device and driver, `pipelines-VENDOR-DEVICE-UUID.bin`: a line of its own, the length and a hash of what follows, and what
-//! `vkGetPipelineCacheData` gave. A driver may take the data on trust, so a file that is not whole, or of another device, is not given to
-//! it; nor is it an error: it is replaced. Files are written beside their place and renamed, so that no reader finds half of one.
+//! One file for each device and driver, `pipelines-VENDOR-DEVICE-UUID.bin`: a line of its own, the length and a hash of what
+//! follows, and what `vkGetPipelineCacheData` gave. A driver may take the data on trust, so a file that is not whole, or of
+//! another device, is not given to it; nor is it an error: it is replaced. Files are written beside their place and renamed, so
+//! that no reader finds half of one.
 
 use ash::vk;
 use std::ffi::OsString;
@@ -20,8 +21,8 @@ const MOST: u64 = 256 << 20;
 /// What says where files are, or that there are none.
 const VARIABLE: &str = "LIGHTBVH_PIPELINE_CACHE";
 
-/// Where the program keeps pipelines: the directory that `LIGHTBVH_PIPELINE_CACHE` names, or none where that is `off`, `0` or empty; without
-/// it `lightbvh` below `XDG_CACHE_HOME` or below `.cache` in the home directory.
+/// Where the program keeps pipelines: the directory that `LIGHTBVH_PIPELINE_CACHE` names, or none where that is `off`, `0` or
+/// empty; without it `lightbvh` below `XDG_CACHE_HOME` or below `.cache` in the home directory.
 #[must_use]
 pub fn cache_directory() -> Option<&'static Path> {
     static DIRECTORY: OnceLock<Option<PathBuf>> = OnceLock::new();

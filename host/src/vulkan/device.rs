@@ -115,8 +115,8 @@ impl Device {
         self.shared.counters.now()
     }
 
-    /// The device is lost in the call after `calls` more that may find it so: submissions, waits, looks at what has ended, times. For tests;
-    /// there is none of it without debug assertions.
+    /// The device is lost in the call after `calls` more that may find it so: submissions, waits, looks at what has ended,
+    /// times. For tests; there is none of it without debug assertions.
     #[cfg(debug_assertions)]
     #[doc(hidden)]
     pub fn lose_after(&self, calls: u32) {

@@ -62,8 +62,8 @@ impl Memory {
         })
     }
 
-    /// Copies `data` to `at` bytes from the start of the buffer; not more than it holds from there. In memory that the host reaches it waits
-    /// for what is under way, unless the buffer `is_new`: then nothing uses it.
+    /// Copies `data` to `at` bytes from the start of the buffer; not more than it holds from there. In memory that the host
+    /// reaches it waits for what is under way, unless the buffer `is_new`: then nothing uses it.
     pub(crate) fn write_at(&self, at: usize, data: &[u8], is_new: bool) -> Result<(), VulkanError> {
         let shared = &self.shared;
         if data.is_empty() {
@@ -76,8 +76,8 @@ impl Memory {
                 at as u64 + data.len() as u64 <= self.bytes,
                 "checked by the callers"
             );
-            // SAFETY: the memory is mapped for `bytes`, which hold the data (as above). No one else reaches it meanwhile: the device runs
-            // nothing that uses it, and the host reads and writes buffers that are not new with the queue held.
+            // SAFETY: the memory is mapped for `bytes`, which hold the data (as above). No one else reaches it meanwhile: the
+            // device runs nothing that uses it, and the host reads and writes buffers that are not new with the queue held.
             unsafe {
                 mapped
                     .add(at)
@@ -107,7 +107,8 @@ impl Memory {
         if let Some(mapped) = self.mapped() {
             let queue = self.shared.idle_queue()?;
             assert!(data.len() as u64 <= self.bytes, "checked by the callers");
-            // SAFETY: the memory is mapped for `bytes`, which are no fewer (as above). Nothing writes it meanwhile, as in `write_at`.
+            // SAFETY: the memory is mapped for `bytes`, which are no fewer (as above). Nothing writes it meanwhile, as in
+            // `write_at`.
             unsafe { mapped.copy_to_nonoverlapping(NonNull::from(&mut *data).cast(), data.len()) };
             drop(queue);
             return Ok(());
@@ -199,15 +200,15 @@ pub(super) fn copy(
     if regions.is_empty() {
         return;
     }
-    // SAFETY: the command buffer is recording; both buffers belong to this device, were made for transfers, hold the regions (the callers
-    // see to it), and live until the submission has ended (`retire`).
+    // SAFETY: the command buffer is recording; both buffers belong to this device, were made for transfers, hold the regions
+    // (the callers see to it), and live until the submission has ended (`retire`).
     unsafe { device.cmd_copy_buffer(commands, source, target, &regions) };
 }
 
 /// Records that every word of a buffer is set.
 pub(super) fn fill(device: &ash::Device, commands: vk::CommandBuffer, memory: &Memory, word: u32) {
-    // SAFETY: the command buffer is recording; the buffer belongs to this device, was made for transfers, is `bytes` long, a multiple of 4,
-    // and lives until the submission has ended (`retire`).
+    // SAFETY: the command buffer is recording; the buffer belongs to this device, was made for transfers, is `bytes` long, a
+    // multiple of 4, and lives until the submission has ended (`retire`).
     unsafe { device.cmd_fill_buffer(commands, memory.buffer, 0, memory.bytes, word) };
 }
 

@@ -17,7 +17,8 @@ pub struct Options {
 }
 
 impl Default for Options {
-    /// No validation, staging only where needed, no pipelines on disk, ten minutes: far beyond any sensible pass, even on two slow cores.
+    /// No validation, staging only where needed, no pipelines on disk, ten minutes: far beyond any sensible pass, even on two
+    /// slow cores.
     fn default() -> Self {
         Self {
             validation: false,

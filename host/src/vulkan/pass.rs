@@ -10,7 +10,8 @@ use lightbvh_gpu::groups;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// What one submission does: buffers filled and copied, then bytes of the host's written, then dispatches. It keeps what it uses alive.
+/// What one submission does: buffers filled and copied, then bytes of the host's written, then dispatches. It keeps what it
+/// uses alive.
 #[derive(Clone, Default)]
 pub struct Pass<'a> {
     pub(crate) fills: Vec<Binding>,
@@ -72,8 +73,8 @@ impl<'a> Pass<'a> {
         self
     }
 
-    /// Copies elements of `from`, from each first one on, to places in `to`, another buffer; before anything is written. The places do not
-    /// overlap.
+    /// Copies elements of `from`, from each first one on, to places in `to`, another buffer; before anything is written. The
+    /// places do not overlap.
     ///
     /// # Errors
     /// [`VulkanError::WrongLength`] when they do not fit.
@@ -104,8 +105,9 @@ impl<'a> Pass<'a> {
         Ok(self)
     }
 
-    /// Replaces elements of `buffer` from `first` on, before any dispatch. Parts that are written in one pass do not overlap. All that is
-    /// written goes through the staging ring, the regions of a buffer by one copy and many short ones by one dispatch, on every device.
+    /// Replaces elements of `buffer` from `first` on, before any dispatch. Parts that are written in one pass do not overlap.
+    /// All that is written goes through the staging ring, the regions of a buffer by one copy and many short ones by one
+    /// dispatch, on every device.
     ///
     /// # Errors
     /// [`VulkanError::WrongLength`] when they do not fit.

@@ -1,9 +1,9 @@
 //! The staging ring: memory that the host writes and the device copies from, used over and over.
 //!
-//! A submission's bytes lie one after another in it, and their place is free again once the submission has ended. The ring holds four times
-//! the bytes of the largest submission so far, so that with [`IN_FLIGHT`](super::queue::IN_FLIGHT) of them under way the next one finds its
-//! place, wherever the ring ends. It grows by powers of two from [`LEAST`] to [`MOST`] and never shrinks; growing waits for nothing. What
-//! is more than a part ([`PART`]) goes in several submissions.
+//! A submission's bytes lie one after another in it, and their place is free again once the submission has ended. The ring
+//! holds four times the bytes of the largest submission so far, so that with [`IN_FLIGHT`](super::queue::IN_FLIGHT) of them
+//! under way the next one finds its place, wherever the ring ends. It grows by powers of two from [`LEAST`] to [`MOST`] and
+//! never shrinks; growing waits for nothing. What is more than a part ([`PART`]) goes in several submissions.
 
 use ash::vk;
 use gpu_allocator::vulkan::Allocation;

@@ -62,12 +62,12 @@ impl Device {
         self.submit(pass)?.wait()
     }
 
-    /// Submits a pass, all of it in one submission unless it writes more than 16 MiB, and waits for nothing but a place: three submissions are
-    /// under way at most. Passes run in the order of their submission, each seeing what those before it wrote.
+    /// Submits a pass, all of it in one submission unless it writes more than 16 MiB, and waits for nothing but a place: three
+    /// submissions are under way at most. Passes run in the order of their submission, each seeing what those before it wrote.
     ///
     /// # Errors
-    /// [`VulkanError::BadDispatch`], [`VulkanError::ForeignObject`] or [`VulkanError::OverlappingWrites`] before anything is submitted;
-    /// [`VulkanError::Timeout`], [`VulkanError::Busy`], [`VulkanError::DeviceLost`], [`VulkanError::Validation`] or
+    /// [`VulkanError::BadDispatch`], [`VulkanError::ForeignObject`] or [`VulkanError::OverlappingWrites`] before anything is
+    /// submitted; [`VulkanError::Timeout`], [`VulkanError::Busy`], [`VulkanError::DeviceLost`], [`VulkanError::Validation`] or
     /// [`VulkanError::Call`].
     pub fn submit(&self, pass: &Pass<'_>) -> Result<Submission, VulkanError> {
         let shared = &self.shared;

@@ -89,9 +89,9 @@ impl Scatter {
         });
         let compute = vk::PipelineBindPoint::COMPUTE;
         let stage = vk::ShaderStageFlags::COMPUTE;
-        // SAFETY: the command buffer is recording; set, kernel, ring and target belong to this device; the set was made for the kernel, has two
-        // storage buffers, and no submission uses it yet. Both buffers were made for storage and are no longer than a binding may be. All live
-        // until the submission has ended (`retire`).
+        // SAFETY: the command buffer is recording; set, kernel, ring and target belong to this device; the set was made for the
+        // kernel, has two storage buffers, and no submission uses it yet. Both buffers were made for storage and are no longer
+        // than a binding may be. All live until the submission has ended (`retire`).
         unsafe {
             device.update_descriptor_sets(&writes, &[]);
             device.cmd_bind_pipeline(commands, compute, kernel.pipeline);

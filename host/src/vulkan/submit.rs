@@ -10,12 +10,12 @@ use ash::vk;
 use gpu_allocator::MemoryLocation;
 
 impl Shared {
-    /// Records commands and submits them; returns the submission's number. All writes of earlier submissions are visible to the commands,
-    /// and all theirs to the host once they have ended.
+    /// Records commands and submits them; returns the submission's number. All writes of earlier submissions are visible to the
+    /// commands, and all theirs to the host once they have ended.
     ///
-    /// `bytes` of the host's, at most a [`PART`](super::ring::PART), are written by `stage` and lie in the ring from the place that `record`
-    /// is told. `work` names what is done, for the error of a time limit. It waits where as many submissions are under way as there may be,
-    /// or where they use the ring's bytes.
+    /// `bytes` of the host's, at most a [`PART`](super::ring::PART), are written by `stage` and lie in the ring from the place
+    /// that `record` is told. `work` names what is done, for the error of a time limit. It waits where as many submissions are
+    /// under way as there may be, or where they use the ring's bytes.
     pub(super) fn submit(
         &self,
         work: String,
@@ -75,10 +75,10 @@ impl Shared {
             .src_access_mask(writes)
             .dst_access_mask(vk::AccessFlags::HOST_READ | vk::AccessFlags::HOST_WRITE)];
         let none = vk::DependencyFlags::empty();
-        // SAFETY: pool, command buffer and fence belong to this device, are used under the queue's lock only, and
-        // the submission that used them last has ended (`submit`), so resetting them is allowed. `record` is given a command buffer in the
-        // recording state; what its callers record is kept alive until the submission has ended, for all that it may use is
-        // destroyed through `retire`.
+        // SAFETY: pool, command buffer and fence belong to this device, are used under the queue's lock only, and the
+        // submission that used them last has ended (`submit`), so resetting them is allowed. `record` is given a command buffer
+        // in the recording state; what its callers record is kept alive until the submission has ended, for all that it may use
+        // is destroyed through `retire`.
         unsafe {
             device
                 .reset_command_pool(slot.pool, vk::CommandPoolResetFlags::empty())
@@ -183,7 +183,8 @@ impl Shared {
         let nanoseconds = u64::try_from(limit.as_nanos()).unwrap_or(u64::MAX);
         let fence = queue.slot(number).fence;
         count(&self.counters.waits, 1);
-        // SAFETY: the fence belongs to this device and was submitted with `number`, which has not ended: no later submission has its slot.
+        // SAFETY: the fence belongs to this device and was submitted with `number`, which has not ended: no later submission
+        // has its slot.
         let waited = (self.faults.before(&self.raw))
             .and_then(|()| unsafe { self.raw.wait_for_fences(&[fence], true, nanoseconds) });
         match waited {

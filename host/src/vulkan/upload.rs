@@ -1,5 +1,5 @@
-//! How the bytes of a pass get from the host into their buffers: one after another in the staging ring, and from there by one copy for each
-//! buffer, of some regions, and by one dispatch where there are many short ones.
+//! How the bytes of a pass get from the host into their buffers: one after another in the staging ring, and from there by one
+//! copy for each buffer, of some regions, and by one dispatch where there are many short ones.
 
 use super::buffer::Binding;
 use super::kernel::Kernel;

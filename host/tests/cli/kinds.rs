@@ -33,7 +33,8 @@ impl Stage {
         std::fs::write(folder.file(&format!("{name}.bin")), &bytes).expect("a buffer");
         let lights = self.lights.as_array().expect("a list");
         let mut nodes = vec![json!({ "mesh": 0 })];
-        // The axes of spots and suns are turned downward: a rotation by a right angle, as its quaternion stands before it is made a unit.
+        // The axes of spots and suns are turned downward: a rotation by a right angle, as its quaternion stands before it is
+        // made a unit.
         nodes.extend((0..lights.len()).map(|k| {
             json!({
                 "translation": [k as f32 - 3.0, 2.0 + k as f32, 2.0], "rotation": [-1, 0, 0, 1],

@@ -2,8 +2,9 @@
 
 use crate::program::{refused, run};
 
-/// Parts of frames that other tests beside this one may bring beyond their bound in time, one in a hundred: alone on slow machines 0 to 2
-/// are, beside the other tests 12 were. A full soak allows none; what is counted in place of timed allows none here either.
+/// Parts of frames that other tests beside this one may bring beyond their bound in time, one in a hundred: alone on slow
+/// machines 0 to 2 are, beside the other tests 12 were. A full soak allows none; what is counted in place of timed allows none
+/// here either.
 const DISTURBED: u64 = 80;
 
 #[test]

@@ -1,5 +1,5 @@
-//! Kernels of another choice of layout, width and share of uniform choice: a crate of entry points that is written, then built like any
-//! other crate's.
+//! Kernels of another choice of layout, width and share of uniform choice: a crate of entry points that is written, then built
+//! like any other crate's.
 
 use std::path::{Path, PathBuf};
 

@@ -25,8 +25,8 @@ Usage: build-kernels [--check]
 
 Without --crate the current directory must be inside the repository. See kernels/README.md for the compiler it needs.";
 
-/// Bytes of stack that the compiler's threads have: it follows on it how deep selections and loops lie in each other, and overflowed the 8 MiB
-/// that it has otherwise.
+/// Bytes of stack that the compiler's threads have: it follows on it how deep selections and loops lie in each other, and
+/// overflowed the 8 MiB that it has otherwise.
 const STACK: (&str, &str) = ("RUST_MIN_STACK", "536870912");
 
 fn main() -> ExitCode {

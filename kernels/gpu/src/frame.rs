@@ -73,11 +73,12 @@ impl Frame {
             .sum()
     }
 
-    /// The copies out of a staging buffer that holds their [sources](Copy::source) one after another, in their order: for each buffer the
-    /// regions of one copy command. `start` is the first byte there, a multiple of 4: the place in a ring, for example.
+    /// The copies out of a staging buffer that holds their [sources](Copy::source) one after another, in their order: for each
+    /// buffer the regions of one copy command. `start` is the first byte there, a multiple of 4: the place in a ring, for
+    /// example.
     ///
-    /// Drivers of real devices run one copy for each region, some 2 µs on an NVIDIA H100. Where there are dozens of short ones, put their
-    /// [entries](Region::run) behind the bytes and dispatch kernel `scatter` instead, 16 invocations for each.
+    /// Drivers of real devices run one copy for each region, some 2 µs on an NVIDIA H100. Where there are dozens of short ones,
+    /// put their [entries](Region::run) behind the bytes and dispatch kernel `scatter` instead, 16 invocations for each.
     #[must_use]
     pub fn regions(&self, start: u64) -> Vec<(Buffer, Vec<Region>)> {
         let mut all: Vec<(Buffer, Vec<Region>)> = Vec::new();
@@ -101,8 +102,8 @@ impl Frame {
 
 /// What a device holds of a light BVH, by which it follows it. A new one holds nothing, so its first frame copies everything.
 ///
-/// A mirror takes a frame that it has told for done. Where the device could not do it, begin with a new one; the light BVH is as it was, and
-/// another device may take over so.
+/// A mirror takes a frame that it has told for done. Where the device could not do it, begin with a new one; the light BVH is
+/// as it was, and another device may take over so.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Mirror {
     bytes: [u64; Buffer::ALL.len()],
@@ -114,7 +115,8 @@ impl Mirror {
     /// Plans and follows: what brings the device's buffers to what `bvh` is now, after all edits of a frame and what
     /// a `Rebuilder` has swapped in. The bytes of the copies are to be taken before the next edit or swap.
     ///
-    /// It takes the plan, so it is for the one mirror of `bvh`, once a frame and without a [`Bvh::plan`] of one's own; otherwise everything is copied.
+    /// It takes the plan, so it is for the one mirror of `bvh`, once a frame and without a [`Bvh::plan`] of one's own;
+    /// otherwise everything is copied.
     pub fn frame<N: Node<W>, I, const W: usize>(&mut self, bvh: &mut Bvh<N, I, W>) -> Frame {
         bvh.plan();
         self.follow(bvh)

@@ -1,5 +1,5 @@
-//! What a device may do beyond exact arithmetic, for measurements of what exactness costs: contraction where the driver likes it, and
-//! the fused sum of `VK_KHR_shader_fma`.
+//! What a device may do beyond exact arithmetic, for measurements of what exactness costs: contraction where the driver likes
+//! it, and the fused sum of `VK_KHR_shader_fma`.
 
 use alloc::vec::Vec;
 
@@ -15,8 +15,8 @@ const FMA: u16 = 4427;
 const FMA_CAPABILITY: u32 = 6030;
 const FMA_EXTENSION: &[u8] = b"SPV_KHR_fma\0";
 
-/// The module without any decoration `NoContraction`: the driver may fuse and rearrange sums and products as it likes, so words may be
-/// other ones than the CPU's. Everything else keeps its words and its order.
+/// The module without any decoration `NoContraction`: the driver may fuse and rearrange sums and products as it likes, so words
+/// may be other ones than the CPU's. Everything else keeps its words and its order.
 ///
 /// # Errors
 /// [`ModuleError`] if the words do not parse.
@@ -31,9 +31,9 @@ pub fn contractible(words: &[u32]) -> Result<Vec<u32>, ModuleError> {
     Ok(patched)
 }
 
-/// The module with `OpFmaKHR` in the place of each `Fma` of GLSL.std.450, and with its capability and extension; without any such it
-/// stays as it is. For devices with `VK_KHR_shader_fma` and its feature `shaderFmaFloat32`: there sums and products of native kernels
-/// are rounded once, as on any other such device.
+/// The module with `OpFmaKHR` in the place of each `Fma` of GLSL.std.450, and with its capability and extension; without any
+/// such it stays as it is. For devices with `VK_KHR_shader_fma` and its feature `shaderFmaFloat32`: there sums and products of
+/// native kernels are rounded once, as on any other such device.
 ///
 /// # Errors
 /// [`ModuleError`] if the words do not parse.

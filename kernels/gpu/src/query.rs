@@ -47,7 +47,8 @@ pub struct LinkedQuery {
     pub words: [u32; 2],
 }
 
-/// What `sample_transmissive` and `pmf_transmissive` are asked ([`KernelSet::TRANSMISSIVE`](crate::KernelSet::TRANSMISSIVE)), as [`Query`].
+/// What `sample_transmissive` and `pmf_transmissive` are asked ([`KernelSet::TRANSMISSIVE`](crate::KernelSet::TRANSMISSIVE)),
+/// as [`Query`].
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct TransmissiveQuery {

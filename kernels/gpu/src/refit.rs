@@ -43,8 +43,8 @@ pub struct Dispatch {
     pub pass: Pass,
     /// First entry of the list.
     pub first: u32,
-    /// Number of invocations, at least 1: one for each entry, or for each child of each entry's node. [`groups`](crate::groups) says how
-    /// many workgroups.
+    /// Number of invocations, at least 1: one for each entry, or for each child of each entry's node. [`groups`](crate::groups)
+    /// says how many workgroups.
     pub count: u32,
 }
 
@@ -64,9 +64,9 @@ pub struct Refit {
     pub list: Vec<u32>,
     /// The dispatches, in their order.
     pub dispatches: Vec<Dispatch>,
-    /// Bytes of the buffer `children` that the kernels need, by which passes [`Bottom`](Pass::Bottom) and [`Top`](Pass::Top) hand over to
-    /// [`Nodes`](Pass::Nodes). What it holds before and after a refit means nothing. At most those of [`AT_A_TIME`](Self::AT_A_TIME) nodes, 12
-    /// MiB for `LightBvh`.
+    /// Bytes of the buffer `children` that the kernels need, by which passes [`Bottom`](Pass::Bottom) and [`Top`](Pass::Top)
+    /// hand over to [`Nodes`](Pass::Nodes). What it holds before and after a refit means nothing. At most those of
+    /// [`AT_A_TIME`](Self::AT_A_TIME) nodes, 12 MiB for `LightBvh`.
     pub children: u64,
 }
 

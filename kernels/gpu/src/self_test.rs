@@ -24,7 +24,8 @@ const OPERANDS_BYTES: usize = 3 * 4 * TRIPLES;
 /// Bytes that the kernel writes.
 pub const ANSWERS_BYTES: usize = CHECKS.len() * 4 * TRIPLES;
 
-/// Operands, then what the CPU answers: the words of `kernels/src/self_test.rs` as native code, little-endian (a test compares them).
+/// Operands, then what the CPU answers: the words of `kernels/src/self_test.rs` as native code, little-endian (a test compares
+/// them).
 static WORDS: &[u8; OPERANDS_BYTES + ANSWERS_BYTES] = include_bytes!("self_test/words.bin");
 
 /// An answer that differs from the CPU's and may not.

@@ -54,10 +54,11 @@ pub static EQ4: KernelSet = KernelSet {
 };
 
 impl KernelSet {
-    /// The kernels of `Bvh<Lit<SpotMomentNode<8>, AnyLight>, Defensive<Moments, 6>, 8>`, over lights of any kind. A light is 68 bytes where a triangle is 56;
-    /// a scene of triangles alone takes [`MOMENTS`].
+    /// The kernels of `Bvh<Lit<SpotMomentNode<8>, AnyLight>, Defensive<Moments, 6>, 8>`, over lights of any kind. A light is 68
+    /// bytes where a triangle is 56; a scene of triangles alone takes [`MOMENTS`].
     ///
-    /// Its [`light_points`](Self::light_points) reads `queries` besides, for a point on a light of some kinds depends on the receiver.
+    /// Its [`light_points`](Self::light_points) reads `queries` besides, for a point on a light of some kinds depends on the
+    /// receiver.
     pub const ANY: Self = Self {
         refit_bottom: &table::REFIT_BOTTOM_ANY,
         refit_roots: &table::REFIT_ROOTS_ANY,
@@ -68,8 +69,8 @@ impl KernelSet {
         light_points: &table::LIGHT_POINTS_ANY,
     };
 
-    /// The kernels of light linking, `Bvh<Lit<LinkedMomentNode<8>, LinkedTriangle>, Linked<Leveled<Moments, 9>>, 8>`. They are asked
-    /// [`LinkedQuery`](crate::LinkedQuery)s.
+    /// The kernels of light linking, `Bvh<Lit<LinkedMomentNode<8>, LinkedTriangle>, Linked<Leveled<Moments, 9>>, 8>`. They are
+    /// asked [`LinkedQuery`](crate::LinkedQuery)s.
     pub const LINKED: Self = Self {
         refit_bottom: &table::REFIT_BOTTOM_LINKED,
         refit_roots: &table::REFIT_ROOTS_LINKED,
@@ -80,8 +81,8 @@ impl KernelSet {
         light_points: &table::LIGHT_POINTS_LINKED,
     };
 
-    /// [`MOMENTS`] for receivers with two sides: lights of the same trees, by `LightBvh::by::<Defensive<Transmissive<Moments>, 6>>`. They are
-    /// asked [`TransmissiveQuery`](crate::TransmissiveQuery)s.
+    /// [`MOMENTS`] for receivers with two sides: lights of the same trees, by `LightBvh::by::<Defensive<Transmissive<Moments>,
+    /// 6>>`. They are asked [`TransmissiveQuery`](crate::TransmissiveQuery)s.
     pub const TRANSMISSIVE: Self = Self {
         sample: &table::SAMPLE_TRANSMISSIVE,
         pmf: &table::PMF_TRANSMISSIVE,

@@ -12,8 +12,8 @@ use lightbvh_kernels::refit::RefitPush;
 
 use super::file::{Answer, File};
 
-/// What refit does, in order; each pass is a list of node indices, or of bottom levels for [`Step::Roots`]. Kernel `refit_nodes` follows those
-/// over children.
+/// What refit does, in order; each pass is a list of node indices, or of bottom levels for [`Step::Roots`]. Kernel
+/// `refit_nodes` follows those over children.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
     /// `refit_bottom`.

@@ -1,5 +1,5 @@
-//! No subnormal number comes up in a tree: the processor's own flush-to-zero mode changes no word of refits, samples, pmfs and points on
-//! lights. Devices that flush then agree with those that do not.
+//! No subnormal number comes up in a tree: the processor's own flush-to-zero mode changes no word of refits, samples, pmfs and
+//! points on lights. Devices that flush then agree with those that do not.
 #![cfg(target_arch = "x86_64")]
 
 pub mod scenes;

@@ -1,4 +1,5 @@
-//! Scenes at the ends of the domain: lights of every kind and size, at one place or far apart, in maps that shrink and stretch them.
+//! Scenes at the ends of the domain: lights of every kind and size, at one place or far apart, in maps that shrink and stretch
+//! them.
 
 use lightbvh::light::{
     AnyLight, BoxLight, DiscLight, LinkedAny, LinkedTriangle, PointLight, ProfileLight, RectangleLight,

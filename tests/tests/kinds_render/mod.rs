@@ -1,5 +1,5 @@
-//! The renderer over lights of every kind: known answers, the same light described by a mesh and by a formula, and every device against the
-//! CPU, word for word.
+//! The renderer over lights of every kind: known answers, the same light described by a mesh and by a formula, and every device
+//! against the CPU, word for word.
 
 mod devices;
 mod known;

@@ -1,4 +1,5 @@
-//! What is painted on surfaces: pictures against an oracle, known answers of each texture, and every device against the CPU, word for word.
+//! What is painted on surfaces: pictures against an oracle, known answers of each texture, and every device against the CPU,
+//! word for word.
 
 mod files;
 mod glow;
@@ -78,7 +79,8 @@ fn sheet(side: f32, material: u32) -> Mesh {
     }
 }
 
-/// A floor that reflects half of all light diffusely, seen from straight above from height `eye`, `aim` metres from the origin along x.
+/// A floor that reflects half of all light diffusely, seen from straight above from height `eye`, `aim` metres from the origin
+/// along x.
 fn floor(paint: Paint, pictures: Vec<Picture>, [aim, eye]: [f32; 2]) -> SceneData {
     let above = Transform::Matrix([
         [1.0, 0.0, 0.0],
@@ -215,8 +217,8 @@ pub fn plain_floor(aim: f32) -> SceneData {
     data
 }
 
-/// That every way finds `light`, up to a `share` of it, reflected by this albedo and no more gloss than there may be, in each channel; `light`
-/// is irradiance.
+/// That every way finds `light`, up to a `share` of it, reflected by this albedo and no more gloss than there may be, in each
+/// channel; `light` is irradiance.
 pub fn reflects(data: SceneData, light: [f64; 3], albedo: [f64; 3], share: f64) {
     let scene = Scene::new(data).expect("a sound scene");
     assert!(scene.has_kinds());

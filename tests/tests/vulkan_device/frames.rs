@@ -225,7 +225,8 @@ fn passes_that_write_more_than_the_ring_holds_are_whole() {
     });
 }
 
-/// Runs of any length between each other, into two buffers, in two orders: what is short goes by a dispatch where it is much, all arrives, nothing else changes.
+/// Runs of any length between each other, into two buffers, in two orders: what is short goes by a dispatch where it is much,
+/// all arrives, nothing else changes.
 #[test]
 fn short_runs_and_long_ones_arrive() {
     on_each(|device| {

@@ -1,4 +1,5 @@
-//! A device that is lost in mid-frame: an error that says so, whichever call finds it; the light BVH is whole, and another device takes over.
+//! A device that is lost in mid-frame: an error that says so, whichever call finds it; the light BVH is whole, and another
+//! device takes over.
 #![cfg(debug_assertions)]
 
 use lightbvh::LightBvh;

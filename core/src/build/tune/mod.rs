@@ -1,7 +1,8 @@
 //! The best configuration within a budget, measured on the caller's own points.
 //!
 //! Importance, layout, width and levels are types and calls of the caller's: each light BVH that is [added](Tuning::add) is one
-//! configuration with its number of candidates. [`BuildParams::within`](crate::BuildParams::within) tries the presets of the builder for the defaults.
+//! configuration with its number of candidates. [`BuildParams::within`](crate::BuildParams::within) tries the presets of the
+//! builder for the defaults.
 //!
 //! ```
 //! use lightbvh::build::tune::{Budget, Diffuse, Tuning};
@@ -76,14 +77,14 @@ pub struct Measured {
     pub sample_ns: f64,
     /// The same with its shadow ray.
     pub time_ns: f64,
-    /// Relative variance of a sample's estimate with its shadow ray: the mean over the points of variance / (m² + a²), where m is the
-    /// point's light, and a that of the points on average, so that points in the dark do not decide.
+    /// Relative variance of a sample's estimate with its shadow ray: the mean over the points of variance / (m² + a²), where m
+    /// is the point's light, and a that of the points on average, so that points in the dark do not decide.
     pub variance: f64,
 }
 
 impl<'a> Tuning<'a> {
-    /// Before any configuration: `points` as an image has them, some dozens or hundreds; the light that counts; the time of a shadow
-    /// ray in the caller's renderer, ns.
+    /// Before any configuration: `points` as an image has them, some dozens or hundreds; the light that counts; the time of a
+    /// shadow ray in the caller's renderer, ns.
     ///
     /// # Errors
     /// [`TuneError`] for no points, a point outside the domain of [`ShadingPoint::checked`], a time that is negative or not finite.
@@ -132,9 +133,9 @@ impl<'a> Tuning<'a> {
 
     /// Measures all of them, in the order in which they were added. `clock` gives the time since any moment that stays the same.
     ///
-    /// One candidate has its variance by the probabilities of all lights, where lights times points are at most 2^20; several, or more
-    /// lights, by trials of fixed numbers, so that everything but times is the same in every run. Trials alone miss light that is
-    /// rarely found.
+    /// One candidate has its variance by the probabilities of all lights, where lights times points are at most 2^20; several,
+    /// or more lights, by trials of fixed numbers, so that everything but times is the same in every run. Trials alone miss
+    /// light that is rarely found.
     ///
     /// # Errors
     /// [`TuneError::NoConfigurations`]; [`TuneError::Dark`] where no light arrives at any point; [`TuneError::Clock`] for a clock

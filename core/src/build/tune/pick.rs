@@ -2,8 +2,8 @@
 
 use super::{Measured, TuneError};
 
-/// What a point may cost. Samples of a point are taken as independent, so that n of them have 1/n of the variance; spread numbers do
-/// better, most where there are many of them.
+/// What a point may cost. Samples of a point are taken as independent, so that n of them have 1/n of the variance; spread
+/// numbers do better, most where there are many of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Budget {
     /// The least error in this time for a point, shadow rays included.

@@ -76,7 +76,8 @@ fn instances_added_since_a_rebuild_cost_their_paths() {
     bvh.validate().expect("valid");
 }
 
-/// Where as many instances are added as there are, the top level is built anew, which a plan tells together with what it has not told yet.
+/// Where as many instances are added as there are, the top level is built anew, which a plan tells together with what it has
+/// not told yet.
 #[test]
 fn a_top_level_built_anew_is_told_as_a_whole() {
     let (mut bvh, _) = lamps(1000);
@@ -169,8 +170,8 @@ fn what_only_one_side_does_stays_short() {
     bvh.validate().expect("valid");
 }
 
-/// Refits count what changed, whether they gather their lists themselves or take those of a plan: what is written to a file is the same, and so what a
-/// rebuilder does.
+/// Refits count what changed, whether they gather their lists themselves or take those of a plan: what is written to a file is
+/// the same, and so what a rebuilder does.
 #[test]
 fn plans_change_nothing_of_what_refits_count() {
     let (mut bvh, ids) = lamps(600);

@@ -107,8 +107,8 @@ fn swaps(lamps: u32, params: RebuildParams, frames: u32, radiance: impl Fn(u32) 
     swaps
 }
 
-/// Meshes that outshine all others get a top level for it at once, though they change in every frame and no node tells its children apart any
-/// worse; those that blink ask for no more than that.
+/// Meshes that outshine all others get a top level for it at once, though they change in every frame and no node tells its
+/// children apart any worse; those that blink ask for no more than that.
 #[test]
 fn what_outshines_others_gets_a_tree_while_it_changes() {
     let swaps_after = |radiance: fn(u32) -> f32| {
@@ -159,7 +159,8 @@ fn files_tell_it() {
     }
 }
 
-/// What is noted in a frame that computes nothing is of an epoch that has come: files know what is later than what they tell of as no later.
+/// What is noted in a frame that computes nothing is of an epoch that has come: files know what is later than what they tell of
+/// as no later.
 #[test]
 fn what_is_noted_alone_brings_the_epoch_on() {
     let (mut bvh, _) = scene(100);
@@ -209,8 +210,8 @@ fn files_of_another_flux_go_on() {
     }
 }
 
-/// Each instance counts, by its own flux, for what it outshines in each node above: the root's share is that of its instances, and no node counts fewer
-/// than the one below.
+/// Each instance counts, by its own flux, for what it outshines in each node above: the root's share is that of its instances,
+/// and no node counts fewer than the one below.
 #[test]
 fn what_is_outshone_counts() {
     let (mut bvh, meshes) = scene(100);
@@ -260,8 +261,8 @@ fn what_is_outshone_counts() {
     }
 }
 
-/// What comes in so bright that it outshines the others was put into a tree that was built without it: that is tried anew, though nothing in it
-/// lost its order. Dim ones ask for nothing.
+/// What comes in so bright that it outshines the others was put into a tree that was built without it: that is tried anew,
+/// though nothing in it lost its order. Dim ones ask for nothing.
 #[test]
 fn bright_ones_that_come_in_get_a_tree() {
     for (opens, radiance, gets) in [(true, 900.0, true), (false, 900.0, true), (true, 0.001, false)] {

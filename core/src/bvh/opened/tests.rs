@@ -284,7 +284,8 @@ fn what_grows_is_opened_and_not_closed_at_once() {
     );
 }
 
-/// A file tells where the parts of an opened instance were when they were hung: edits after it is read do what they would have done.
+/// A file tells where the parts of an opened instance were when they were hung: edits after it is read do what they would have
+/// done.
 #[test]
 fn opened_instances_that_moved_are_read_as_they_were() {
     let random = &mut Random(11);
@@ -332,7 +333,8 @@ fn the_radiance_of_an_opened_instance_sent_again_is_no_change() {
     }
 }
 
-/// An instance that is opened among so few others that the top level is built anew, which closes it again: nothing is asked of what it was.
+/// An instance that is opened among so few others that the top level is built anew, which closes it again: nothing is asked of
+/// what it was.
 #[test]
 fn what_is_closed_as_it_is_opened_is_left_alone() {
     let mut bvh = LightBvh::default();

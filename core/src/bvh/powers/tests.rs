@@ -132,7 +132,8 @@ fn apart<L: Light>(lights: &[L], instance: &Instance) -> f64 {
     lights.iter().map(of).sum()
 }
 
-/// What an instance makes of its mesh's flux, as the top level takes it, is what it makes of the lights'. Nodes keep the mesh's coarsely.
+/// What an instance makes of its mesh's flux, as the top level takes it, is what it makes of the lights'. Nodes keep the mesh's
+/// coarsely.
 fn agrees<N: Node<W>, I, const W: usize>(name: &str, bvh: &Bvh<N, I, W>, index: usize, lights: &[N::Light]) {
     let instance = &bvh.instances[index];
     let own = f64::from(bvh.root_of(instance.blas).phi());
@@ -208,7 +209,8 @@ fn flux_of_volumes_grows_with_volume() {
     check_both(glow);
 }
 
-/// Edits that change the kind of a mesh's lights, all at once and one by one: instances know, and a mesh of several kinds goes by area.
+/// Edits that change the kind of a mesh's lights, all at once and one by one: instances know, and a mesh of several kinds goes
+/// by area.
 #[test]
 fn edits_change_how_flux_grows() {
     let random = &mut Random(5);

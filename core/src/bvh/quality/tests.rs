@@ -180,8 +180,8 @@ fn without_flux_nothing_is_lost() {
     assert!(bvh.drift(0) < 1.001);
 }
 
-/// Lamps that start at one point have all to lose: no tree tells them apart there, and any order is as good as another. Scattered, as
-/// they are in no order, they are told apart as badly as shuffled ones.
+/// Lamps that start at one point have all to lose: no tree tells them apart there, and any order is as good as another.
+/// Scattered, as they are in no order, they are told apart as badly as shuffled ones.
 #[test]
 fn lamps_that_start_at_one_point_lose_their_order() {
     let at_one = || {
@@ -245,9 +245,9 @@ fn scatter([phi, x, y, z, squared, _]: [f64; 6]) -> f64 {
     squared - (x * x + y * y + z * z) / phi
 }
 
-/// What a node cannot tell apart is the share of its lights' variance, their own extents in the whole, that lies between the centers
-/// of the lights within its inner children. Extents in the share, or a variance that is not about the mean, would make large lights,
-/// or those far from the first child, look as lost.
+/// What a node cannot tell apart is the share of its lights' variance, their own extents in the whole, that lies between the
+/// centers of the lights within its inner children. Extents in the share, or a variance that is not about the mean, would make
+/// large lights, or those far from the first child, look as lost.
 #[test]
 fn what_is_noted_is_the_share_within() {
     let mut large = lamps();

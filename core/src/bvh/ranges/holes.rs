@@ -5,8 +5,8 @@ use alloc::vec::Vec;
 /// No node.
 const NONE: u32 = u32::MAX;
 
-/// Free ranges by start, in a balanced tree (AVL) whose nodes know the longest range below them: everything takes time in proportion to
-/// the depth, at most 1.44 times the logarithm of their number.
+/// Free ranges by start, in a balanced tree (AVL) whose nodes know the longest range below them: everything takes time in
+/// proportion to the depth, at most 1.44 times the logarithm of their number.
 #[derive(Clone, Debug)]
 pub(super) struct Holes {
     nodes: Vec<Node>,

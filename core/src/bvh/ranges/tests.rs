@@ -104,8 +104,8 @@ fn searches_are_logarithmic() {
     }
 }
 
-/// The space after many edits over the most that was live at once, and over what is live; lengths by `length`, of which about `live`
-/// stay in use.
+/// The space after many edits over the most that was live at once, and over what is live; lengths by `length`, of which about
+/// `live` stay in use.
 fn space(rounds: u32, live: usize, length: impl Fn(u32) -> u32) -> f64 {
     let mut ranges = Ranges::default();
     let mut held: Vec<Range<u32>> = Vec::new();
@@ -140,8 +140,8 @@ fn as_much_comes_as_goes() {
     assert!(all.iter().all(|&ratio| ratio < 1.5), "{all:?}");
 }
 
-/// Robson's sequence: ever longer ranges, of which one is kept in each stretch that the next length needs. No rule of fit that moves
-/// nothing keeps the space near what is live; first fit keeps to his bound for it.
+/// Robson's sequence: ever longer ranges, of which one is kept in each stretch that the next length needs. No rule of fit that
+/// moves nothing keeps the space near what is live; first fit keeps to his bound for it.
 #[test]
 fn the_worst_is_what_theory_says() {
     let live = 1 << 16;

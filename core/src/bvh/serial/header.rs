@@ -17,8 +17,8 @@ const MAGIC: u32 = u32::from_le_bytes(*b"LBVH");
 /// Bit of a mesh's changes: its next tree waits until instances are closed.
 pub(super) const STAGED_ONLY: u32 = 1 << 31;
 
-/// Bit of a bottom level's changes: it was its mesh's before the one that is, and instances still follow it. Their places among the mesh's have
-/// the bit [`FOLLOWS`].
+/// Bit of a bottom level's changes: it was its mesh's before the one that is, and instances still follow it. Their places among
+/// the mesh's have the bit [`FOLLOWS`].
 pub(super) const OUTGOING: u32 = 1 << 30;
 pub(super) const FOLLOWS: u32 = 1 << 31;
 

@@ -1,9 +1,9 @@
 //! A light BVH as words, to be kept in a file and read again.
 //!
-//! What is written is what cannot be computed: triangles, transforms, links, and what later edits depend on (which places are free,
-//! the order of lists, what was noted of bottom levels when they were built). Nodes' summaries, instances' words, trails and levels are
-//! computed anew, by the functions that a refit calls: so they have the words that they had, whatever machine reads them.
-//! `docs/format.md` lists every word.
+//! What is written is what cannot be computed: triangles, transforms, links, and what later edits depend on (which places are
+//! free, the order of lists, what was noted of bottom levels when they were built). Nodes' summaries, instances' words, trails
+//! and levels are computed anew, by the functions that a refit calls: so they have the words that they had, whatever machine
+//! reads them. `docs/format.md` lists every word.
 
 mod error;
 mod header;
@@ -25,29 +25,32 @@ use super::Bvh;
 use crate::node::Node;
 
 impl<N: Node<W>, I, const W: usize> Bvh<N, I, W> {
-    /// The BVH as words, which [`from_words`](Self::from_words) reads; a file holds them in little-endian order. They name the layout
-    /// `N` and the width `W`, not the importance `I`, of which no word depends. Takes time and memory in proportion to the arrays.
+    /// The BVH as words, which [`from_words`](Self::from_words) reads; a file holds them in little-endian order. They name the
+    /// layout `N` and the width `W`, not the importance `I`, of which no word depends. Takes time and memory in proportion to
+    /// the arrays.
     ///
-    /// Nothing is refitted here, and nothing need be: where edits wait for their refit, what is read has been refitted, and may be once
-    /// more. Trees that later edits build are then as good, but not the same word for word as those of the original, which built them
-    /// before its refit: refit first where that matters.
+    /// Nothing is refitted here, and nothing need be: where edits wait for their refit, what is read has been refitted, and may
+    /// be once more. Trees that later edits build are then as good, but not the same word for word as those of the original,
+    /// which built them before its refit: refit first where that matters.
     #[must_use]
     pub fn to_words(&self) -> Vec<u32> {
         self.written()
     }
 
-    /// Reads what [`to_words`](Self::to_words) wrote. The BVH goes on as the one that was written: the same samples and pmfs, and after
-    /// the same edits, refits and rebuilds the same words if it was refitted when it was written. Places of its arrays that are not in use hold the words of nothing.
+    /// Reads what [`to_words`](Self::to_words) wrote. The BVH goes on as the one that was written: the same samples and pmfs,
+    /// and after the same edits, refits and rebuilds the same words if it was refitted when it was written. Places of its
+    /// arrays that are not in use hold the words of nothing.
     ///
-    /// It is another BVH, so it has ids of its own: [`mesh_id`](Self::mesh_id) and [`instance_id`](Self::instance_id) give them by
-    /// the indices, which stay; a program that keeps ids in a file keeps [`InstanceId::index`](super::InstanceId::index) and
-    /// [`MeshId::index`](super::MeshId::index) in their place. A `Rebuilder` of the one that was written knows nothing of it: it starts with a
-    /// new one; where both are to go on alike, so does the one that was written. What was planned for a mirror is not written: one takes all arrays over, as
-    /// `lightbvh_gpu::Mirror` does by itself.
+    /// It is another BVH, so it has ids of its own: [`mesh_id`](Self::mesh_id) and [`instance_id`](Self::instance_id) give them
+    /// by the indices, which stay; a program that keeps ids in a file keeps [`InstanceId::index`](super::InstanceId::index) and
+    /// [`MeshId::index`](super::MeshId::index) in their place. A `Rebuilder` of the one that was written knows nothing of it:
+    /// it starts with a new one; where both are to go on alike, so does the one that was written. What was planned for a mirror
+    /// is not written: one takes all arrays over, as `lightbvh_gpu::Mirror` does by itself.
     ///
-    /// The words may be anything that gives a sound light BVH, damaged ones too: there is no checksum, and a turned bit may be another
-    /// lamp. Reading takes time in proportion to them, but for sorting, and for each some 550 bytes of memory at worst (seen
-    /// with empty nodes), room to grow among them; then every invariant is checked by [`validate`](Self::validate), which takes as much again.
+    /// The words may be anything that gives a sound light BVH, damaged ones too: there is no checksum, and a turned bit may be
+    /// another lamp. Reading takes time in proportion to them, but for sorting, and for each some 550 bytes of memory at worst
+    /// (seen with empty nodes), room to grow among them; then every invariant is checked by [`validate`](Self::validate), which
+    /// takes as much again.
     ///
     /// # Errors
     /// [`ReadError`], which says which word is wrong or what of the tree does not hold.

@@ -91,8 +91,8 @@ fn goes_on<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32,
     }
 }
 
-/// What was read goes on as what was written, each with a rebuilder that begins there: at rest, and in motion. Few and many instances changed in
-/// the frames before.
+/// What was read goes on as what was written, each with a rebuilder that begins there: at rest, and in motion. Few and many
+/// instances changed in the frames before.
 #[cfg(feature = "std")]
 #[test]
 fn rebuilders_go_on_alike() {

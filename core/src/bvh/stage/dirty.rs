@@ -2,8 +2,9 @@
 
 use alloc::vec::Vec;
 
-/// Nodes by their places in the tree, which is in depth-first order: the last of them has none below it. Where a node is marked, so are
-/// those above it; taken from the last on, each is computed after those below it, and once, however often it was marked.
+/// Nodes by their places in the tree, which is in depth-first order: the last of them has none below it. Where a node is
+/// marked, so are those above it; taken from the last on, each is computed after those below it, and once, however often it was
+/// marked.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Dirty {
     words: Vec<u64>,

@@ -24,8 +24,8 @@ struct Tree<'a, L, const W: usize> {
     triangles: &'a [L],
 }
 
-/// The tree with `count` nodes and at most `levels` levels; `None` where that was not found. A leaf node of few triangles gives them to
-/// its parent and its nearest siblings; two triangles of a node get a node of their own.
+/// The tree with `count` nodes and at most `levels` levels; `None` where that was not found. A leaf node of few triangles gives
+/// them to its parent and its nearest siblings; two triangles of a node get a node of their own.
 pub(super) fn fit<N: Node<W>, const W: usize>(
     topology: Topology<N>,
     triangles: &[N::Light],

@@ -1,8 +1,10 @@
-//! A mesh's new tree is handed over to its instances, a few in each frame: all at once cost 0.25 µs for each in the refit that follows.
+//! A mesh's new tree is handed over to its instances, a few in each frame: all at once cost 0.25 µs for each in the refit that
+//! follows.
 //!
-//! Meanwhile the tree that was the mesh's is a bottom level of its own, with the triangles as they were copied from, and an instance's words say which
-//! of the two it follows. Both are of the same lights: once any of them changes, the rest of the instances follow at once, for the refit
-//! computes all of their leaves then. An instance that is moved, opened or closed follows too.
+//! Meanwhile the tree that was the mesh's is a bottom level of its own, with the triangles as they were copied from, and an
+//! instance's words say which of the two it follows. Both are of the same lights: once any of them changes, the rest of the
+//! instances follow at once, for the refit computes all of their leaves then. An instance that is moved, opened or closed
+//! follows too.
 
 use alloc::vec::Vec;
 
@@ -64,8 +66,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.handing.len()
     }
 
-    /// The tree of a stage becomes its mesh's, another bottom level. Where the next refit computes the leaves of all its instances anyway, or they are
-    /// few, all follow; else those that [`hand_over_some`](Self::hand_over_some) takes.
+    /// The tree of a stage becomes its mesh's, another bottom level. Where the next refit computes the leaves of all its
+    /// instances anyway, or they are few, all follow; else those that [`hand_over_some`](Self::hand_over_some) takes.
     pub(super) fn put_in_place(&mut self, old: u32, staged: Staged) {
         let is_at_once = self.is_to_be_refitted(old) || self.leaves_of_mesh(old) <= HANDED;
         let new = staged.index;
@@ -110,8 +112,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Whether triangles of a bottom level changed since the last refit. What a plan has still to tell is no matter: a mirror computes the old tree
-    /// by it, and trees do not depend on plans.
+    /// Whether triangles of a bottom level changed since the last refit. What a plan has still to tell is no matter: a mirror
+    /// computes the old tree by it, and trees do not depend on plans.
     fn is_to_be_refitted(&self, blas: u32) -> bool {
         let mut lists = [&self.changes.new, &self.changes.unrefitted].into_iter();
         lists.any(|pending| {
@@ -120,8 +122,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         })
     }
 
-    /// Has instances follow the new trees of their meshes, those of about `most` leaves. What lies together in the top level follows together: nodes
-    /// above then are computed once for all of them.
+    /// Has instances follow the new trees of their meshes, those of about `most` leaves. What lies together in the top level
+    /// follows together: nodes above then are computed once for all of them.
     #[cfg(feature = "std")]
     pub(crate) fn hand_over_some(&mut self, mut most: usize) {
         let mut looked_at = 0;

@@ -52,8 +52,8 @@ pub(crate) struct MeshTree<N: Holds> {
     /// How many nodes and trails are in place.
     pub(super) nodes_placed: usize,
     pub(super) trails_placed: usize,
-    /// Of a part: its triangles, where in the mesh they are, and nodes that are to be computed. Its trails begin at the mesh's root, and it
-    /// has no nodes where no tree of as many was found.
+    /// Of a part: its triangles, where in the mesh they are, and nodes that are to be computed. Its trails begin at the mesh's
+    /// root, and it has no nodes where no tree of as many was found.
     pub(super) triangles: Vec<N::Light>,
     pub(super) places: Vec<u32>,
     pub(super) dirty: Dirty,

@@ -1,8 +1,8 @@
 //! A part of a large mesh's tree built anew: a subtree that lost its shape while the rest of the tree kept it.
 //!
-//! Its triangles stay where they are, and the new subtree has as many nodes as the old one, so that it takes its place without a gap:
-//! only its nodes, and the trails of its triangles, are written. What changes while it is built is computed in it, still apart, as a whole
-//! stage is; then it is put in place within one frame.
+//! Its triangles stay where they are, and the new subtree has as many nodes as the old one, so that it takes its place without
+//! a gap: only its nodes, and the trails of its triangles, are written. What changes while it is built is computed in it, still
+//! apart, as a whole stage is; then it is put in place within one frame.
 
 use alloc::collections::BinaryHeap;
 use alloc::vec::Vec;
@@ -20,7 +20,8 @@ use crate::trail::{BitTrail, max_levels, word_levels};
 
 /// Nodes that one search for such a part looks at.
 const LOOKED_AT: usize = 128;
-/// Nodes known to have no other tree of as many nodes from which on no part of a mesh is built: until parts around them were, or the whole is worn.
+/// Nodes known to have no other tree of as many nodes from which on no part of a mesh is built: until parts around them were,
+/// or the whole is worn.
 pub(in crate::bvh) const MISFITS: usize = 64;
 /// Bytes of a frame that take about the time of a node that is put in place, with its triangles.
 const PLACED: usize = 128;
@@ -72,9 +73,9 @@ impl PartialEq for Step {
 impl Eq for Step {}
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Begins a stage for a part of bottom level `blas` that `params` wants built anew, if there is one that a frame of `bytes` can put in
-    /// place. `None` where there is none, where a stage is under way, and where there are no trails: without them nothing leads from
-    /// a triangle to its node.
+    /// Begins a stage for a part of bottom level `blas` that `params` wants built anew, if there is one that a frame of `bytes`
+    /// can put in place. `None` where there is none, where a stage is under way, and where there are no trails: without them
+    /// nothing leads from a triangle to its node.
     pub(crate) fn begin_part(
         &mut self,
         blas: u32,
@@ -161,8 +162,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         None
     }
 
-    /// Computes more of what changed since the triangles were copied, and puts the subtree in place where nothing is left; whether it
-    /// has. `None` where the stage is gone, or no subtree of as many nodes was found.
+    /// Computes more of what changed since the triangles were copied, and puts the subtree in place where nothing is left;
+    /// whether it has. `None` where the stage is gone, or no subtree of as many nodes was found.
     pub(crate) fn settle_part(
         &mut self,
         id: StageId,

@@ -9,8 +9,8 @@ use crate::node::{Node, kind};
 use crate::tree::INVALID;
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Makes more room for the triangles, by at most `bytes`, of which what it takes is subtracted; whether there is enough. `None` where the
-    /// stage is gone.
+    /// Makes more room for the triangles, by at most `bytes`, of which what it takes is subtracted; whether there is enough.
+    /// `None` where the stage is gone.
     pub(crate) fn find_room(&mut self, id: StageId, bytes: &mut usize) -> Option<bool> {
         let staged = self.staged(id)?;
         if staged.triangles.is_empty() && staged.part.is_none() {

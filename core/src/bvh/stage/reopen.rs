@@ -11,7 +11,8 @@ use crate::node::Node;
 const AT_ONCE: u32 = 2;
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Whether the tree of a stage may take the place of the bottom level's: few of its instances are opened, or into as many parts.
+    /// Whether the tree of a stage may take the place of the bottom level's: few of its instances are opened, or into as many
+    /// parts.
     pub(super) fn fits_parts(&self, blas: u32) -> bool {
         let own = &self.blases[blas as usize];
         let Some(staged) = own.staged.as_ref().filter(|_| self.is_much_opened(blas)) else {

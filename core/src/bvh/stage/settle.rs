@@ -48,12 +48,12 @@ impl Staged {
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Computes more of what changed since the triangles were copied, and lets the new tree take the place of the old where nothing is
-    /// left; whether it has. `None` where the stage is gone.
+    /// Computes more of what changed since the triangles were copied, and lets the new tree take the place of the old where
+    /// nothing is left; whether it has. `None` where the stage is gone.
     ///
-    /// However much changes, and however often, it ends: beside the triangles that have changed since the last frame others are looked for, and
-    /// beside the nodes that these mark others are computed, as many as the bytes are for. Those of the last frame are not of the bytes: the frame
-    /// changed them itself.
+    /// However much changes, and however often, it ends: beside the triangles that have changed since the last frame others are
+    /// looked for, and beside the nodes that these mark others are computed, as many as the bytes are for. Those of the last
+    /// frame are not of the bytes: the frame changed them itself.
     pub(crate) fn settle_stage(&mut self, id: StageId, bytes: &mut usize) -> Option<bool> {
         let staged = self.staged(id)?;
         let fresh = core::mem::take(&mut staged.fresh);

@@ -23,9 +23,9 @@ struct Found {
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Puts a tree in place of the part of the top level that it was built from, of which it does not know what became of it since the
-    /// epoch stood at `since`: what has gone or was put elsewhere is taken out of it, what has come is put in. Nothing is done where
-    /// the part is no more. Returns the instances that are then to be opened, and those to be closed.
+    /// Puts a tree in place of the part of the top level that it was built from, of which it does not know what became of it
+    /// since the epoch stood at `since`: what has gone or was put elsewhere is taken out of it, what has come is put in.
+    /// Nothing is done where the part is no more. Returns the instances that are then to be opened, and those to be closed.
     pub(in crate::bvh) fn install_top(
         &mut self,
         tree: &TopTree<N>,
@@ -121,8 +121,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         [tree.open.clone(), tree.close.clone()]
     }
 
-    /// Whether a part is nearly what its tree was built over, and the tree's nodes, of which some are given back once they are found to miss
-    /// children, have a number each: there are as many as records of instances.
+    /// Whether a part is nearly what its tree was built over, and the tree's nodes, of which some are given back once they are
+    /// found to miss children, have a number each: there are as many as records of instances.
     fn is_like(&self, tree: &TopTree<N>, found: &Found, room: &mut Quota) -> bool {
         let names = tree
             .names
@@ -155,8 +155,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         depth
     }
 
-    /// Walks what is below `root` and to be replaced. What was put there after `since` has come, and so has whatever `tree` was not built
-    /// over.
+    /// Walks what is below `root` and to be replaced. What was put there after `since` has come, and so has whatever `tree` was
+    /// not built over.
     fn sort_out(&mut self, root: u32, tree: &TopTree<N>, since: u64) -> Found {
         self.top.mark += 3;
         let [listed, inner, mark] = [2, 1, 0].map(|before| self.top.mark - before);
@@ -214,8 +214,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             .is_some_and(|placed| placed.mark == mark)
     }
 
-    /// So many nodes of the top level, the old ones among them, which hang nowhere. To give their places and numbers back and take others
-    /// would be half of the work.
+    /// So many nodes of the top level, the old ones among them, which hang nowhere. To give their places and numbers back and
+    /// take others would be half of the work.
     pub(super) fn renewed(&mut self, mut nodes: Vec<u32>, count: usize) -> Vec<u32> {
         // In order, so that what a mirror copies is in few pieces.
         nodes.sort_unstable();

@@ -8,8 +8,8 @@ use crate::bvh::{Bvh, Trails};
 use crate::node::{Node, kind};
 use crate::tree::INVALID;
 
-/// Most instances and subtrees that a frame puts into parts anew since they came while those were built. Where there are more a part is
-/// given up, and tried again: a frame would take longer than it may.
+/// Most instances and subtrees that a frame puts into parts anew since they came while those were built. Where there are more a
+/// part is given up, and tried again: a frame would take longer than it may.
 pub(super) const MOST: usize = 40;
 
 /// How many a frame has time for yet.
@@ -17,8 +17,8 @@ pub(super) const MOST: usize = 40;
 pub(in crate::bvh) struct Quota {
     /// Instances and subtrees that are put in.
     pub come: usize,
-    /// Those that are taken out since they went, or are in a subtree that was built anew: up to as many as a node has children go at a
-    /// time.
+    /// Those that are taken out since they went, or are in a subtree that was built anew: up to as many as a node has children
+    /// go at a time.
     pub gone: usize,
 }
 
@@ -54,8 +54,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.update_paths(&changed);
     }
 
-    /// Puts in what has come, and computes each node above it once: until then a node knows of the children that came below its own as much
-    /// as before.
+    /// Puts in what has come, and computes each node above it once: until then a node knows of the children that came below its
+    /// own as much as before.
     pub(in crate::bvh) fn insert_come(&mut self, instances: &[u32], subtrees: Vec<u32>) {
         self.epoch += u64::from(!instances.is_empty());
         let mut changed = Vec::new();

@@ -1,8 +1,8 @@
 //! What it costs to put subtrees together: Ward's criterion, as the builder has it (Ward 1963).
 //!
-//! A set of lights costs its flux times the variance of their positions; what a tree costs is the sum over the children of all its
-//! nodes. Two sets that become one cost δ = φ₁ φ₂ / (φ₁ + φ₂) · |c₁ − c₂|² more than before. On the CPU alone, in `f64`: positions up
-//! to 2^40 m squared, times flux, are within its range.
+//! A set of lights costs its flux times the variance of their positions; what a tree costs is the sum over the children of all
+//! its nodes. Two sets that become one cost δ = φ₁ φ₂ / (φ₁ + φ₂) · |c₁ − c₂|² more than before. On the CPU alone, in `f64`:
+//! positions up to 2^40 m squared, times flux, are within its range.
 
 use crate::summary::Summary;
 

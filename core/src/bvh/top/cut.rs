@@ -1,9 +1,9 @@
 //! Cuts of the top level: the nodes below one of its nodes that are to be replaced, and what hangs below those and stays.
 //!
 //! Where all leaves of a cut are instances, everything below its root is built anew. Above, the leaves are the subtrees that
-//! cost little, for the costliest are opened first: a subtree whose lights have drifted apart is split rather than kept. Lights that
-//! mixed over the whole scene are thus put in order as by a sort in passes: parts first, each of which is then spread over the
-//! scene but well ordered, then the levels above over what the parts were split into, then the parts that these make.
+//! cost little, for the costliest are opened first: a subtree whose lights have drifted apart is split rather than kept. Lights
+//! that mixed over the whole scene are thus put in order as by a sort in passes: parts first, each of which is then spread over
+//! the scene but well ordered, then the levels above over what the parts were split into, then the parts that these make.
 
 #[cfg(feature = "std")]
 use alloc::collections::BinaryHeap;

@@ -40,9 +40,10 @@ pub(super) enum Step {
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Puts `added` instances into the top level, which has none of them. A few go in one by one, each in time in proportion to the
-    /// depth. Many are built into a tree of their own first, whose lowest nodes go in where their instances lie as close together as those around them,
-    /// else one by one; as many as there are already, and everything is built anew. So time is in proportion to what is added, times the depth.
+    /// Puts `added` instances into the top level, which has none of them. A few go in one by one, each in time in proportion to
+    /// the depth. Many are built into a tree of their own first, whose lowest nodes go in where their instances lie as close
+    /// together as those around them, else one by one; as many as there are already, and everything is built anew. So time is
+    /// in proportion to what is added, times the depth.
     pub(in crate::bvh) fn insert_instances(&mut self, added: &[u32]) {
         let root = self.top.number(self.top.root);
         let there = self.top.counts.get(root as usize).copied().unwrap_or(0) as usize;
@@ -101,9 +102,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Whether the instances below node `own` lie about as close together as those below `host`: so many of those, were they even in space,
-    /// have a variance of position less by a factor of (n / N)^⅔. Lamps scattered over a scene are near none of each other, and a node of theirs would
-    /// reach across all that lies between.
+    /// Whether the instances below node `own` lie about as close together as those below `host`: so many of those, were they
+    /// even in space, have a variance of position less by a factor of (n / N)^⅔. Lamps scattered over a scene are near none of
+    /// each other, and a node of theirs would reach across all that lies between.
     fn is_as_dense(&self, own: u32, host: u32) -> bool {
         let of = |node: u32| {
             let count = self.top.counts[self.top.number(node) as usize];
@@ -132,8 +133,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Puts an item where it costs least, as far as a walk from the root tells that looks at one node of each level. False where the
-    /// tree would get deeper than places may be; an instance always fits.
+    /// Puts an item where it costs least, as far as a walk from the root tells that looks at one node of each level. False
+    /// where the tree would get deeper than places may be; an instance always fits.
     pub(super) fn insert(&mut self, item: Item) -> bool {
         let Some((node, step)) = self.place_of(&item) else {
             return false;
@@ -148,7 +149,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.top.touched.push(node);
     }
 
-    /// The same as [`insert`](Self::insert), but that nothing is computed of the node whose children change, which is returned, and those above it.
+    /// The same as [`insert`](Self::insert), but that nothing is computed of the node whose children change, which is returned,
+    /// and those above it.
     pub(super) fn put(&mut self, item: Item) -> Option<u32> {
         let (node, step) = self.place_of(&item)?;
         self.put_at(node, step, &item);
@@ -222,8 +224,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             })
     }
 
-    /// Where an item goes from `node` at `level`: what costs least of all that keeps the tree within its levels. `None` where nothing
-    /// does, never for an instance: a node with less than its levels hold has a child of which that is true, too.
+    /// Where an item goes from `node` at `level`: what costs least of all that keeps the tree within its levels. `None` where
+    /// nothing does, never for an instance: a node with less than its levels hold has a child of which that is true, too.
     pub(super) fn step(&self, node: u32, level: u32, item: &Item) -> Option<Step> {
         let levels = max_levels(W);
         let own = &self.nodes[node as usize];

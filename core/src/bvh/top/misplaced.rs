@@ -19,11 +19,11 @@ const ADDED: f64 = 0.5;
 const SHARE: f64 = 1.0 / 16.0;
 /// And once its radiance has changed by this factor since it was put where it is; for being dimmer, once at all.
 const FACTOR: f32 = 2.0;
-/// Most instances that one call puts in elsewhere, and one more for so many instances. Where more are misplaced the rest waits for a
-/// rebuild: an animation of all instances costs what it always did.
+/// Most instances that one call puts in elsewhere, and one more for so many instances. Where more are misplaced the rest waits
+/// for a rebuild: an animation of all instances costs what it always did.
 const MOST: usize = 64;
-/// Each of the rest counts as so many that are in subtrees built anew: where one in 32 of a part is misplaced there may be something to gain,
-/// even where no node has lost any of its order, as where lamps come on that were off when it was built.
+/// Each of the rest counts as so many that are in subtrees built anew: where one in 32 of a part is misplaced there may be
+/// something to gain, even where no node has lost any of its order, as where lamps come on that were off when it was built.
 pub(super) const STIRS: u32 = 4;
 
 /// Of so many instances that are moved one is compared with what lies beside its nodes at all levels.
@@ -69,8 +69,8 @@ pub(super) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Takes those of `moved` instances, which may repeat, out of the top level that make their nodes wide, and adds them to `out`. Those of them
-    /// that `jumped`, in order, are looked at more closely.
+    /// Takes those of `moved` instances, which may repeat, out of the top level that make their nodes wide, and adds them to
+    /// `out`. Those of them that `jumped`, in order, are looked at more closely.
     pub(in crate::bvh) fn take_misplaced(&mut self, mut moved: Vec<u32>, jumped: &[u32], out: &mut Vec<u32>) {
         moved.sort_unstable();
         moved.dedup();
@@ -126,9 +126,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         placed.flickers |= placed.hung_radiance > FACTOR * placed.radiance;
     }
 
-    /// Of bottom levels whose triangles were all set, which may repeat: the instances that lie far from where they were, in order. What is known of
-    /// their meshes is brought up to date, as the next refit would. Others are looked at no closer: a mesh that sways costs a sum over
-    /// some of its triangles.
+    /// Of bottom levels whose triangles were all set, which may repeat: the instances that lie far from where they were, in
+    /// order. What is known of their meshes is brought up to date, as the next refit would. Others are looked at no closer: a
+    /// mesh that sways costs a sum over some of its triangles.
     pub(in crate::bvh) fn take_jumped(&mut self, mut reshaped: Vec<u32>) -> Vec<u32> {
         let mut jumped = Vec::new();
         // The lights of a single level are in no top level.
@@ -164,8 +164,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         jumped
     }
 
-    /// Where meshes of instances that are added were set as a whole since the last refit, what is known of them is brought up to date: once each
-    /// time, in no more than a part of the time that setting them took.
+    /// Where meshes of instances that are added were set as a whole since the last refit, what is known of them is brought up
+    /// to date: once each time, in no more than a part of the time that setting them took.
     pub(in crate::bvh) fn freshen(&mut self, added: &[u32]) {
         for &index in added {
             let blas = self.blas_index(&self.placed[index as usize]);
@@ -184,8 +184,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.blases[blas as usize].is_stale = false;
     }
 
-    /// Whether an instance whose centre is `center` now, metres, lies farther from where the last refit saw it than the deviation of what its
-    /// node holds.
+    /// Whether an instance whose centre is `center` now, metres, lies farther from where the last refit saw it than the
+    /// deviation of what its node holds.
     fn has_jumped(&self, index: u32, center: [f32; 3]) -> bool {
         let placed = &self.placed[index as usize];
         if placed.node == INVALID || self.parents[placed.node as usize] == INVALID {
@@ -197,8 +197,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         distance(center.map(f64::from), was.map(f64::from)) > f64::from(whole.spread())
     }
 
-    /// What an instance that is misplaced costs more where it is; 0 of one that is not. Looks at a slot of each of the two nodes above,
-    /// as they were at the last refit.
+    /// What an instance that is misplaced costs more where it is; 0 of one that is not. Looks at a slot of each of the two
+    /// nodes above, as they were at the last refit.
     fn excess(&self, index: u32) -> f64 {
         let placed = &self.placed[index as usize];
         if placed.node == INVALID {
@@ -241,9 +241,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         hash(hash(index ^ x.to_bits()) ^ z.to_bits()) % FAR_IN == 0
     }
 
-    /// What an instance costs more in the node above parts that it is in than in one beside that; 0 where none is much nearer, or it was
-    /// there when it was put where it is. Parts that are built anew keep it among those around it, wherever it goes: so it is all levels
-    /// that are looked at, and not the two above it.
+    /// What an instance costs more in the node above parts that it is in than in one beside that; 0 where none is much nearer,
+    /// or it was there when it was put where it is. Parts that are built anew keep it among those around it, wherever it goes:
+    /// so it is all levels that are looked at, and not the two above it.
     fn strayed(&self, index: u32) -> f64 {
         let placed = &self.placed[index as usize];
         if placed.node == INVALID || placed.hung_center[0].is_nan() {
@@ -273,8 +273,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         excess
     }
 
-    /// Whether an instance's radiance is another than when it was put where it is, by a factor that matters. One that was dimmer before,
-    /// as a lamp that flickers is in every other frame, costs nothing among brighter ones: it stays until it is brighter.
+    /// Whether an instance's radiance is another than when it was put where it is, by a factor that matters. One that was
+    /// dimmer before, as a lamp that flickers is in every other frame, costs nothing among brighter ones: it stays until it is
+    /// brighter.
     fn is_otherwise_bright(&self, index: u32) -> bool {
         let placed = &self.placed[index as usize];
         let (was, is) = (placed.hung_radiance, placed.radiance);

@@ -1,7 +1,8 @@
 //! The top level, or a part of it, built anew beside the frame.
 //!
-//! A part is a [cut](super::cut): a node of the top level, and below it at most [`PART`] leaves, instances or subtrees that stay as they
-//! are. So taking a copy and putting the tree in place take a frame a small and bounded time, however many instances there are.
+//! A part is a [cut](super::cut): a node of the top level, and below it at most [`PART`] leaves, instances or subtrees that
+//! stay as they are. So taking a copy and putting the tree in place take a frame a small and bounded time, however many
+//! instances there are.
 
 use alloc::vec::Vec;
 
@@ -43,11 +44,12 @@ pub(crate) struct TopCopy<N> {
     limits: Vec<Limits>,
     /// Subtrees without flux, by their index among the leaves: an instance of each, for they are nowhere themselves.
     shapes: Vec<(u32, Instance, BlasRoot)>,
-    /// The subtrees that stay, with the variance of their lights' centers, and the nodes that are to be replaced, from the root down.
+    /// The subtrees that stay, with the variance of their lights' centers, and the nodes that are to be replaced, from the root
+    /// down.
     kept: Vec<(Part, N, f32)>,
     inner: Vec<Part>,
-    /// What those cost but for the root: flux times the variance of the centers of their lights, W m². Lights' own extents are in it on
-    /// neither side: large lamps would hide what small ones gain.
+    /// What those cost but for the root: flux times the variance of the centers of their lights, W m². Lights' own extents are
+    /// in it on neither side: large lamps would hide what small ones gain.
     cost: f64,
     /// The instances that are opened or could be.
     openable: Vec<Openable>,
@@ -190,7 +192,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// What the top level is built from as a whole where it is no larger than a part: as a part it comes in within the time that a frame has.
+    /// What the top level is built from as a whole where it is no larger than a part: as a part it comes in within the time
+    /// that a frame has.
     #[cfg(feature = "std")]
     pub(super) fn copy_whole_part(&self) -> TopCopy<N> {
         TopCopy {

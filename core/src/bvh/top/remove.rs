@@ -74,8 +74,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// Puts the children of nodes below `node` in their place as long as there is room for them, those of the costliest first. Returns
-    /// whether there were any.
+    /// Puts the children of nodes below `node` in their place as long as there is room for them, those of the costliest first.
+    /// Returns whether there were any.
     pub(super) fn dissolve(&mut self, node: u32) -> bool {
         let mut is_changed = false;
         loop {

@@ -1,10 +1,10 @@
 //! Which part of the top level is built anew next.
 //!
 //! A node is looked at by two measures, each in no time. What it lost against itself when it was built: for more than [`PART`]
-//! instances its own loss, that of how well it tells its children apart; for fewer, that of all nodes below. And how many of the
-//! instances below it are in subtrees that were built since it was tried last: then there may be something to gain though nothing moved.
-//! And each is tried once when what is below it has come to rest.
-//! What is tried and gains nothing is as good as built, so the search ends where nothing moves.
+//! instances its own loss, that of how well it tells its children apart; for fewer, that of all nodes below. And how many of
+//! the instances below it are in subtrees that were built since it was tried last: then there may be something to gain though
+//! nothing moved. And each is tried once when what is below it has come to rest. What is tried and gains nothing is as good as
+//! built, so the search ends where nothing moves.
 
 use alloc::vec::Vec;
 
@@ -24,8 +24,8 @@ const SMALL: u32 = 128;
 const LONGEST: u32 = 6;
 /// What a node above parts must have lost at least, whatever the threshold.
 const LEAST: f64 = 0.05;
-/// What it must have lost to be built while parts are worn. The subtrees that it keeps overlap until the parts that they then make have
-/// had their turn: many frames of a worse tree, which little is not worth.
+/// What it must have lost to be built while parts are worn. The subtrees that it keeps overlap until the parts that they then
+/// make have had their turn: many frames of a worse tree, which little is not worth.
 const HASTE: f64 = 0.12;
 /// It comes in then where it costs so much of what it replaces.
 const PAYS_AT_ONCE: f64 = 0.8;
@@ -69,8 +69,8 @@ impl Search {
         self.left == 0 && !self.rests
     }
 
-    /// Notes what nodes cost that were built above parts, over what those cost that they replaced. Where the lights mix faster than they
-    /// are put in order that is near 1, and the time belongs to parts.
+    /// Notes what nodes cost that were built above parts, over what those cost that they replaced. Where the lights mix faster
+    /// than they are put in order that is near 1, and the time belongs to parts.
     pub fn note_gain(&mut self, cost: f64) {
         self.waits = (cost / (1.0 - cost).max(1e-3)).clamp(1.0, f64::from(LONGEST)) as u32;
     }
@@ -95,8 +95,8 @@ enum Worn {
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// What the next parts are built from that are worse than when they were built by the factor `worse` or more, `most` instances in
-    /// all, or [`PART`] where that is more; time in proportion to them.
+    /// What the next parts are built from that are worse than when they were built by the factor `worse` or more, `most`
+    /// instances in all, or [`PART`] where that is more; time in proportion to them.
     pub(crate) fn copy_worn_parts(&self, worse: f64, most: u32, search: &mut Search) -> Vec<TopCopy<N>> {
         let asked = Asked {
             worse,
@@ -201,9 +201,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         (is_worn || self.is_untried(node, asked)).then_some(Worn::Part(node, is_worn))
     }
 
-    /// Whether a top level of one part has lost its shape: all its nodes together, or its root alone, where that has more instances below
-    /// than edits build anew. Edits keep the nodes below as they were built, and in the mean over all levels what the root lost is little.
-    /// It counts twice (measured: `tests::motion`).
+    /// Whether a top level of one part has lost its shape: all its nodes together, or its root alone, where that has more
+    /// instances below than edits build anew. Edits keep the nodes below as they were built, and in the mean over all levels
+    /// what the root lost is little. It counts twice (measured: `tests::motion`).
     fn is_worn_whole(&self, worse: f64) -> bool {
         let quality = self.quality(self.top.root);
         let is_beyond_edits = self.top.counts[self.top.number(self.top.root) as usize] > MOST;
@@ -211,8 +211,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             || (is_beyond_edits && is_worn_by(2.0 * f64::from(quality.own()), worse, LEAST))
     }
 
-    /// Of the highest nodes that have more than [`PART`] instances below, the one that has most to gain: of which most instances are
-    /// told apart least well. What lost less than `least` is not worn.
+    /// Of the highest nodes that have more than [`PART`] instances below, the one that has most to gain: of which most
+    /// instances are told apart least well. What lost less than `least` is not worn.
     fn worn_above(&self, asked: Asked, least: f64) -> Option<u32> {
         let mut nodes = alloc::vec![self.top.root];
         let mut best = (0.0, None);
@@ -255,8 +255,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         has_nodes && asked.worse.is_finite() && (self.is_stirred(node) || self.is_rested(node, asked))
     }
 
-    /// Whether much below a node changed since it was tried, and no more than little in a frame has for [`REST`] frames. What a tree lost is measured by flux and node
-    /// by node, and light reaches a point from dim lamps too: so each node is tried once when its lights have come to rest.
+    /// Whether much below a node changed since it was tried, and no more than little in a frame has for [`REST`] frames. What a
+    /// tree lost is measured by flux and node by node, and light reaches a point from dim lamps too: so each node is tried once
+    /// when its lights have come to rest.
     fn is_rested(&self, node: u32, asked: Asked) -> bool {
         let number = self.top.number(node) as usize;
         let changes = self.top.changes[number];
@@ -265,8 +266,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             && u64::from(changes) * SHARE >= u64::from(self.top.counts[number])
     }
 
-    /// Whether enough of the instances below a node are in subtrees that were built since it was tried: half of them above parts. Of a part an
-    /// eighth, for those are the subtrees that were kept when the nodes above were built, in which all that was lost may lie.
+    /// Whether enough of the instances below a node are in subtrees that were built since it was tried: half of them above
+    /// parts. Of a part an eighth, for those are the subtrees that were kept when the nodes above were built, in which all that
+    /// was lost may lie.
     fn is_stirred(&self, node: u32) -> bool {
         let number = self.top.number(node) as usize;
         let (stirred, count) = (self.top.stirred[number], self.top.counts[number]);

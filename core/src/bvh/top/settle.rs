@@ -1,10 +1,11 @@
 //! Subtrees that edits have touched, built anew.
 //!
-//! An insertion looks at one node of each level, so trees get worse by and by. After an edit the nodes above it are looked at: the highest
-//! of those that have `n` instances, at most [`MOST`], and `n / OFTEN` edits below them, is built anew. So an edit costs
-//! [`OFTEN`] instances' share of a build on each of the levels below [`MOST`], on average, and one build of [`MOST`] at most, whatever the
-//! number of instances is, a move one where it was and one where it is. The levels above keep their nodes: insertion alone keeps them as good as new (measured:
-//! `docs/dynamics.md`). Nodes over a few subtrees taken as they are, in place of instances, were worse than no building at all.
+//! An insertion looks at one node of each level, so trees get worse by and by. After an edit the nodes above it are looked at:
+//! the highest of those that have `n` instances, at most [`MOST`], and `n / OFTEN` edits below them, is built anew. So an edit
+//! costs [`OFTEN`] instances' share of a build on each of the levels below [`MOST`], on average, and one build of [`MOST`] at
+//! most, whatever the number of instances is, a move one where it was and one where it is. The levels above keep their nodes:
+//! insertion alone keeps them as good as new (measured: `docs/dynamics.md`). Nodes over a few subtrees taken as they are, in
+//! place of instances, were worse than no building at all.
 
 use alloc::vec::Vec;
 
@@ -37,8 +38,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// The highest node from `start` up that is to be built anew, of at most `most` instances, and how many it has: those below it are
-    /// built with it, once. None where `start` has gone, for what took its place was built with it.
+    /// The highest node from `start` up that is to be built anew, of at most `most` instances, and how many it has: those below
+    /// it are built with it, once. None where `start` has gone, for what took its place was built with it.
     fn highest_due(&self, start: u32, most: u64) -> Option<(u32, u32)> {
         let (mut highest, mut built) = (None, 0);
         let mut node = start;

@@ -1,7 +1,9 @@
-//! Meshes whose lights went elsewhere a few at a time, as by ranges of triangles: no single edit is far, and no node of the mesh is worse.
+//! Meshes whose lights went elsewhere a few at a time, as by ranges of triangles: no single edit is far, and no node of the
+//! mesh is worse.
 //!
-//! A refit compares the centre of each mesh that it computes with where that was as its instances were put where they are. Those of one that
-//! left its own extent are noted, and the rebuilder puts a few in elsewhere as a frame begins: edits had to pay for what they did not change.
+//! A refit compares the centre of each mesh that it computes with where that was as its instances were put where they are.
+//! Those of one that left its own extent are noted, and the rebuilder puts a few in elsewhere as a frame begins: edits had to
+//! pay for what they did not change.
 
 #[cfg(feature = "std")]
 use alloc::collections::BTreeSet;
@@ -25,18 +27,20 @@ const DIM: f64 = 2.0;
 #[cfg(feature = "std")]
 const LOOKED_AT: usize = 16;
 
-/// Instances that are noted because they were moved far, at most: beside more of them parts are tried in any case, and looking at them takes 64 frames.
+/// Instances that are noted because they were moved far, at most: beside more of them parts are tried in any case, and looking
+/// at them takes 64 frames.
 const NOTED: usize = 1024;
 /// Instances that are noted beside which those that come on are no longer.
 const LIT: usize = 4 * NOTED;
-/// Part of what its node is spread by beyond which an instance is noted, in squared distance from where it was put: what sways is not.
+/// Part of what its node is spread by beyond which an instance is noted, in squared distance from where it was put: what sways
+/// is not.
 const LEAVES: f64 = 0.5;
-/// What lies elsewhere is farther from the others than it was, in squared distance, by this while it moves: of those that move together some are ahead of
-/// the rest for a while. Once it rests, 1.
+/// What lies elsewhere is farther from the others than it was, in squared distance, by this while it moves: of those that move
+/// together some are ahead of the rest for a while. Once it rests, 1.
 #[cfg(feature = "std")]
 const FARTHER: f64 = 2.0;
-/// Where fewer are noted each that rests is put in anew beside which others stayed: those may be others than they were. Where more are,
-/// until none is, parts are built anew.
+/// Where fewer are noted each that rests is put in anew beside which others stayed: those may be others than they were. Where
+/// more are, until none is, parts are built anew.
 #[cfg(feature = "std")]
 const ALONE: usize = 256;
 
@@ -52,7 +56,8 @@ enum Guard {
     RestsAlone,
 }
 
-/// Flux, W, up to which an instance is off: a tree is built by flux, and puts it anywhere. What a map of scale 0 hides has 2^-100 or so.
+/// Flux, W, up to which an instance is off: a tree is built by flux, and puts it anywhere. What a map of scale 0 hides has
+/// 2^-100 or so.
 pub(super) const OFF: f32 = crate::exact::pow2(-80);
 /// Where an instance is said to have been put that was off, metres along each axis: farther off than any light.
 const NOWHERE: f32 = 1e18;
@@ -70,8 +75,8 @@ pub(crate) struct Looked {
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// After a refit of these roots: notes the instances of meshes whose centre left what the mesh's own extent was where they were put. In time in
-    /// proportion to their instances, and to nothing where there are none.
+    /// After a refit of these roots: notes the instances of meshes whose centre left what the mesh's own extent was where they
+    /// were put. In time in proportion to their instances, and to nothing where there are none.
     pub(in crate::bvh) fn note_centers(&mut self, roots: &[u32]) {
         // The lights of a single level are in no top level.
         if self.single {
@@ -113,7 +118,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// An instance was put where it is in the top level as it is now. One without flux was put anywhere: it is looked at once its mesh shines.
+    /// An instance was put where it is in the top level as it is now. One without flux was put anywhere: it is looked at once
+    /// its mesh shines.
     pub(in crate::bvh) fn settle_placed(&mut self, index: u32) {
         let placed = &mut self.placed[index as usize];
         placed.settle();
@@ -127,7 +133,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// The centre of a mesh is no longer what tells where its instances were put: each keeps that for itself, and is noted once the mesh shines.
+    /// The centre of a mesh is no longer what tells where its instances were put: each keeps that for itself, and is noted once
+    /// the mesh shines.
     fn lose_center(&mut self, blas: u32) {
         let own = &mut self.blases[blas as usize];
         let was = core::mem::replace(&mut own.center, [f32::NAN; 3]);
@@ -188,7 +195,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         }
     }
 
-    /// An instance that was moved while it was off shines again. Whether it is noted: an opened one, and one beside very many, is looked at by the edit.
+    /// An instance that was moved while it was off shines again. Whether it is noted: an opened one, and one beside very many,
+    /// is looked at by the edit.
     pub(in crate::bvh) fn note_lit(&mut self, index: u32) -> bool {
         let placed = &self.placed[index as usize];
         let is_alone = placed.parts.is_empty() && placed.node != INVALID;
@@ -199,7 +207,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         is_noted
     }
 
-    /// An instance is to be looked at. What came on has a list of its own, for each of it is put in elsewhere and others would wait.
+    /// An instance is to be looked at. What came on has a list of its own, for each of it is put in elsewhere and others would
+    /// wait.
     pub(in crate::bvh) fn note(&mut self, index: u32) {
         if self.is_nowhere(index) {
             self.top.lit.insert(index);
@@ -250,8 +259,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         placed.node != INVALID && !placed.hung_center[0].is_nan() && self.has_left(first)
     }
 
-    /// An instance that was moved, and that lies no farther from what is beside it by a single step, is looked at as a frame begins: one that walks through a
-    /// scene is never far from where it was a step before.
+    /// An instance that was moved, and that lies no farther from what is beside it by a single step, is looked at as a frame
+    /// begins: one that walks through a scene is never far from where it was a step before.
     pub(super) fn note_moved(&mut self, index: u32) {
         if self.placed[index as usize].node == INVALID {
             return;
@@ -292,8 +301,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.note(index);
     }
 
-    /// Puts noted instances in elsewhere, about `most` leaves of them: those that went farther than what lies beside them is spread, and then at least one
-    /// of what came on.
+    /// Puts noted instances in elsewhere, about `most` leaves of them: those that went farther than what lies beside them is
+    /// spread, and then at least one of what came on.
     #[cfg(feature = "std")]
     pub(crate) fn put_strayed_elsewhere(&mut self, most: usize, looked: &mut Looked) {
         let mut out = self.take_strayed(most, looked);
@@ -394,8 +403,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         looked.epoch.is_some_and(|since| changed <= since)
     }
 
-    /// Whether an instance is farther from where it was put than its node was wide then, the others in it, and it where it was; and as `guard` says, so that
-    /// those that move together stay together. An opened one, of which each part has a node, where it is out of its own extent.
+    /// Whether an instance is farther from where it was put than its node was wide then, the others in it, and it where it was;
+    /// and as `guard` says, so that those that move together stay together. An opened one, of which each part has a node, where
+    /// it is out of its own extent.
     #[cfg(feature = "std")]
     fn lies_elsewhere(&self, index: u32, guard: Guard) -> bool {
         let placed = &self.placed[index as usize];
@@ -440,8 +450,9 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             }
     }
 
-    /// Whether three in four of those beside an instance, and of those beside its node, went about as far since they were put where they are: then parts are
-    /// built anew where that is due. A few that travel together among others are a node in the wrong place.
+    /// Whether three in four of those beside an instance, and of those beside its node, went about as far since they were put
+    /// where they are: then parts are built anew where that is due. A few that travel together among others are a node in the
+    /// wrong place.
     #[cfg(feature = "std")]
     fn moves_with_others(&self, index: u32, squared: f64) -> bool {
         let placed = &self.placed[index as usize];
@@ -450,7 +461,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             && self.move_too(above, self.slot_above(placed.node), squared)
     }
 
-    /// Whether three in four of the children of a node but for one, of each an instance, went at least a quarter as far; in squared distance.
+    /// Whether three in four of the children of a node but for one, of each an instance, went at least a quarter as far; in
+    /// squared distance.
     #[cfg(feature = "std")]
     fn move_too(&self, node: u32, but: usize, squared: f64) -> bool {
         let own = &self.nodes[node as usize];

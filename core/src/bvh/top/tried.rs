@@ -1,4 +1,5 @@
-//! What there may be to gain below a node of the top level that it has not lost: what changed, and what was built anew, since it was tried.
+//! What there may be to gain below a node of the top level that it has not lost: what changed, and what was built anew, since
+//! it was tried.
 
 use super::Top;
 use super::rebuild::{PART, TopTree};
@@ -8,8 +9,8 @@ use crate::levels::Levels;
 use crate::node::Node;
 use crate::tree::INVALID;
 
-/// A frame in which fewer than one in so many instances below a node changed is one in which it rests: a mesh that sways in every frame, or a
-/// lamp that flickers, keeps no node from being tried.
+/// A frame in which fewer than one in so many instances below a node changed is one in which it rests: a mesh that sways in
+/// every frame, or a lamp that flickers, keeps no node from being tried.
 const QUIET: u64 = 32;
 
 /// A sum of counts, which stays the greatest number once it is there.
@@ -40,7 +41,8 @@ impl Top {
         self.seen.push(u64::from(flags & Self::SEEN != 0));
     }
 
-    /// The node of that number was built, or tried to build anew, from what there was at the epoch `since`. What changed after it is still to be tried.
+    /// The node of that number was built, or tried to build anew, from what there was at the epoch `since`. What changed after
+    /// it is still to be tried.
     pub(super) fn note_tried(&mut self, number: usize, since: u64) {
         self.tried[number] = since;
         if self.moved[number] <= since {
@@ -50,9 +52,10 @@ impl Top {
 }
 
 impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
-    /// Counts the changes of instances, and children that came and went, at all nodes above them, of which `top` lists each with all above. Of
-    /// refitted instances those count that were edited since the last count, and all of swept bottom levels: that some of a mesh's triangles
-    /// changed, or that its tree is another, is nothing to the top level, as long as its flux is about the same.
+    /// Counts the changes of instances, and children that came and went, at all nodes above them, of which `top` lists each
+    /// with all above. Of refitted instances those count that were edited since the last count, and all of swept bottom levels:
+    /// that some of a mesh's triangles changed, or that its tree is another, is nothing to the top level, as long as its flux
+    /// is about the same.
     pub(in crate::bvh) fn note_changes(&mut self, counted: &Counted, top: &Levels) {
         let Counted { refitted, swept, all } = counted;
         let now = self.epoch + 1;
@@ -107,8 +110,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.top.counted = counts;
     }
 
-    /// A part has nothing to gain: its nodes are as good as built. Of what was tried above parts that is said of the nodes above parts
-    /// alone: those of parts were looked at over subtrees that were kept, and may gain all that these lost.
+    /// A part has nothing to gain: its nodes are as good as built. Of what was tried above parts that is said of the nodes
+    /// above parts alone: those of parts were looked at over subtrees that were kept, and may gain all that these lost.
     pub(super) fn note_tried(&mut self, root: u32, tree: &TopTree<N>, since: u64) {
         let number = self.top.number(root) as usize;
         self.top.stirred[number] = 0;
@@ -143,7 +146,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.top.stirred[number] = bounded_sum(self.top.stirred[number], count);
     }
 
-    /// So many instances below the node of that number are others than it was built for, as of the present epoch: it is to be tried, and once more when it rests.
+    /// So many instances below the node of that number are others than it was built for, as of the present epoch: it is to be
+    /// tried, and once more when it rests.
     pub(in crate::bvh) fn unsettle_one(&mut self, number: usize, count: u32) {
         self.stir_one(number, count);
         self.top.changes[number] = bounded_sum(self.top.changes[number], count);

@@ -151,8 +151,8 @@ fn new_rebuilders_wait_for_rest() {
     assert!(read.to_words() == bvh.to_words());
 }
 
-/// What changes while a small tree is built counts for the next one, as with large ones: by edits before the start of the frame in which it
-/// comes in, and in a single level.
+/// What changes while a small tree is built counts for the next one, as with large ones: by edits before the start of the frame
+/// in which it comes in, and in a single level.
 #[test]
 fn what_changes_while_a_small_tree_is_built_counts() {
     for is_single in [false, true] {

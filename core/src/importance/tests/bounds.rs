@@ -138,7 +138,8 @@ fn cycles_bounds_are_its_formula() {
     check::<CompactNode<2>>(6);
 }
 
-/// Half of the choices by the greatest importance, half by the least; where there is none, alike among those that have a greatest one.
+/// Half of the choices by the greatest importance, half by the least; where there is none, alike among those that have a
+/// greatest one.
 #[test]
 fn cycles_averages_two_probabilities() {
     let random = &mut Random(7);
@@ -191,8 +192,8 @@ fn cycles_averages_two_probabilities() {
     assert!(by_least > 500 && alike > 500, "{by_least} {alike}");
 }
 
-/// The very centre of a box: its direction is that of a zero vector, and the published forms are no number, though lights of the box may
-/// shine on the point. Here the weight is positive, as everywhere else with flux.
+/// The very centre of a box: its direction is that of a zero vector, and the published forms are no number, though lights of
+/// the box may shine on the point. Here the weight is positive, as everywhere else with flux.
 #[test]
 fn the_centre_of_a_box_has_weight() {
     let half = Vec3::new(1.0, 2.0, 0.5);
@@ -221,8 +222,8 @@ fn the_centre_of_a_box_has_weight() {
     }
 }
 
-/// Positive where there is flux, zero elsewhere, at most 2^120: on lengths of 2^-60 to 2^60 m, flat and pointlike boxes, points within them
-/// and on them, cones of a direction and of all.
+/// Positive where there is flux, zero elsewhere, at most 2^120: on lengths of 2^-60 to 2^60 m, flat and pointlike boxes, points
+/// within them and on them, cones of a direction and of all.
 #[test]
 fn bounds_of_any_size_have_sound_weights() {
     fn check<N: BoundsNode<4>, I: ImportanceModel<N, 4>>(random: &mut Random) {

@@ -213,8 +213,8 @@ fn weights_are_the_published_ones() {
     check::<LeanMomentNode<4>>(4);
 }
 
-/// Many bright lights close together below the horizon, and a dim one above it among them: their mean is so far below that the published
-/// integral is zero in `f32`, although one of them shines on the point.
+/// Many bright lights close together below the horizon, and a dim one above it among them: their mean is so far below that the
+/// published integral is zero in `f32`, although one of them shines on the point.
 #[test]
 fn what_is_zero_as_published_keeps_a_weight() {
     let point = ShadingPoint {

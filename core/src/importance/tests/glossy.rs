@@ -272,8 +272,8 @@ where
     sum / count
 }
 
-/// Less variance than of the importance that knows nothing of the lobe where it is sharp, about as much where it is broad, the same without
-/// a lobe.
+/// Less variance than of the importance that knows nothing of the lobe where it is sharp, about as much where it is broad, the
+/// same without a lobe.
 #[test]
 fn the_lobe_pays() {
     type D = Defensive<Moments, 6>;
@@ -344,8 +344,8 @@ fn glossy_receivers_are_unbiased() {
     }
 }
 
-/// An instance turned and scaled is chosen from as its triangles in the world are. The map takes axes to axes, so that boxes stay boxes, and
-/// is not its own inverse.
+/// An instance turned and scaled is chosen from as its triangles in the world are. The map takes axes to axes, so that boxes
+/// stay boxes, and is not its own inverse.
 #[test]
 fn lobes_turn_with_instances() {
     type G = Glossy<Moments>;

@@ -13,7 +13,8 @@ use crate::importance::{
 use crate::node::{CompactNode, FullMomentNode, FullNode, LeanMomentNode, LightNode, MomentNode};
 use crate::{BuildParams, Bvh, EmissiveTriangle, INVALID, Lights, ShadingPoint, Summary};
 
-/// 40 triangles in four meshes, two-sided and dark ones among them, as far as 100 times their size from each other or all at one place.
+/// 40 triangles in four meshes, two-sided and dark ones among them, as far as 100 times their size from each other or all at
+/// one place.
 fn scene(random: &mut Random) -> Lights {
     let spread = random.power(-3, 7);
     let triangle = |k: u32| {
@@ -63,8 +64,8 @@ fn sent(triangle: &EmissiveTriangle, point: &ShadingPoint) -> f64 {
 /// Numbers at equal distances, of which each light has as many as its pmf says, but for two.
 const NUMBERS: u32 = 1 << 13;
 
-/// Probabilities sum to one, each light with flux has one, samples come with them, and the mean of what samples say is what all lights
-/// send.
+/// Probabilities sum to one, each light with flux has one, samples come with them, and the mean of what samples say is what all
+/// lights send.
 fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(seed: u32) {
     let random = &mut Random(seed);
     let mut tight = 0;

@@ -26,7 +26,8 @@ pub(super) fn counts_of(weights: &[f64]) -> Vec<u32> {
             false => 0,
         })
         .collect();
-    // Rounded down, they are too few by one each, and by a step for each that is large. The smallest take them, each as far as it is fine.
+    // Rounded down, they are too few by one each, and by a step for each that is large. The smallest take them, each as far as
+    // it is fine.
     let mut left = ALL.saturating_sub(counts.iter().sum());
     let mut order: Vec<usize> = (0..counts.len()).filter(|&k| counts[k] > 0).collect();
     order.sort_by_key(|&k| core::cmp::Reverse(counts[k]));

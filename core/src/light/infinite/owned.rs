@@ -67,9 +67,9 @@ impl fmt::Display for EnvironmentError {
 impl core::error::Error for EnvironmentError {}
 
 impl Environment {
-    /// One of `size` × `size` texels, a power of two from 1 to 2048, of the radiance (W/(m² sr), linear RGB) that `radiance` gives for unit directions,
-    /// y up: asked at 16 places of each texel, whose mean it keeps. What is below [`MIN_RADIANCE`] counts as none. Probabilities go with
-    /// luminance, and reach every texel that is not black.
+    /// One of `size` × `size` texels, a power of two from 1 to 2048, of the radiance (W/(m² sr), linear RGB) that `radiance`
+    /// gives for unit directions, y up: asked at 16 places of each texel, whose mean it keeps. What is below [`MIN_RADIANCE`]
+    /// counts as none. Probabilities go with luminance, and reach every texel that is not black.
     ///
     /// # Errors
     /// [`EnvironmentError`]: the size, or the first radiance that is none.

@@ -2,7 +2,8 @@
 
 use super::*;
 
-/// A range leaves 1 − (d / range)⁴ of a light, nothing from there on, and all of it where there is none; an instance leaves it as it is.
+/// A range leaves 1 − (d / range)⁴ of a light, nothing from there on, and all of it where there is none; an instance leaves it
+/// as it is.
 #[test]
 fn ranges_are_a_window() {
     let point = PointLight {

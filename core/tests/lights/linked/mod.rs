@@ -1,5 +1,5 @@
-//! Light linking against an exhaustive oracle: a light has a probability just where it has flux and a bit in common with the receiver,
-//! through edits, refits, rebuilds and files.
+//! Light linking against an exhaustive oracle: a light has a probability just where it has flux and a bit in common with the
+//! receiver, through edits, refits, rebuilds and files.
 
 mod levels;
 mod shares;

@@ -150,8 +150,8 @@ fn places_of_degenerate_segments_are_sound() {
     }
 }
 
-/// A light by the segment, a point on it, a distance for that point: the mean is the integral over all of them. Through instances that
-/// turn, stretch and mirror.
+/// A light by the segment, a point on it, a distance for that point: the mean is the integral over all of them. Through
+/// instances that turn, stretch and mirror.
 #[test]
 fn estimates_converge() {
     const SAMPLES: u32 = 60_000;

@@ -35,7 +35,8 @@ fn no_light_that_reaches_a_point_is_told_not_to() {
     assert!(seen.outside > seen.dark / 100 * 98, "beams say little: {seen:?}");
 }
 
-/// Among meshes of one spot each, turned by their instances, a point beside the cones of most chooses those that light it: by the beams of the top level.
+/// Among meshes of one spot each, turned by their instances, a point beside the cones of most chooses those that light it: by
+/// the beams of the top level.
 #[test]
 fn the_top_level_chooses_by_cones() {
     let random = &mut Random(37);
@@ -90,7 +91,8 @@ fn the_top_level_chooses_by_cones() {
     );
 }
 
-/// Far from the world's origin coordinates are rounded by more than a narrow cone is wide near its lamp: a point in it is in it still.
+/// Far from the world's origin coordinates are rounded by more than a narrow cone is wide near its lamp: a point in it is in it
+/// still.
 #[test]
 fn far_from_the_origin_no_light_is_told_not_to_reach_a_point() {
     for (far, least) in [(100.0_f32, 0.99), (1.0e4, 0.97), (3.0e5, 0.8)] {
@@ -130,7 +132,8 @@ fn far_from_the_origin_no_light_is_told_not_to_reach_a_point() {
     }
 }
 
-/// Spots that stand apart and shine the same way in cones as narrow as may be: the apex of what holds them lies farther behind than a node can say, or nearly so.
+/// Spots that stand apart and shine the same way in cones as narrow as may be: the apex of what holds them lies farther behind
+/// than a node can say, or nearly so.
 #[test]
 fn wide_sets_of_narrow_cones_leave_no_light_out() {
     let random = &mut Random(41);

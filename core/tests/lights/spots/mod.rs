@@ -1,5 +1,6 @@
-//! Nodes that know beams, against an exhaustive oracle: no light that reaches a point is told not to, at any scale, through instances,
-//! edits, rebuilds and files; what is chosen has the probability that is told; and points beside a cone stop choosing its spot.
+//! Nodes that know beams, against an exhaustive oracle: no light that reaches a point is told not to, at any scale, through
+//! instances, edits, rebuilds and files; what is chosen has the probability that is told; and points beside a cone stop
+//! choosing its spot.
 
 mod beams;
 mod choice;

@@ -36,8 +36,8 @@ impl<L> Left<L> {
     }
 }
 
-/// The next frame, with candidates from `backend`'s light BVH where the options say so. What was followed, what of the scene changed and
-/// the passes are one submission, where they are few enough, and the host waits for nothing but the pixels.
+/// The next frame, with candidates from `backend`'s light BVH where the options say so. What was followed, what of the scene
+/// changed and the passes are one submission, where they are few enough, and the host waits for nothing but the pixels.
 pub(in crate::backend) fn resample<C: Choice<W, Light: SceneLight>, const W: usize>(
     restir: &mut Restir<C::Light>,
     frame: &RestirFrame<'_, C::Light>,

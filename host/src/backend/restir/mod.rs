@@ -109,17 +109,17 @@ pub struct RestirFrame<'a, L = EmissiveTriangle> {
     pub jitter: u32,
     /// Radiance of what no surface covers, W/(m² sr).
     pub background: [f32; 3],
-    /// What became of the lights of the frame before; `None` where each kept its number. Those of two levels do, as long as the numbers
-    /// of removed ones are taken after the frame was resampled: see [`LightRemap::after`].
+    /// What became of the lights of the frame before; `None` where each kept its number. Those of two levels do, as long as the
+    /// numbers of removed ones are taken after the frame was resampled: see [`LightRemap::after`].
     pub remap: Option<&'a LightRemap>,
 }
 
 /// ReSTIR over frames in a row: what each leaves for the next. [`Backend::restir`](super::Backend::restir) renders them. Equal
 /// frames give equal words, whatever runs them.
 ///
-/// The history ends, as by [`reset`](Self::reset), where it cannot be used: the image has another size, reflectances differ, another
-/// processor has rendered it, or the number of listed lights differs without a remap to say how. Two levels need none: there
-/// lights keep their numbers.
+/// The history ends, as by [`reset`](Self::reset), where it cannot be used: the image has another size, reflectances differ,
+/// another processor has rendered it, or the number of listed lights differs without a remap to say how. Two levels need none:
+/// there lights keep their numbers.
 ///
 /// A clone goes on from the same frame by itself.
 pub struct Restir<L = EmissiveTriangle> {

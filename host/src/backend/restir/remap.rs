@@ -18,8 +18,9 @@ pub struct LightRemap {
 }
 
 impl LightRemap {
-    /// From the lights that are in both frames, number and instance then and now, out of `then` and `now`
-    /// numbers. The instance of a listed light is not read. A number that is out of range or was given before counts as gone: no two lights become one.
+    /// From the lights that are in both frames, number and instance then and now, out of `then` and `now` numbers. The instance
+    /// of a listed light is not read. A number that is out of range or was given before counts as gone: no two lights become
+    /// one.
     pub fn new(then: usize, now: usize, kept: impl IntoIterator<Item = (Name, Name)>) -> Self {
         let (mut to_current, mut to_previous) = (vec![GONE; then], vec![GONE; now]);
         for (before, after) in kept {
@@ -44,9 +45,9 @@ impl LightRemap {
     /// [`light_end`](lightbvh::Bvh::light_end) was in that frame, `removed` are all numbers that
     /// [`take_removed_lights`](lightbvh::Bvh::take_removed_lights) has given since. All others are the lights that they were.
     ///
-    /// Needed only where numbers were taken between two frames that are resampled, for new lights may have them since. Where they are taken
-    /// after the frame was resampled, no number has become another light's, and a frame needs no remap: samples of lights that are
-    /// no more find none. Takes time in proportion to the lights.
+    /// Needed only where numbers were taken between two frames that are resampled, for new lights may have them since. Where
+    /// they are taken after the frame was resampled, no number has become another light's, and a frame needs no remap: samples
+    /// of lights that are no more find none. Takes time in proportion to the lights.
     pub fn after<N: LightNode<W>, I, const W: usize>(
         bvh: &Bvh<N, I, W>,
         then: u32,

@@ -34,8 +34,8 @@ pub(in crate::cli::bench) struct DeviceRow {
     pub instances: u32,
     /// In all instances together.
     pub triangles: u64,
-    /// `ns` until the frame is handed over, `ns-done` until the device has done it, `bytes` written for it, `regions` copied, `runs` put in
-    /// their places by dispatches, `submissions`, `waits`.
+    /// `ns` until the frame is handed over, `ns-done` until the device has done it, `bytes` written for it, `regions` copied,
+    /// `runs` put in their places by dispatches, `submissions`, `waits`.
     pub unit: &'static str,
     pub median: f64,
     pub p99: f64,

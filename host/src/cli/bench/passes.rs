@@ -15,7 +15,8 @@ use crate::error::HostError;
 const BATCH: usize = 4096;
 /// Runs of each measurement; the median counts.
 const RUNS: usize = 5;
-/// Time of runs before them: a device compiles at the first dispatch, and one that was idle has slow clocks for a while (an NVIDIA H100 a fifth of its full ones).
+/// Time of runs before them: a device compiles at the first dispatch, and one that was idle has slow clocks for a while (an
+/// NVIDIA H100 a fifth of its full ones).
 pub(super) const WARM: Duration = Duration::from_secs(1);
 
 /// Times of several runs of each pass.

@@ -72,8 +72,8 @@ pub(super) fn write(
     Ok(crops)
 }
 
-/// The `count` regions where the methods' errors are furthest apart, without overlap: the greatest MSE less the least. Each has one part in
-/// `share` of the image's width and height.
+/// The `count` regions where the methods' errors are furthest apart, without overlap: the greatest MSE less the least. Each has
+/// one part in `share` of the image's width and height.
 pub(in crate::cli) fn choose(
     judge: &Judge,
     columns: &[(Method, Judged<'_>)],

@@ -14,7 +14,8 @@ pub(super) const BLOCK: u32 = 8;
 
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct Args {
-    /// A built-in scene (street, square, carousel) or a .gltf, .glb, .pbrt, .obj or .ply file; all built-in ones by default. May be repeated.
+    /// A built-in scene (street, square, carousel) or a .gltf, .glb, .pbrt, .obj or .ply file; all built-in ones by default.
+    /// May be repeated.
     #[arg(long)]
     scene: Vec<String>,
     /// Frames to measure; the animation runs from frame 0 to the last of them [default: 0,50,100,150].

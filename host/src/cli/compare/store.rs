@@ -10,6 +10,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
+use crate::cli::target;
 use crate::error::HostError;
 use crate::render::{Film, write_whole};
 
@@ -51,11 +52,11 @@ pub(in crate::cli) fn stem(name: &str) -> String {
 
 impl Store {
     /// Opens a folder, which is made where it is not there.
+    ///
+    /// # Errors
+    /// [`HostError::Folder`], and [`HostError::Store`] where nothing can be written to it.
     pub fn open(folder: &Path) -> Result<Self, HostError> {
-        fs::create_dir_all(folder).map_err(|source| HostError::Folder {
-            path: folder.to_owned(),
-            source,
-        })?;
+        target::folder(folder)?;
         Ok(Self {
             folder: folder.to_owned(),
         })

@@ -8,9 +8,9 @@ pub(super) struct Trial {
     pub ms: f64,
 }
 
-/// The samples per pixel, 1 to `most`, whose image takes `budget_ms` or a little less, by a straight line through the least times of
-/// the fewest and the most samples tried: what an image takes besides samples is in it. In proportion to the most samples where there is
-/// one count of samples alone, or where more samples took no longer. 1 without trials.
+/// The samples per pixel, 1 to `most`, whose image takes `budget_ms` or a little less, by a straight line through the least
+/// times of the fewest and the most samples tried: what an image takes besides samples is in it. In proportion to the most
+/// samples where there is one count of samples alone, or where more samples took no longer. 1 without trials.
 pub(super) fn samples_in(budget_ms: f64, trials: &[Trial], most: u32) -> u32 {
     let count = |pick: fn(u32, u32) -> u32| trials.iter().map(|trial| trial.samples).reduce(pick);
     let (Some(low), Some(high)) = (count(u32::min), count(u32::max)) else {

@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 /// Colours and how often each is there.
 type Colors = Vec<([u8; 3], u32)>;
 
-/// At most `most` colours, from 1 to 256, that stand for those of `pixels`, and the index of each pixel's. Boxes of colours are cut at their
-/// means, always the one whose colours are furthest from its mean in sum of squares (X. Wu's criterion, by Heckbert's cuts).
+/// At most `most` colours, from 1 to 256, that stand for those of `pixels`, and the index of each pixel's. Boxes of colours are
+/// cut at their means, always the one whose colours are furthest from its mean in sum of squares (X. Wu's criterion, by
+/// Heckbert's cuts).
 pub(super) fn palette(pixels: &[[u8; 3]], most: usize) -> (Vec<[u8; 3]>, Vec<u8>) {
     let mut counts: BTreeMap<[u8; 3], u32> = BTreeMap::new();
     for &pixel in pixels {

@@ -19,8 +19,8 @@ pub(super) const MAX_SAMPLES: u32 = 65_536;
 #[derive(Debug, clap::Args)]
 #[command(after_help = LIST_HELP)]
 pub(in crate::cli) struct Args {
-    /// Built-in scenes (street, square, carousel, stage) or .gltf, .glb, .pbrt, .obj and .ply files, with their entries in the list where they have one; all
-    /// of the list, or all built-in ones, if none is named.
+    /// Built-in scenes (street, square, carousel, stage) or .gltf, .glb, .pbrt, .obj and .ply files, with their entries in the
+    /// list where they have one; all of the list, or all built-in ones, if none is named.
     scenes: Vec<String>,
     /// A JSON list of scenes with their authors and licences, see below.
     #[arg(long, value_name = "FILE")]
@@ -28,7 +28,8 @@ pub(in crate::cli) struct Args {
     /// Milliseconds that each image has by every method [default: 100].
     #[arg(long, value_name = "MS", value_parser = positive, conflicts_with = "samples", allow_negative_numbers = true)]
     time: Option<f64>,
-    /// Shadow rays per pixel of every method in place of equal time; ReSTIR takes as many histories of six as that allows, at least one.
+    /// Shadow rays per pixel of every method in place of equal time; ReSTIR takes as many histories of six as that allows, at
+    /// least one.
     #[arg(long, value_name = "N")]
     samples: Option<u32>,
     /// Size of the images, in pixels.

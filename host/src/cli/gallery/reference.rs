@@ -18,8 +18,8 @@ const FIRST_SEED: u32 = 1 << 31;
 /// What renders references: unbiased, and it takes every kind of light.
 const METHOD: Method = Method::TwoLevelMoments;
 
-/// What a reference's own noise adds to the error of every image that is measured against it: the variance of the mean of its halves
-/// is a quarter of their mean squared difference.
+/// What a reference's own noise adds to the error of every image that is measured against it: the variance of the mean of its
+/// halves is a quarter of their mean squared difference.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Noise {
     /// Shadow rays per pixel.

@@ -19,8 +19,8 @@ const COLORS: [usize; 5] = [256, 192, 128, 96, 64];
 const COLUMNS: u32 = 4;
 /// Least width of a close-up: a line of a method's name must fit.
 const CELL: u32 = 240;
-/// A close-up's share of the image's width and height, and how many pixels of the image are one in the overview, each way: the first of
-/// them by which the sheet is small enough.
+/// A close-up's share of the image's width and height, and how many pixels of the image are one in the overview, each way: the
+/// first of them by which the sheet is small enough.
 const SHARES: [(u32, u32); 4] = [(4, 1), (6, 2), (8, 4), (16, 8)];
 const MARGIN: u32 = 10;
 const TEXT: u32 = 2;
@@ -76,7 +76,8 @@ pub(super) fn write(
     Ok(Some((region, errors)))
 }
 
-/// An image of which each pixel is the mean of `step` x `step`, and its columns; what is left over at the edges joins the last ones.
+/// An image of which each pixel is the mean of `step` x `step`, and its columns; what is left over at the edges joins the last
+/// ones.
 fn reduced(pixels: &[[u8; 3]], width: u32, step: u32) -> (Vec<[u8; 3]>, u32) {
     let (width, step) = (width.max(1) as usize, step as usize);
     let height = pixels.len() / width;

@@ -1,4 +1,5 @@
-//! The frames at which what moves lights has its keys: between two keys it moves one way, so that what is the same in all of them does not move.
+//! The frames at which what moves lights has its keys: between two keys it moves one way, so that what is the same in all of
+//! them does not move.
 
 use std::collections::BTreeSet;
 
@@ -38,7 +39,8 @@ pub(super) fn carriers(data: &SceneData) -> Vec<bool> {
     carries
 }
 
-/// The frames beside the keys of what moves lights, in the first round of each of these animations; of splines those between keys too.
+/// The frames beside the keys of what moves lights, in the first round of each of these animations; of splines those between
+/// keys too.
 pub(super) fn frames(animations: &[Animation], carries: &[bool]) -> Vec<u32> {
     let mut frames = BTreeSet::new();
     for animation in animations {
@@ -65,8 +67,8 @@ pub(super) fn frames(animations: &[Animation], carries: &[bool]) -> Vec<u32> {
     frames.into_iter().collect()
 }
 
-/// How many of `most` each of several may have that want so many: all of them what they want where it is enough, else those that want much as many
-/// as one another.
+/// How many of `most` each of several may have that want so many: all of them what they want where it is enough, else those
+/// that want much as many as one another.
 pub(super) fn share(wanted: &[usize], most: usize) -> Vec<usize> {
     let mut order: Vec<usize> = (0..wanted.len()).collect();
     order.sort_by_key(|&index| wanted[index]);

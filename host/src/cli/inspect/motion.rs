@@ -1,5 +1,5 @@
-//! What moves in a scene: its instances over one round of its longest animation, and of each that is left out beside others. Looked at are frames
-//! evenly over each round, and those at the keys of what moves lights.
+//! What moves in a scene: its instances over one round of its longest animation, and of each that is left out beside others.
+//! Looked at are frames evenly over each round, and those at the keys of what moves lights.
 
 use std::collections::BTreeSet;
 

@@ -18,9 +18,9 @@ impl MeanRatio {
         high: 1.0,
     };
 
-    /// The mean of `after` over that of `before`, which are of the same points. The interval is that of a ratio estimator (W. G. Cochran,
-    /// "Sampling Techniques", 1977, section 6.3): what a few points have far above the others in both widens it little, what one model
-    /// alone has there widens it much.
+    /// The mean of `after` over that of `before`, which are of the same points. The interval is that of a ratio estimator (W.
+    /// G. Cochran, "Sampling Techniques", 1977, section 6.3): what a few points have far above the others in both widens it
+    /// little, what one model alone has there widens it much.
     pub fn of(before: &[f64], after: &[f64]) -> Self {
         let (old, new): (f64, f64) = (before.iter().sum(), after.iter().sum());
         if old == new {

@@ -29,8 +29,8 @@ pub(super) enum Promise {
     Bits,
     /// The same bits at the point as an instance at the identity hands it on, which may turn the last bit of a normal.
     BitsBelowInstance,
-    /// The mean variance of a sample stays below [`MOST_VARIANCE`] times what it was: its whole interval does, so that no part is taken
-    /// because of which points were looked at.
+    /// The mean variance of a sample stays below [`MOST_VARIANCE`] times what it was: its whole interval does, so that no part
+    /// is taken because of which points were looked at.
     Variance,
 }
 

@@ -46,11 +46,12 @@ pub struct Args {
     /// Vertical field of view with --look-from, degrees, 1 to 170.
     #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=170), requires = "look_from")]
     pub(super) fov: u32,
-    /// Which animation is shown, alone, by its name or by its number in the file from 0; may be repeated [default: all, of those that move the
-    /// same things the first].
+    /// Which animation is shown, alone, by its name or by its number in the file from 0; may be repeated [default: all, of
+    /// those that move the same things the first].
     #[arg(long, value_name = "NAME|NUMBER")]
     pub(super) animation: Vec<String>,
-    /// Which axis of a .obj or .ply file points up; those formats do not say. With z, (x, y, z) of the file lies at (x, z, -y), for --look-from too.
+    /// Which axis of a .obj or .ply file points up; those formats do not say. With z, (x, y, z) of the file lies at (x, z, -y),
+    /// for --look-from too.
     #[arg(long, value_enum, default_value_t = Up::Y)]
     pub(super) up: Up,
     /// An environment map that lights the scene: a .hdr or .exr picture by longitude and latitude.
@@ -69,8 +70,8 @@ pub struct Args {
     /// [default: 1; of two-level-moments-resampled, 8].
     #[arg(long)]
     pub(super) candidates: Option<u32>,
-    /// Directions that the surface reflects into, 0 to 16, one ray each: lights that lie there join the candidates of each light sample.
-    /// For lights seen in glossy surfaces.
+    /// Directions that the surface reflects into, 0 to 16, one ray each: lights that lie there join the candidates of each
+    /// light sample. For lights seen in glossy surfaces.
     #[arg(long, default_value_t = 0)]
     pub(super) scattered: u32,
     /// How ReSTIR combines samples of other pixels and frames: without bias, or biased (darker where pixels do not see the

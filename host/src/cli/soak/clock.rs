@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 pub(super) struct Timed {
     /// By the clock on the wall: what the frame stands still, whatever else the machine does meanwhile.
     pub wall: Duration,
-    /// Processor time of this thread alone: what the work takes. Time that the thread waits in, for another thread or for a core, is
-    /// not of it. Where the system has no such clock, the same as the wall's.
+    /// Processor time of this thread alone: what the work takes. Time that the thread waits in, for another thread or for a
+    /// core, is not of it. Where the system has no such clock, the same as the wall's.
     pub thread: Duration,
 }
 

@@ -1,5 +1,5 @@
-//! The configurations that are measured: by importance, layout, width, builder, levels, update, candidates, integrator and arithmetic,
-//! one axis at a time from the default.
+//! The configurations that are measured: by importance, layout, width, builder, levels, update, candidates, integrator and
+//! arithmetic, one axis at a time from the default.
 
 use std::marker::PhantomData;
 use std::time::{Duration, Instant};

@@ -34,7 +34,8 @@ pub(super) struct Entrant {
     pub reached: Reached,
 }
 
-/// The best of the `entrants`, and its figure over the default's: the default itself unless another is better for sure. Nothing of none.
+/// The best of the `entrants`, and its figure over the default's: the default itself unless another is better for sure. Nothing
+/// of none.
 pub(super) fn finals(
     subjects: &mut [Box<dyn Subject>],
     entrants: &[Entrant],

@@ -7,26 +7,27 @@ use super::choices::{Axis, Config};
 use super::quantile::Interval;
 use super::widths::OnDevice;
 
-/// A ratio of errors below this is no difference, however sure, for a tree is good or bad luck for the lights of a scene: over eight trees
-/// of a scene that was turned eight ways, the ratio of two choices had a standard deviation of 0.04 to 0.05 (`docs/trade.md`).
+/// A ratio of errors below this is no difference, however sure, for a tree is good or bad luck for the lights of a scene: over
+/// eight trees of a scene that was turned eight ways, the ratio of two choices had a standard deviation of 0.04 to 0.05
+/// (`docs/trade.md`).
 const LEAST_ERROR: f64 = 1.1;
 
 /// Medians of errors this far apart may be a difference.
 const SEEMING_ERROR: f64 = 1.05;
 
-/// A ratio of times of images below this is no difference. Medians of ratios, image by image, moved by a seventh at most from run to run
-/// on two busy cores, so two measures must agree, and the interval of the ratios must not hold 1.
+/// A ratio of times of images below this is no difference. Medians of ratios, image by image, moved by a seventh at most from
+/// run to run on two busy cores, so two measures must agree, and the interval of the ratios must not hold 1.
 const LEAST_TIME: f64 = 1.1;
 
 /// The same of updates, which are short, and of their difference, ms: medians over the frames moved by so much from run to run.
 const LEAST_UPDATE: f64 = 1.25;
 const LEAST_UPDATE_MS: f64 = 0.02;
 
-/// The default, and the points that are others than it, as far as no other beats them: another one beats a point if its update, its
-/// image of the same rays or its sample on a device takes less time, or that image has less error, for sure, and it seems to have more of
-/// none. They are not added: they are paid on different processors, and an image has whatever size a user gives it. Time on a device counts
-/// between those that were measured there. A point that differs from the default
-/// in none of them is none: noise would put it on either side.
+/// The default, and the points that are others than it, as far as no other beats them: another one beats a point if its update,
+/// its image of the same rays or its sample on a device takes less time, or that image has less error, for sure, and it seems
+/// to have more of none. They are not added: they are paid on different processors, and an image has whatever size a user gives
+/// it. Time on a device counts between those that were measured there. A point that differs from the default in none of them is
+/// none: noise would put it on either side.
 pub(super) fn front(points: &[Point]) -> Vec<bool> {
     let costs: Vec<Costs<'_>> = points.iter().map(Costs::of).collect();
     let default = points.iter().position(|point| point.default);
@@ -92,8 +93,9 @@ impl<'a> Costs<'a> {
         !surely(self, other) && !surely(other, self)
     }
 
-    /// Of an update, of the time of an image, of its error, of a sample on some device. What interrupts an image adds to its time: the least of the times says the same
-    /// as the median of the ratios where there is a difference. Less error for sure is what lies beyond the interval of the ratios.
+    /// Of an update, of the time of an image, of its error, of a sample on some device. What interrupts an image adds to its
+    /// time: the least of the times says the same as the median of the ratios where there is a difference. Less error for sure
+    /// is what lies beyond the interval of the ratios.
     fn less(&self, other: &Self) -> [Less; 4] {
         let update = (self.update_ms * LEAST_UPDATE).max(self.update_ms + LEAST_UPDATE_MS) < other.update_ms;
         let ratio = Interval::of_ratios(self.times, other.times);

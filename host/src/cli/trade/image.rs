@@ -106,9 +106,9 @@ pub(super) struct Images {
     pub error: f64,
     /// The error over the default's, seed by seed.
     pub error_ratio: Interval,
-    /// The error by as many shadow rays as fit into the default's frame beside the update: between the errors of images by the whole
-    /// numbers beside that. ReSTIR takes whole histories, of six rays at most: between the errors of so many; where less than one fits,
-    /// the error of one by what fits of it.
+    /// The error by as many shadow rays as fit into the default's frame beside the update: between the errors of images by the
+    /// whole numbers beside that. ReSTIR takes whole histories, of six rays at most: between the errors of so many; where less
+    /// than one fits, the error of one by what fits of it.
     pub error_equal_time: f64,
     /// The same over the default's, seed by seed; as unsure as the ratio of the frames, which says how many fit, is besides.
     pub equal_time_ratio: Interval,

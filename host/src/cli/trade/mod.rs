@@ -1,5 +1,5 @@
-//! `lightbvh trade`: speed against accuracy, measured for what a user can choose: times, bytes, variance, and the error of images at
-//! equal samples and at equal time.
+//! `lightbvh trade`: speed against accuracy, measured for what a user can choose: times, bytes, variance, and the error of
+//! images at equal samples and at equal time.
 
 mod arithmetic;
 mod choices;
@@ -54,22 +54,22 @@ pub(super) struct Args {
     /// Only these axes, beside the default; all if none is named.
     #[arg(long, value_enum)]
     axes: Vec<Axis>,
-    /// Last frame of the animation that is measured; trees are built at its first one, and follow it. Images are measured at a third
-    /// and two thirds of the way too.
+    /// Last frame of the animation that is measured; trees are built at its first one, and follow it. Images are measured at a
+    /// third and two thirds of the way too.
     #[arg(long, default_value_t = 50)]
     frame: u32,
     /// Size of the images, in place of 192x108, or 96x54 of --quick.
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(u32, u32)>,
-    /// Also write a page with plots, images and error maps, the JSON, and tables and plots for documents, to this folder: trade.html,
-    /// trade.json, trade.md, trade-SCENE.svg.
+    /// Also write a page with plots, images and error maps, the JSON, and tables and plots for documents, to this folder:
+    /// trade.html, trade.json, trade.md, trade-SCENE.svg.
     #[arg(long, value_name = "DIR", conflicts_with_all = ["time", "error"])]
     out: Option<PathBuf>,
     /// Picks what has the least error in a frame of so many milliseconds, update and image, in place of the table.
     #[arg(long, value_name = "MS", value_parser = positive, conflicts_with = "error", allow_negative_numbers = true)]
     time: Option<f64>,
-    /// Picks what takes the least time for a frame of this error, in place of the table: root mean square as displayed, as a share of
-    /// white, such as 0.05.
+    /// Picks what takes the least time for a frame of this error, in place of the table: root mean square as displayed, as a
+    /// share of white, such as 0.05.
     #[arg(long, value_name = "E", value_parser = positive, allow_negative_numbers = true)]
     error: Option<f64>,
     /// One scene, fewer turns, smaller images: within a minute on two cores, where everything takes about a quarter of an hour.
@@ -91,8 +91,9 @@ struct Point {
     images: Images,
     /// Where devices were asked: the default, and its other widths.
     on_devices: Vec<OnDevice>,
-    /// Whether it is on the front: nothing else takes less time for an update, an image of the same rays or a sample on a device, or has
-    /// less error in it, at no greater cost of the others, and it is not the same as the default as far as can be told.
+    /// Whether it is on the front: nothing else takes less time for an update, an image of the same rays or a sample on a
+    /// device, or has less error in it, at no greater cost of the others, and it is not the same as the default as far as can
+    /// be told.
     pareto: bool,
 }
 

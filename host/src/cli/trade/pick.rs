@@ -1,4 +1,5 @@
-//! The best configuration within a budget, by a short run over few seeds: images of the real renderer at the scene's own shading points.
+//! The best configuration within a budget, by a short run over few seeds: images of the real renderer at the scene's own
+//! shading points.
 
 use std::fmt;
 

@@ -28,7 +28,8 @@ pub(super) struct Prepared {
 
 type Shown = Option<Arc<SceneArrays>>;
 
-/// A frame whose images are measured: the configurations as they are in it, their updates so far, what to render and its background.
+/// A frame whose images are measured: the configurations as they are in it, their updates so far, what to render and its
+/// background.
 pub(super) type InFrame<'a> =
     dyn FnMut(&mut [Box<dyn Subject>], &[Updates], &SceneArrays, [f32; 3]) -> Result<(), HostError> + 'a;
 

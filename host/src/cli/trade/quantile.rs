@@ -11,8 +11,8 @@ pub(in crate::cli) struct Interval {
 }
 
 impl Interval {
-    /// Of `values`, one at least: the median, and the order statistics between which the true median lies with 95 % (binomial, by the
-    /// normal approximation; the extremes where there are too few).
+    /// Of `values`, one at least: the median, and the order statistics between which the true median lies with 95 % (binomial,
+    /// by the normal approximation; the extremes where there are too few).
     pub fn of(mut values: Vec<f64>) -> Self {
         values.sort_by(f64::total_cmp);
         let count = values.len();
@@ -30,7 +30,8 @@ impl Interval {
         }
     }
 
-    /// This one, as unsure as both are: the parts by which their ends lie off their medians add in squares, as of independent factors.
+    /// This one, as unsure as both are: the parts by which their ends lie off their medians add in squares, as of independent
+    /// factors.
     pub fn as_unsure_as(self, other: Self) -> Self {
         let off = |a: f64, b: f64| if a > 0.0 && b > 0.0 { (a / b).ln() } else { 0.0 };
         let both = |end: fn(&Self) -> f64| {

@@ -49,8 +49,8 @@ impl Measured {
         Ok(Ok(Found { frame_ms, ..found }))
     }
 
-    /// What leads to the `error`; where [`MOST_IMAGES`] do not, the error by those. Errors are taken as a power of the number of images:
-    /// the one between what is measured and an image by about as many as are needed.
+    /// What leads to the `error`; where [`MOST_IMAGES`] do not, the error by those. Errors are taken as a power of the number
+    /// of images: the one between what is measured and an image by about as many as are needed.
     pub fn until(
         &self,
         error: f64,

@@ -1,8 +1,8 @@
 //! ReSTIR (Bitterli et al. 2020) as a choice: unbiased, over consecutive frames of the animation.
 //!
-//! Its least image is one history of a pixel: up to six shadow rays, all passes. Where others take more rays, it takes more histories
-//! that know nothing of each other, as in `lightbvh compare`. What is told of one sample of a tree is told of all initial candidates of
-//! a pixel here, of which one stays.
+//! Its least image is one history of a pixel: up to six shadow rays, all passes. Where others take more rays, it takes more
+//! histories that know nothing of each other, as in `lightbvh compare`. What is told of one sample of a tree is told of all
+//! initial candidates of a pixel here, of which one stays.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::hint::black_box;

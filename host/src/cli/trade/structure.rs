@@ -36,8 +36,8 @@ pub(super) struct Structure {
     pub variances: Variances,
 }
 
-/// Of the estimate of diffuse light by one sample, over the squared mean. Exact for one candidate, by trials for more, up to the rays
-/// that tell which share of a light is seen.
+/// Of the estimate of diffuse light by one sample, over the squared mean. Exact for one candidate, by trials for more, up to
+/// the rays that tell which share of a light is seen.
 #[derive(Clone, Debug, Default, Serialize)]
 pub(super) struct Variances {
     /// Without shadows: mean over the points.

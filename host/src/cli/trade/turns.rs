@@ -5,8 +5,8 @@ use std::time::Duration;
 use crate::cli::times::ms;
 use crate::error::HostError;
 
-/// Times of each of `sides`, ns per item of `items`, turn by turn; each turn begins with another side, so that none always follows the same
-/// one.
+/// Times of each of `sides`, ns per item of `items`, turn by turn; each turn begins with another side, so that none always
+/// follows the same one.
 pub(super) fn in_turns(
     sides: usize,
     turns: u32,

@@ -1,8 +1,9 @@
 //! The variance of samples for a glossy surface, by an importance that is told of the lobe and by the one that is not.
 //!
-//! Lights are taken as small patches, each with its solid angle: sums over all of them are exact but for the size of the patches. One
-//! sample is a light with a point on it; with multiple importance sampling a direction that the surface reflects into joins it, both
-//! weighted by the balance heuristic (E. Veach and L. Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", 1995).
+//! Lights are taken as small patches, each with its solid angle: sums over all of them are exact but for the size of the
+//! patches. One sample is a light with a point on it; with multiple importance sampling a direction that the surface reflects
+//! into joins it, both weighted by the balance heuristic (E. Veach and L. Guibas, "Optimally Combining Sampling Techniques for
+//! Monte Carlo Rendering", 1995).
 
 use std::f64::consts::PI;
 use std::hint::black_box;
@@ -395,8 +396,8 @@ mod tests {
         assert_eq!(percent(less(&[1.0, 2.0], &[2.0, 2.0])), "50 %");
     }
 
-    /// A light that is chosen always, in one patch: no variance but what the direction adds, and the direction that meets half of what is
-    /// sent leaves the balance heuristic a known one.
+    /// A light that is chosen always, in one patch: no variance but what the direction adds, and the direction that meets half
+    /// of what is sent leaves the balance heuristic a known one.
     #[test]
     fn variances_are_those_of_the_balance_heuristic() {
         let receiver = GlossyPoint {

@@ -8,8 +8,9 @@ use super::irradiance::irradiance;
 /// Points along each axis of a light that has an extent.
 const POINTS: u8 = 8;
 
-/// Luminance of the irradiance at a point with a normal. Points and spots are exact; what has an extent is a mean over 64 points on it, evenly
-/// spread; a profile is taken as bright in all of its cone as where it is brightest, for no tree knows more of it.
+/// Luminance of the irradiance at a point with a normal. Points and spots are exact; what has an extent is a mean over 64
+/// points on it, evenly spread; a profile is taken as bright in all of its cone as where it is brightest, for no tree knows
+/// more of it.
 pub(in crate::cli) fn irradiance_of(light: &AnyLight, point: &ShadingPoint) -> f64 {
     let light = match EmissiveTriangle::try_from(*light) {
         Ok(triangle) => return irradiance(&triangle, point),
@@ -35,7 +36,8 @@ mod tests {
     use super::*;
     use lightbvh::light::{PointLight, SphereLight};
 
-    /// A point: I·cos/d². A sphere seen whole: π·L·sin²·cos (M. F. Modest, Radiative Heat Transfer, view factors: a sphere from a patch).
+    /// A point: I·cos/d². A sphere seen whole: π·L·sin²·cos (M. F. Modest, Radiative Heat Transfer, view factors: a sphere from
+    /// a patch).
     #[test]
     fn points_and_spheres_send_what_theory_says() {
         let at = ShadingPoint {

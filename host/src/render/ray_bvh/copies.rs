@@ -1,4 +1,5 @@
-//! Triangles in one place: where many distances are equal, PLOC pairs few clusters in a round, and takes time in proportion to their square.
+//! Triangles in one place: where many distances are equal, PLOC pairs few clusters in a round, and takes time in proportion to
+//! their square.
 
 use std::collections::HashMap;
 
@@ -9,8 +10,9 @@ use obvhs::triangle::Triangle;
 /// As many in one place as do no harm.
 const FEW: u32 = 16;
 
-/// Moves triangles of which there are many in one place, so that a builder tells them apart: by up to their own size, or where they have none
-/// by that of the scene. Their order in the tree means nothing, and boxes are computed from where they are. Others stay.
+/// Moves triangles of which there are many in one place, so that a builder tells them apart: by up to their own size, or where
+/// they have none by that of the scene. Their order in the tree means nothing, and boxes are computed from where they are.
+/// Others stay.
 pub(super) fn spread(triangles: &mut [Triangle]) {
     let place = |t: &Triangle| [t.v0, t.v1, t.v2].map(|v| v.to_array().map(f32::to_bits));
     let mut counts: HashMap<_, u32> = HashMap::new();

@@ -56,10 +56,10 @@ fn most_looks(triangles: usize) -> usize {
     MOST_LOOKS[0] * triangles + MOST_LOOKS[1]
 }
 
-/// PLOC (D. Meister and J. Bittner, "Parallel Locally-Ordered Clustering for Bounding Volume Hierarchy Construction", 2018), as `obvhs` builds it
-/// with a search distance of 6, 1 in the first two rounds: the same tree to the bit. But where clusters lie within each other, each prefers the
-/// next one, and a round merges a single pair. So once there were [`MOST_LOOKS`], all merge with the one beside them, and there are at most two
-/// more for each triangle. There must be at least one.
+/// PLOC (D. Meister and J. Bittner, "Parallel Locally-Ordered Clustering for Bounding Volume Hierarchy Construction", 2018), as
+/// `obvhs` builds it with a search distance of 6, 1 in the first two rounds: the same tree to the bit. But where clusters lie
+/// within each other, each prefers the next one, and a round merges a single pair. So once there were [`MOST_LOOKS`], all merge
+/// with the one beside them, and there are at most two more for each triangle. There must be at least one.
 pub(super) fn build(triangles: &[Triangle]) -> Built {
     let mut clusters = sorted(triangles);
     let mut bvh = Bvh2::zeroed(triangles.len());
@@ -102,7 +102,8 @@ pub(super) fn build(triangles: &[Triangle]) -> Built {
     Built { bvh, looks }
 }
 
-/// A leaf for each triangle, along a Morton curve. The order of those at one place is what the sort makes of it, so it is that of `obvhs`.
+/// A leaf for each triangle, along a Morton curve. The order of those at one place is what the sort makes of it, so it is that
+/// of `obvhs`.
 fn sorted(triangles: &[Triangle]) -> Vec<Bvh2Node> {
     let boxes: Vec<Aabb> = triangles.iter().map(Boundable::aabb).collect();
     let all = boxes.iter().fold(Aabb::empty(), |all, one| all.union(one));

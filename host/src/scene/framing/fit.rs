@@ -11,11 +11,12 @@ const FILLED: f64 = 0.88;
 /// The axes of a camera: right, up, forward.
 pub(super) type Axes = [[f64; 3]; 3];
 
-/// The eye that is as near as it can be to `points`, each with a weight, while points of no more than `part` of all weight lie beyond each
-/// side of the image of half height `tangent`. None without points.
+/// The eye that is as near as it can be to `points`, each with a weight, while points of no more than `part` of all weight lie
+/// beyond each side of the image of half height `tangent`. None without points.
 ///
-/// A point lies within the right side where x − x₀ ≤ a (z − z₀), a the side's slope; so x₀ − a z₀ must be at least the largest x − a z of all
-/// points, and likewise for the other sides. Two opposite sides give the place across and the depth; the depth further back holds for both pairs.
+/// A point lies within the right side where x − x₀ ≤ a (z − z₀), a the side's slope; so x₀ − a z₀ must be at least the largest
+/// x − a z of all points, and likewise for the other sides. Two opposite sides give the place across and the depth; the depth
+/// further back holds for both pairs.
 pub(super) fn eye(points: &[([f64; 3], f64)], axes: &Axes, tangent: f64, part: f64) -> Option<[f64; 3]> {
     let [right, up, forward] = axes;
     let outside = part * points.iter().map(|(_, weight)| weight).sum::<f64>();

@@ -16,8 +16,8 @@ const IMAGE: [usize; 2] = [16, 9];
 /// A side that is seen at an angle whose sine is less than this takes few pixels, and counts less.
 const STEEP: f64 = 0.4;
 
-/// Of what fills the image, a point's size is about a tenth of the image's half height; what is so much smaller that this part of it is not
-/// reached counts less.
+/// Of what fills the image, a point's size is about a tenth of the image's half height; what is so much smaller that this part
+/// of it is not reached counts less.
 const LARGE: f64 = 0.065;
 
 /// What is nearer than this part of the distance of what is to be seen stands in the way.
@@ -32,12 +32,13 @@ const BEYOND: f64 = 1.0 + 1e-5;
 /// What a place counts from which nothing but what stands in the way is seen.
 const ALL_NEAR: f64 = 0.2;
 
-/// Dark points count as such up to so many times what is seen of lit ones, and then next to nothing: an image of them alone is black.
+/// Dark points count as such up to so many times what is seen of lit ones, and then next to nothing: an image of them alone is
+/// black.
 const BESIDE_LIGHT: f64 = 4.0;
 const IN_THE_DARK: f64 = 1e-3;
 
-/// How much of all points is seen, from 0 to 1: those within the image, on this side of their surface, nothing before them. Dark ones
-/// count beside lit ones.
+/// How much of all points is seen, from 0 to 1: those within the image, on this side of their surface, nothing before them.
+/// Dark ones count beside lit ones.
 pub(super) fn seen(points: &[Point], room: &Room, view: &View) -> f64 {
     let [eye, right, up, forward] = [view.eye, view.right, view.up, view.forward].map(|v| v.map(f64::from));
     let tangent = libm::tan(0.5 * f64::from(view.yfov));
@@ -75,7 +76,8 @@ pub(super) fn seen(points: &[Point], room: &Room, view: &View) -> f64 {
     lit + shown + IN_THE_DARK * (dark - shown)
 }
 
-/// What the image counts, from 0 to 1: less where it shows backs of surfaces, as within a crate or behind a wall, or something close before the eye.
+/// What the image counts, from 0 to 1: less where it shows backs of surfaces, as within a crate or behind a wall, or something
+/// close before the eye.
 pub(super) fn clean(points: &[Point], room: &Room, candidate: &Candidate) -> f64 {
     let view = &candidate.view;
     let [eye, right, up, forward] = [view.eye, view.right, view.up, view.forward].map(|v| v.map(f64::from));

@@ -1,8 +1,8 @@
 //! The lamps of a frame, as what there is to see and as what it is seen by.
 //!
-//! A point within a small closed mesh lights the inside of that mesh alone: programs place lamps so that let them shine through their own bulbs.
-//! Such ones are shut in, and count where there is no other light; so do those that have nothing in their range, and triangles all of whose light lands
-//! on what shines: the inner walls of glowing bulbs.
+//! A point within a small closed mesh lights the inside of that mesh alone: programs place lamps so that let them shine through
+//! their own bulbs. Such ones are shut in, and count where there is no other light; so do those that have nothing in their
+//! range, and triangles all of whose light lands on what shines: the inner walls of glowing bulbs.
 
 use glam::Vec3;
 use lightbvh::light::{AnyLight, Light, PointLight, ProfileLight, SpotLight};
@@ -33,7 +33,8 @@ const RAYS: usize = 8;
 /// And rays towards surfaces, where those miss.
 const AIMED: usize = 32;
 
-/// What lies farther away than this part of the scene's size is no bulb: of the backs of surfaces, and of fronts, which are also the walls of a small room.
+/// What lies farther away than this part of the scene's size is no bulb: of the backs of surfaces, and of fronts, which are
+/// also the walls of a small room.
 const BULB: f64 = 0.05;
 const THICK_BULB: f64 = 0.01;
 
@@ -59,9 +60,10 @@ pub(super) fn fluxes(frame: &Frame, room: &Room, size: f64, is_under_sky: bool) 
     }
 }
 
-/// Lamps without size that stand beyond all that there is to see, which light it as suns do: those with the brightest share. The flux of those that shine all
-/// around is taken out of `fluxes`; rays in the cone of a spot find where on a large floor its light lands, and miss what is small in it. That of all of them is
-/// taken out of what is returned beside: they need not be in the image.
+/// Lamps without size that stand beyond all that there is to see, which light it as suns do: those with the brightest share.
+/// The flux of those that shine all around is taken out of `fluxes`; rays in the cone of a spot find where on a large floor its
+/// light lands, and miss what is small in it. That of all of them is taken out of what is returned beside: they need not be in
+/// the image.
 pub(super) fn take_far(frame: &Frame, fluxes: &mut [f64]) -> (Vec<AnyLight>, Vec<f64>) {
     let triangles = frame.triangles.iter().chain(&frame.clear);
     let Some((low, high)) = super::bounds(triangles.flat_map(|triangle| triangle.p)) else {
@@ -92,7 +94,8 @@ fn squared(v: [f64; 3]) -> f64 {
     dot(v, v)
 }
 
-/// The part of a lamp's light that is left so many metres from it, where it has a range: the window of glTF's `KHR_lights_punctual`.
+/// The part of a lamp's light that is left so many metres from it, where it has a range: the window of glTF's
+/// `KHR_lights_punctual`.
 pub(super) fn left_at(frame: &Frame, index: usize, distance: f64) -> f64 {
     let own = index.checked_sub(frame.emissive.len());
     let Some(light) = own.and_then(|own| frame.others.get(own)) else {
@@ -141,8 +144,8 @@ fn is_out_of_range(frame: &Frame, room: &Room, size: f64, index: usize) -> bool 
         })
 }
 
-/// Whether a lamp is a point that sends every ray to the back of something close by, to a wall of two sides there, or to something very close; or a
-/// triangle that sends every ray to what shines.
+/// Whether a lamp is a point that sends every ray to the back of something close by, to a wall of two sides there, or to
+/// something very close; or a triangle that sends every ray to what shines.
 fn is_shut_in(frame: &Frame, room: &Room, size: f64, index: usize) -> bool {
     let step = 1e-9 * size;
     let Some(own) = index.checked_sub(frame.emissive.len()) else {

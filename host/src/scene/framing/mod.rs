@@ -8,8 +8,8 @@
 //! room.rs     the frame's triangles under rays; spread.rs: directions and places, the same in every run
 //! ```
 //!
-//! The place from which most is seen is taken. The work is bounded: at most 1024 points and 356 places, so 365,000 rays between them, 14,000 of
-//! small images, and 35,000 that find points and places; of small scenes less.
+//! The place from which most is seen is taken. The work is bounded: at most 1024 points and 356 places, so 365,000 rays between
+//! them, 14,000 of small images, and 35,000 that find points and places; of small scenes less.
 
 mod fit;
 mod judge;

@@ -19,9 +19,9 @@ pub(super) struct Candidate {
     pub is_inside: bool,
 }
 
-/// Directions from without, in degrees around the upward axis and above the horizon, and what each counts. The first ones from the front,
-/// a little to the right; then straight at each side, as signs and open boxes want it. From below floors hide what is lit on them, and nobody looks
-/// from there. From high above all looks like a map.
+/// Directions from without, in degrees around the upward axis and above the horizon, and what each counts. The first ones from
+/// the front, a little to the right; then straight at each side, as signs and open boxes want it. From below floors hide what
+/// is lit on them, and nobody looks from there. From high above all looks like a map.
 const AROUND: [f64; 8] = [19.0, -26.0, 64.0, -71.0, 109.0, -116.0, 154.0, 199.0];
 const STRAIGHT: [f64; 4] = [0.0, 90.0, -90.0, 180.0];
 const ABOVE: [(&[f64], f64, f64); 4] = [
@@ -35,13 +35,13 @@ const ABOVE: [(&[f64], f64, f64); 4] = [
 const BEHIND: f64 = 0.8;
 const LEFT: f64 = 0.95;
 
-/// Parts of all points, and of lit ones, that may lie beyond each side of the image, and what a place so near counts: something far off may be given
-/// up, but what is cut looks wrong.
+/// Parts of all points, and of lit ones, that may lie beyond each side of the image, and what a place so near counts: something
+/// far off may be given up, but what is cut looks wrong.
 const PART: (f64, f64) = (0.01, 0.84);
 const LIT_PARTS: [(f64, f64); 3] = [(0.02, 0.78), (0.1, 0.66), (0.2, 0.6)];
 
-/// Places between surfaces, directions from each, degrees above the horizon; and what they count: the whole is rather seen from without, but a
-/// room from inside.
+/// Places between surfaces, directions from each, degrees above the horizon; and what they count: the whole is rather seen from
+/// without, but a room from inside.
 const INSIDE: usize = 20;
 const TURNS: usize = 8;
 const DOWN: f64 = -7.0;
@@ -57,7 +57,8 @@ const INSIDE_YFOV: f32 = std::f32::consts::FRAC_PI_3;
 const BACK: f64 = 0.9;
 const HEIGHT: f64 = 0.55;
 
-/// Places around what is to be seen, each as near as it can be. `corners` are vertices that are in the image where nothing is cut, `size` metres how large all is.
+/// Places around what is to be seen, each as near as it can be. `corners` are vertices that are in the image where nothing is
+/// cut, `size` metres how large all is.
 pub(super) fn around(points: &[Point], corners: &[[f32; 3]], size: f64) -> Vec<Candidate> {
     let corners: Vec<_> = corners.iter().map(|p| (p.map(f64::from), 1.0)).collect();
     let weighed = |point: &Point| (point.p, point.weight);

@@ -4,8 +4,8 @@
 //! - Surfaces are asked at points whether they lie under the sky, or in the sun.
 //! - Lamps are to be seen themselves, and so is, a little, what is dark: the body of a car whose headlamps shine.
 //!
-//! What a triangle counts is the cube root of the light that it reflects: a plain of two triangles is a large thing, but there is no more to see in
-//! it than in a few of the hundreds that a house has.
+//! What a triangle counts is the cube root of the light that it reflects: a plain of two triangles is a large thing, but there
+//! is no more to see in it than in a few of the hundreds that a house has.
 
 use lightbvh::ShadingPoint;
 use lightbvh::light::{AnyLight, Light};
@@ -35,7 +35,8 @@ const LIGHTS_COUNT: f64 = 0.15;
 /// What all surfaces count, dark ones too, against all that is lit.
 const SURFACE_COUNTS: f64 = 0.3;
 
-/// A point's own size is its distance from so many of the others, one of so many: of what fills an image it is a tenth of the image's height.
+/// A point's own size is its distance from so many of the others, one of so many: of what fills an image it is a tenth of the
+/// image's height.
 const NEIGHBOURS: usize = 24;
 
 /// A point on a side of a surface.
@@ -177,8 +178,8 @@ fn surfaces(frame: &Frame) -> (Vec<&SurfaceTriangle>, Vec<f64>) {
     (all, roots)
 }
 
-/// Vertices that are in the image where nothing is cut: all of few triangles, those furthest along each axis, and of many triangles some, large ones
-/// rather than small ones.
+/// Vertices that are in the image where nothing is cut: all of few triangles, those furthest along each axis, and of many
+/// triangles some, large ones rather than small ones.
 pub(super) fn corners(frame: &Frame) -> Vec<[f32; 3]> {
     let (all, roots) = surfaces(frame);
     if all.len() <= CORNERS {
@@ -193,7 +194,8 @@ pub(super) fn corners(frame: &Frame) -> Vec<[f32; 3]> {
     chosen.chain(furthest.flatten()).collect()
 }
 
-/// Points on the fronts of surfaces, with the area that each stands for and its material; triangles are chosen by the cube roots of their areas.
+/// Points on the fronts of surfaces, with the area that each stands for and its material; triangles are chosen by the cube
+/// roots of their areas.
 fn on_surfaces(frame: &Frame) -> Vec<(f64, u32, Point)> {
     let (all, roots) = surfaces(frame);
     let count = (SURFACE.2 * all.len()).clamp(SURFACE.0, SURFACE.1);
@@ -217,7 +219,8 @@ fn on_surfaces(frame: &Frame) -> Vec<(f64, u32, Point)> {
     points.collect()
 }
 
-/// Which of the points on surfaces, or of those on their backs, see the sky, a sun, or a lamp that stands off, and how much they reflect.
+/// Which of the points on surfaces, or of those on their backs, see the sky, a sun, or a lamp that stands off, and how much
+/// they reflect.
 fn under_sky(
     room: &Room,
     surface: &[(f64, u32, Point)],

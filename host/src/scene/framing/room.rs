@@ -9,8 +9,8 @@ use super::spread::unit;
 use crate::render::RayBvh;
 use crate::vector::{dot, normal, sub};
 
-/// What a back counts against a front: models are made to be seen from their fronts, and a wall's back hides its room. Of two-sided materials it is
-/// meant to be seen too, but many programs write all materials as such.
+/// What a back counts against a front: models are made to be seen from their fronts, and a wall's back hides its room. Of
+/// two-sided materials it is meant to be seen too, but many programs write all materials as such.
 const BACK: f64 = 0.15;
 const BACK_OF_TWO: f64 = 0.3;
 

@@ -278,7 +278,8 @@ fn what_a_lamp_far_off_lights_fills_the_image() {
     assert!(!is_within(&view, low, high), "{view:?}");
 }
 
-/// Half of a room lies in the range of a dim lamp, the other half beyond that of a bright one, which lights nothing: the camera looked at that.
+/// Half of a room lies in the range of a dim lamp, the other half beyond that of a bright one, which lights nothing: the camera
+/// looked at that.
 #[test]
 fn beyond_its_range_a_lamp_lights_nothing() {
     let floor = sheet([-20.0, 0.0, 5.0], [40.0, 0.0, 0.0], [0.0, 0.0, -10.0], GREY);

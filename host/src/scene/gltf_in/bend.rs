@@ -92,7 +92,8 @@ fn of_vertices<T>(
     Err(document.malformed(element, problem, ADVICE))
 }
 
-/// All skins; `place` is where each of the file's nodes went. Nodes whose skin has joints outside of the scene lose it, with a note.
+/// All skins; `place` is where each of the file's nodes went. Nodes whose skin has joints outside of the scene lose it, with a
+/// note.
 pub(super) fn skins(
     document: &Document<'_>,
     place: &[Option<u32>],

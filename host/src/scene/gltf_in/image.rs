@@ -1,4 +1,5 @@
-//! Pictures, decoded within limits. One that is not there, or cannot be decoded, is noted and counts as white, as what glows as black.
+//! Pictures, decoded within limits. One that is not there, or cannot be decoded, is noted and counts as white, as what glows as
+//! black.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::io::Cursor;

@@ -15,7 +15,8 @@ struct Instancing {
     attributes: BTreeMap<String, u32>,
 }
 
-/// Where the instances of a node's mesh stand in the node's space; `None` where it has the mesh once. Attributes of the application are passed.
+/// Where the instances of a node's mesh stand in the node's space; `None` where it has the mesh once. Attributes of the
+/// application are passed.
 pub(super) fn places(
     document: &Document<'_>,
     node: &json::Node,

@@ -7,20 +7,24 @@
 //! Read:
 //! - triangles, strips and fans, in plain, sparse and quantised accessors (`KHR_mesh_quantization`), compressed views
 //!   (`EXT_meshopt_compression`, `KHR_meshopt_compression`) and Draco streams (`KHR_draco_mesh_compression`);
-//! - instances (`EXT_mesh_gpu_instancing` too), animation of nodes and of weights in all interpolations, skins and morph targets, perspective cameras;
-//! - metallic-roughness factors and textures, or specular-glossiness factors (`KHR_materials_pbrSpecularGlossiness`); normal textures; emission by factor, texture (averaged per
-//!   triangle where lights are chosen) and `KHR_materials_emissive_strength`; `doubleSided`; alpha that cuts out or blends;
-//! - pictures in PNG, JPEG, WebP (`EXT_texture_webp`) and KTX 2 (`KHR_texture_basisu`: eight bits a channel, plain or by Zstandard,
-//!   and what Basis Universal makes), placed by `KHR_texture_transform`. One that cannot be had is noted and counts as white, and where it is what glows as black;
-//! - `KHR_materials_transmission`, by its factor and the mean of its texture: from a half on, light goes straight through and is tinted.
-//!   Where [`super::Paint`] is not shown, such surfaces, and blended ones, are left out unless they emit ([`super::Material::is_clear`]);
+//! - instances (`EXT_mesh_gpu_instancing` too), animation of nodes and of weights in all interpolations, skins and morph
+//!   targets, perspective cameras;
+//! - metallic-roughness factors and textures, or specular-glossiness factors (`KHR_materials_pbrSpecularGlossiness`); normal
+//!   textures; emission by factor, texture (averaged per triangle where lights are chosen) and
+//!   `KHR_materials_emissive_strength`; `doubleSided`; alpha that cuts out or blends;
+//! - pictures in PNG, JPEG, WebP (`EXT_texture_webp`) and KTX 2 (`KHR_texture_basisu`: eight bits a channel, plain or by
+//!   Zstandard, and what Basis Universal makes), placed by `KHR_texture_transform`. One that cannot be had is noted and counts
+//!   as white, and where it is what glows as black;
+//! - `KHR_materials_transmission`, by its factor and the mean of its texture: from a half on, light goes straight through and
+//!   is tinted. Where [`super::Paint`] is not shown, such surfaces, and blended ones, are left out unless they emit
+//!   ([`super::Material::is_clear`]);
 //! - `KHR_materials_unlit`: the colour is emitted, so that it is seen as it is, and nothing is reflected. It lights what is near;
 //! - `EXT_lights_ies`: photometric files (ANSI/IES LM-63, types A, B and C) become lights of the tree with a profile.
 //! - `KHR_lights_punctual`: points and spots are lights of the tree, suns stand beside it. Ranges are not applied, which is said.
 //!
 //! Radiance is taken as W/(m² sr) where glTF says nits; only the exposure differs. The rest is left out with a note in
-//! [`super::SceneData::warnings`], or refused by name where the file says that it is required; of required extensions that only refine
-//! the look of surfaces (`KHR_materials_*`) there is a note too.
+//! [`super::SceneData::warnings`], or refused by name where the file says that it is required; of required extensions that only
+//! refine the look of surfaces (`KHR_materials_*`) there is a note too.
 
 mod accessor;
 mod animation;

@@ -23,8 +23,8 @@ pub(super) fn read(document: &Document<'_>, data: &mut SceneData) -> Result<Vec<
         cameras: Vec::new(),
     };
     placing.tree(roots, data)?;
-    // Some exporters list nodes that have a parent. Where the parent is in the scene they stay its children; where it is not, they are
-    // roots, the highest ones first.
+    // Some exporters list nodes that have a parent. Where the parent is in the scene they stay its children; where it is not,
+    // they are roots, the highest ones first.
     let depths = depths(document, &parents);
     let mut left = Vec::new();
     for &(node, parent) in &listed {
@@ -65,8 +65,8 @@ struct Placing<'d, 'a> {
 }
 
 impl Placing<'_, '_> {
-    /// Places nodes and all below them that are not placed yet: lowest index first among those whose parent is placed, so that files
-    /// that are in order keep their order.
+    /// Places nodes and all below them that are not placed yet: lowest index first among those whose parent is placed, so that
+    /// files that are in order keep their order.
     fn tree(&mut self, roots: Vec<usize>, data: &mut SceneData) -> Result<(), SceneError> {
         let mut ready: BinaryHeap<Reverse<usize>> = roots.into_iter().map(Reverse).collect();
         while let Some(Reverse(index)) = ready.pop() {

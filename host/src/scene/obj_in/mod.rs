@@ -2,12 +2,14 @@
 //!
 //! Read:
 //! - polygons, cut into triangles, also concave ones; indices from 1, or negative ones from the end; lines that go on after `\`;
-//! - objects and groups, each a node of its own with a primitive for each material: a mesh light is what a group has of a material that emits;
-//! - `Kd`, `Ks` of mirrors (`illum` 3 and 5), `Ns` and `Pr` as roughness, `Pm` as metallic, `d` and `Tr`, glass (`illum` 4, 6, 7 and 9), `Ke`;
+//! - objects and groups, each a node of its own with a primitive for each material: a mesh light is what a group has of a
+//!   material that emits;
+//! - `Kd`, `Ks` of mirrors (`illum` 3 and 5), `Ns` and `Pr` as roughness, `Pm` as metallic, `d` and `Tr`, glass (`illum` 4, 6,
+//!   7 and 9), `Ke`;
 //! - `map_Kd` with the opacity of `map_d`, and `map_Ke`, which are shown; lights have the mean of `map_Ke` over each triangle.
 //!
-//! Where vertices of a face that emits have normals, they say which side emits; else its front does, as in glTF. The format has no unit and no
-//! camera: coordinates are metres, +Y is up, and `Ke` is radiance in W/(m² sr).
+//! Where vertices of a face that emits have normals, they say which side emits; else its front does, as in glTF. The format has
+//! no unit and no camera: coordinates are metres, +Y is up, and `Ke` is radiance in W/(m² sr).
 
 mod faces;
 mod lines;
@@ -34,7 +36,8 @@ impl Scene {
         Self::read_obj_slice(&path.display().to_string(), &bytes, path.parent())
     }
 
-    /// The same for a file in memory; `name` stands for the path in messages, `folder` is where material libraries lie (`None`: there are none).
+    /// The same for a file in memory; `name` stands for the path in messages, `folder` is where material libraries lie (`None`:
+    /// there are none).
     ///
     /// # Errors
     /// As [`Scene::read_obj`].

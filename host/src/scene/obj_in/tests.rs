@@ -241,7 +241,8 @@ fn numbers_of_materials_that_are_replaced_are_named() {
     }
 }
 
-/// Files of some exporters name normals that they leave out. Of a face with some of them none counts: which side emits is its front.
+/// Files of some exporters name normals that they leave out. Of a face with some of them none counts: which side emits is its
+/// front.
 #[test]
 fn faces_that_name_missing_normals_are_read_without() {
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nf 1//1 2//2 3//1\nf 1//9 2//9 3//9\nf 1//-2 2//1 3//1\n";
@@ -345,7 +346,8 @@ fn pictures_lie_upright() {
     );
     let primitive = &scene.data().meshes[0].primitives[0];
     let radiance = primitive.radiance.as_ref().expect("by its picture");
-    // Means of four texels, and the picture begins anew: within the lower row white counts from a half at its edges to nothing, a quarter in the mean.
+    // Means of four texels, and the picture begins anew: within the lower row white counts from a half at its edges to nothing,
+    // a quarter in the mean.
     for (radiance, expected) in radiance.iter().zip([0.5, 0.5, 1.5]) {
         assert!(
             (radiance[0] - expected).abs() < 1e-3,

@@ -8,7 +8,8 @@ use super::shown;
 use super::state::Loader;
 
 impl Loader<'_> {
-    /// The material of a shape with its `alpha`, which is another one where light goes through a part of it; `None` where the shape is not there.
+    /// The material of a shape with its `alpha`, which is another one where light goes through a part of it; `None` where the
+    /// shape is not there.
     pub fn material_with_alpha(&mut self, params: &Params) -> Option<u32> {
         let own = self.graphics.material;
         if params.find("shadowalpha").is_some() {

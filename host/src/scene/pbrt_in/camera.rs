@@ -5,8 +5,8 @@ use super::params::Params;
 use super::state::Loader;
 use super::{matrix, shown};
 
-/// How many times as far away as half the image is high a camera stands that stands in for an orthographic one: lines that are parallel meet at
-/// less than 2 degrees.
+/// How many times as far away as half the image is high a camera stands that stands in for an orthographic one: lines that are
+/// parallel meet at less than 2 degrees.
 const FAR: f64 = 32.0;
 
 /// What a camera shows.
@@ -33,8 +33,8 @@ pub(super) struct Camera {
 }
 
 impl Camera {
-    /// Vertical field of view, radians, and how far behind it the camera stands, in its own space, for a picture of that many columns and rows. None
-    /// of a camera that is left out.
+    /// Vertical field of view, radians, and how far behind it the camera stands, in its own space, for a picture of that many
+    /// columns and rows. None of a camera that is left out.
     pub fn field(&self, [columns, rows]: [f64; 2]) -> Option<(f64, f64)> {
         let aspect = self.aspect.unwrap_or(columns / rows);
         let half = match self.window {

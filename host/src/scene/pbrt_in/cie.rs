@@ -6,8 +6,8 @@ use std::ops::RangeInclusive;
 const FIRST: u32 = 360;
 const LAST: u32 = 830;
 
-/// Colour matching functions of 1931, as sums of Gaussians (Wyman, Sloan and Shirley 2013, "Simple Analytic Approximations to the CIE XYZ
-/// Color Matching Functions", section 2.2).
+/// Colour matching functions of 1931, as sums of Gaussians (Wyman, Sloan and Shirley 2013, "Simple Analytic Approximations to
+/// the CIE XYZ Color Matching Functions", section 2.2).
 fn matching(nm: f64) -> [f64; 3] {
     let lobe = |scale: f64, mean: f64, below: f64, above: f64| {
         let t = (nm - mean) * if nm < mean { below } else { above };

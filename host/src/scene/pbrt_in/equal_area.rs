@@ -1,5 +1,5 @@
-//! pbrt's equal-area squares (Clarberg 2008, "Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD"): the sphere on an octahedron, whose faces
-//! keep areas.
+//! pbrt's equal-area squares (Clarberg 2008, "Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD"): the sphere on an
+//! octahedron, whose faces keep areas.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_4};
 

@@ -77,7 +77,8 @@ impl Picture {
         texels
     }
 
-    /// Irradiance of a patch that faces the picture's +z, W/m² where its numbers are W/(m² sr): the sum over the half of the sphere there.
+    /// Irradiance of a patch that faces the picture's +z, W/m² where its numbers are W/(m² sr): the sum over the half of the
+    /// sphere there.
     fn upward(&self) -> f64 {
         let (width, height) = self.pixels.dimensions();
         let mut sum = 0.0;

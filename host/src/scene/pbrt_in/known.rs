@@ -1,4 +1,5 @@
-//! Which parameters directives have, in pbrt-v4 and in what versions 1 to 3 wrote: any other is most likely misspelt, and pbrt itself refuses it.
+//! Which parameters directives have, in pbrt-v4 and in what versions 1 to 3 wrote: any other is most likely misspelt, and pbrt
+//! itself refuses it.
 
 /// Of cameras of every kind.
 const CAMERA: &[&str] = &[

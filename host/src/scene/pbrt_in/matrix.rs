@@ -25,7 +25,8 @@ pub(super) fn rotation(degrees: f64, axis: [f64; 3]) -> Affine {
     Affine::from_trs([0.0; 3], [x * sine, y * sine, z * sine, cosine], [1.0; 3])
 }
 
-/// From the world to a left-handed camera at `eye`, which looks along its +z, +y up; `None` where it looks nowhere, or up is there too.
+/// From the world to a left-handed camera at `eye`, which looks along its +z, +y up; `None` where it looks nowhere, or up is
+/// there too.
 pub(super) fn look_at(eye: [f64; 3], target: [f64; 3], up: [f64; 3]) -> Option<Affine> {
     let forward = unit_or(sub(target, eye), [0.0; 3]);
     let right = unit_or(cross(unit_or(up, [0.0; 3]), forward), [0.0; 3]);

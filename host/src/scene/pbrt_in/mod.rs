@@ -4,12 +4,14 @@
 //! Read:
 //! - all transforms, attributes, coordinate systems, objects and instances, `Include` and `Import`; files by gzip;
 //! - triangle, bilinear and PLY meshes, spheres, discs and cylinders; control meshes of subdivision surfaces as they are;
-//! - area lights, which are triangles, or lights by formula where a whole sphere or disc shines: by radiance, or by `power`, which in pbrt is
-//!   that of each triangle; points, spots, distant lights; infinite lights, constant or by a picture in pbrt's equal-area squares, or by
-//!   longitude and latitude where the picture is no square;
-//! - colours as RGB, blackbodies, spectra in the file, in files and by name; as in pbrt, light that is not given as RGB has the luminance `scale`;
+//! - area lights, which are triangles, or lights by formula where a whole sphere or disc shines: by radiance, or by `power`,
+//!   which in pbrt is that of each triangle; points, spots, distant lights; infinite lights, constant or by a picture in pbrt's
+//!   equal-area squares, or by longitude and latitude where the picture is no square;
+//! - colours as RGB, blackbodies, spectra in the file, in files and by name; as in pbrt, light that is not given as RGB has the
+//!   luminance `scale`;
 //! - perspective cameras. pbrt's cameras are left-handed: z is mirrored where the camera is, so that the picture is not;
-//! - materials, as near as two lobes come to them; pictures of their colours, other textures as their means. Surfaces of glass and of none are left out.
+//! - materials, as near as two lobes come to them; pictures of their colours, other textures as their means. Surfaces of glass
+//!   and of none are left out.
 //!
 //! What is not read is named in [`super::SceneData::warnings`], once for each kind; so are parameters that no directive has.
 
@@ -67,7 +69,8 @@ impl Scene {
         Self::read_pbrt_slice(&path.display().to_string(), &bytes, path.parent())
     }
 
-    /// The same for a file in memory; `name` stands for the path in messages, `folder` is where other files lie (`None`: there are none).
+    /// The same for a file in memory; `name` stands for the path in messages, `folder` is where other files lie (`None`: there
+    /// are none).
     ///
     /// # Errors
     /// As [`Scene::read_pbrt`].

@@ -28,8 +28,8 @@ struct Grid {
     triangles: Vec<[u32; 3]>,
 }
 
-/// A grid of points: `around` steps of an angle up to `sweep`, `along` steps of `profile`, which gives radius and z. Its front is to the right of
-/// the profile's way as the angle grows: outward where z falls.
+/// A grid of points: `around` steps of an angle up to `sweep`, `along` steps of `profile`, which gives radius and z. Its front
+/// is to the right of the profile's way as the angle grows: outward where z falls.
 fn grid([around, along]: [u32; 2], sweep: f64, profile: impl Fn(f64) -> [f64; 2]) -> Grid {
     // Where it closes its first points are there twice: pictures begin and end there.
     let columns = around + 1;
@@ -119,7 +119,8 @@ impl Loader<'_> {
         has
     }
 
-    /// Whether a whole sphere is made of triangles, for it shines inward too: the first ones, among which what surrounds a scene is.
+    /// Whether a whole sphere is made of triangles, for it shines inward too: the first ones, among which what surrounds a
+    /// scene is.
     fn is_shell(&mut self, params: &Params, is_two_sided: bool) -> bool {
         if is_two_sided && self.shells == SHELLS {
             self.note(

@@ -33,8 +33,8 @@ pub(super) struct Surface {
 }
 
 impl Surface {
-    /// Coordinates as pbrt has them of meshes that do not say any: of each triangle (0, 0), (1, 0), (1, 1), of each patch its own corners. Every
-    /// triangle gets vertices of its own.
+    /// Coordinates as pbrt has them of meshes that do not say any: of each triangle (0, 0), (1, 0), (1, 1), of each patch its
+    /// own corners. Every triangle gets vertices of its own.
     fn lie_by_default(&mut self) {
         const LOWER: [[f32; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
         const UPPER: [[f32; 2]; 3] = [[0.0, 0.0], [1.0, 1.0], [0.0, 1.0]];

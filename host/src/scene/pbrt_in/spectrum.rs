@@ -113,7 +113,8 @@ impl Loader<'_> {
         })
     }
 
-    /// Pairs of wavelengths, which ascend, and values; none where the numbers are no such pairs, for which the colour `instead` is taken.
+    /// Pairs of wavelengths, which ascend, and values; none where the numbers are no such pairs, for which the colour `instead`
+    /// is taken.
     fn samples(&mut self, numbers: &[f64], instead: &str, place: &Place) -> Vec<(f64, f64)> {
         if numbers.len() % 2 == 1 {
             self.note(

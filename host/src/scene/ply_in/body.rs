@@ -194,8 +194,8 @@ struct Fan {
     count: u32,
 }
 
-/// Faces as fans, which `polygons` lists where they are more than a triangle. Without it, strips of triangles, of which every second one turns
-/// the other way and -1 begins another.
+/// Faces as fans, which `polygons` lists where they are more than a triangle. Without it, strips of triangles, of which every
+/// second one turns the other way and -1 begins another.
 fn faces(
     path: &str,
     element: &Element,

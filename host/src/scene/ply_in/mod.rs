@@ -1,8 +1,8 @@
 //! PLY in: triangle meshes, in text or binary of either byte order, as they are or by gzip.
 //!
-//! Read are positions, normals, texture coordinates and faces; polygons are cut into triangles, also concave ones. Other properties and
-//! elements are read past. A PLY file has no material: as a scene of its own it is a grey surface that an environment map or suns can light.
-//! A count is believed once there are as many bytes as it needs.
+//! Read are positions, normals, texture coordinates and faces; polygons are cut into triangles, also concave ones. Other
+//! properties and elements are read past. A PLY file has no material: as a scene of its own it is a grey surface that an
+//! environment map or suns can light. A count is believed once there are as many bytes as it needs.
 
 mod body;
 mod header;

@@ -8,9 +8,9 @@ pub(super) const MOST_LOOKS: usize = 1024;
 /// A part of lengths, more than their products and sums are rounded by.
 const ROUNDING: f64 = 1.0 / (1_u64 << 40) as f64;
 
-/// The corners at which a polygon does not turn to the left: one lies in a triangle of three others where any corner does. They are those of
-/// the whole polygon; one that turns to the left later, or is cut, does no harm. Boxes around them are the nodes of a binary tree, whose root
-/// is 1 and where those below `k` are `2 k` and `2 k + 1`.
+/// The corners at which a polygon does not turn to the left: one lies in a triangle of three others where any corner does. They
+/// are those of the whole polygon; one that turns to the left later, or is cut, does no harm. Boxes around them are the nodes
+/// of a binary tree, whose root is 1 and where those below `k` are `2 k` and `2 k + 1`.
 pub(super) struct Notches {
     boxes: Vec<Upright>,
     /// Of nodes that are no leaves.
@@ -86,8 +86,8 @@ impl Notches {
         node >= self.slanted.len()
     }
 
-    /// Whether one lies in a triangle that turns to the left, or on its edges, or may as there were too many looks. Those where its corners are
-    /// do not count.
+    /// Whether one lies in a triangle that turns to the left, or on its edges, or may as there were too many looks. Those where
+    /// its corners are do not count.
     pub(super) fn any_in(&mut self, triangle: [Place; 3]) -> bool {
         self.stack.clear();
         self.stack.push(1);

@@ -47,8 +47,8 @@ fn doubled_area(places: &[Place]) -> f64 {
         .sum()
 }
 
-/// Places whose coordinates are whole numbers below 2^12, so that all is exact: no triangle may be turned over, and their areas are the
-/// polygon's. Returns the number of those without an area.
+/// Places whose coordinates are whole numbers below 2^12, so that all is exact: no triangle may be turned over, and their areas
+/// are the polygon's. Returns the number of those without an area.
 fn covers(places: &[Place]) -> usize {
     let all = joined(&flat(places));
     let areas: Vec<f64> = all.iter().map(|t| doubled_area(&t.map(|k| places[k]))).collect();
@@ -113,7 +113,8 @@ fn maze(side: usize, random: &mut Random) -> Vec<Place> {
     outline(&open, width)
 }
 
-/// The outline of open cells, of which (1, 1) is in the first row and those of the rim are none. Two that share a corner alone are apart there.
+/// The outline of open cells, of which (1, 1) is in the first row and those of the rim are none. Two that share a corner alone
+/// are apart there.
 fn outline(open: &[bool], width: usize) -> Vec<Place> {
     let is_open = |x: i32, y: i32| open[y as usize * width + x as usize];
     let (mut at, mut step) = ([1, 1], [1, 0]);
@@ -349,7 +350,8 @@ fn polygons_that_are_none_end() {
     joined(&[[0.0; 3], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
 }
 
-/// Boxes looked into grow no faster than a logarithm where notches are in a row, in any direction; in a star of random rays as a root.
+/// Boxes looked into grow no faster than a logarithm where notches are in a row, in any direction; in a star of random rays as
+/// a root.
 #[test]
 fn work_is_bounded() {
     let looks = |places: Vec<Place>| {

@@ -32,8 +32,8 @@ fn kept(size: [u32; 2], at: [u32; 2]) -> f64 {
     mean(&texels, |_| 1.0) / share(size, at[1])
 }
 
-/// Asked at places of its own a map has none of a small one, or many times as much. Texels hold more places or fewer than their share of the sphere, so it
-/// is not all.
+/// Asked at places of its own a map has none of a small one, or many times as much. Texels hold more places or fewer than their
+/// share of the sphere, so it is not all.
 #[test]
 fn a_single_pixel_keeps_its_light_wherever_it_lies() {
     for size @ [width, height] in [

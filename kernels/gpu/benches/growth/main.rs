@@ -1,5 +1,5 @@
-//! How every call of a BVH and its mirror grows: time (median, and 99.9 %), bytes allocated, and bytes that the mirror copies, from 10³ to
-//! 10⁶ instances or triangles.
+//! How every call of a BVH and its mirror grows: time (median, and 99.9 %), bytes allocated, and bytes that the mirror copies,
+//! from 10³ to 10⁶ instances or triangles.
 //!
 //! `cargo bench -p lightbvh-gpu --bench growth [-- LARGEST]` (4 min; 1 min up to 100000)
 

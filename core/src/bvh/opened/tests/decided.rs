@@ -19,8 +19,8 @@ fn lamps() -> LightBvh {
     bvh
 }
 
-/// Flux times variance, over all lights: the sum of what each set costs by itself and of its flux times squared distance from the mean.
-/// Any other measure would open what is not worth it.
+/// Flux times variance, over all lights: the sum of what each set costs by itself and of its flux times squared distance from
+/// the mean. Any other measure would open what is not worth it.
 #[test]
 fn sets_cost_their_flux_times_variance() {
     let bvh = lamps();
@@ -84,8 +84,8 @@ fn the_costliest_are_opened_first_and_64_at_most() {
     assert_eq!(closed, [Vec::new(), order]);
 }
 
-/// A tree was built for what was whole or open as it was copied: nodes above what is opened or closed as it comes in are to be tried, and once
-/// more when they rest.
+/// A tree was built for what was whole or open as it was copied: nodes above what is opened or closed as it comes in are to be
+/// tried, and once more when they rest.
 #[test]
 fn what_is_above_reopened_ones_is_to_be_tried() {
     let (mut bvh, _, ids) = rides::<MomentNode<8>, Moments, 8>(&mut Random(5));

@@ -46,8 +46,8 @@ fn of_meshes() -> Rebuilder<MomentNode<8>, 8> {
     })
 }
 
-/// Two instances at most are closed in a frame, and the tree comes in when two are left; a mesh that changes as a whole in each frame, which takes a tree as
-/// it is refitted, waits alike.
+/// Two instances at most are closed in a frame, and the tree comes in when two are left; a mesh that changes as a whole in each
+/// frame, which takes a tree as it is refitted, waits alike.
 #[test]
 fn instances_are_closed_a_few_in_each_frame() {
     for sways in [false, true] {
@@ -89,7 +89,8 @@ fn instances_are_closed_a_few_in_each_frame() {
     }
 }
 
-/// Of a mesh that is handed over a few records at a time all instances are closed before, where its new tree has another number of parts.
+/// Of a mesh that is handed over a few records at a time all instances are closed before, where its new tree has another number
+/// of parts.
 #[test]
 fn all_are_closed_for_a_tree_that_is_handed_over() {
     let (mut bvh, mesh, others) = scene(40);
@@ -127,8 +128,8 @@ fn all_are_closed_for_a_tree_that_is_handed_over() {
     }
 }
 
-/// A small mesh, which is put in place at once, waits for its instances too where its new tree has another number of parts; where it has as many
-/// it does not.
+/// A small mesh, which is put in place at once, waits for its instances too where its new tree has another number of parts;
+/// where it has as many it does not.
 #[test]
 fn small_meshes_wait_for_their_instances() {
     for (far, expected) in [(0, true), (3, false)] {
@@ -172,7 +173,8 @@ fn small_meshes_wait_for_their_instances() {
     }
 }
 
-/// Beside lamps that move in every frame, so that a part of a large top level comes in with each, instances are still closed and opened.
+/// Beside lamps that move in every frame, so that a part of a large top level comes in with each, instances are still closed
+/// and opened.
 #[test]
 fn frames_in_which_parts_come_in_hold_nothing_up() {
     let (mut bvh, mesh, others) = scene(12);
@@ -212,7 +214,8 @@ fn frames_in_which_parts_come_in_hold_nothing_up() {
     assert!(own.waiting_to_reopen() <= 612);
 }
 
-/// The search for those to be closed begins anew at the end of the list, and none is opened meanwhile, unless nobody builds the tree any more.
+/// The search for those to be closed begins anew at the end of the list, and none is opened meanwhile, unless nobody builds the
+/// tree any more.
 #[test]
 fn none_is_opened_while_a_tree_waits() {
     let (mut bvh, mesh, others) = scene(40);

@@ -75,8 +75,8 @@ fn what_changes_in_part_does_not_put_it_off() {
     }
 }
 
-/// Single triangles at random places, each with a path of its own, that change in every frame put it off by little, however many they are: those
-/// of a frame are computed beside what the bytes are for.
+/// Single triangles at random places, each with a path of its own, that change in every frame put it off by little, however
+/// many they are: those of a frame are computed beside what the bytes are for.
 #[test]
 fn what_changes_at_random_places_does_not_put_it_off() {
     let frames = [0, 1, 20, 80, 200].map(|count| {

@@ -35,7 +35,8 @@ pub(in crate::bvh::stage) fn worn_clusters() -> LightBvh {
     bvh
 }
 
-/// A tree that needs wide trails makes all of them wide as its first one is put in place, and the depth that files tell them by grows then, not frames later.
+/// A tree that needs wide trails makes all of them wide as its first one is put in place, and the depth that files tell them by
+/// grows then, not frames later.
 #[test]
 fn trails_are_as_wide_as_files_say_while_they_are_put_in_place() {
     let mut bvh = LightBvh::default();

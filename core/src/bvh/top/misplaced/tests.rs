@@ -5,8 +5,8 @@ use alloc::vec;
 use crate::kit::triangle;
 use crate::{LightBvh, Transform};
 
-/// An instance that goes on moving is soon compared with what lies beside at all levels, though few are in one frame: those that are not stay with the ones
-/// that they once were among, wherever they go.
+/// An instance that goes on moving is soon compared with what lies beside at all levels, though few are in one frame: those
+/// that are not stay with the ones that they once were among, wherever they go.
 #[test]
 fn each_that_goes_on_moving_has_its_turn() {
     let mut scene = LightBvh::default();

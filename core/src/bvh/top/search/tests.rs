@@ -81,8 +81,8 @@ fn second_moment(scene: &LightBvh, points: &[[f32; 3]]) -> f64 {
     (points.iter().map(of_point).sum::<f64>() / points.len() as f64).exp()
 }
 
-/// Lamps that are 1000 times as bright as the others leave them. What is lost is measured by flux, which is theirs; points among those that
-/// stayed get most of their light from these. They get a tree once all is at rest.
+/// Lamps that are 1000 times as bright as the others leave them. What is lost is measured by flux, which is theirs; points
+/// among those that stayed get most of their light from these. They get a tree once all is at rest.
 #[test]
 fn dim_lamps_that_bright_ones_left_get_a_tree() {
     for seed in [1, 2, 3, 4, 5, 6, 7, 8] {
@@ -116,7 +116,8 @@ fn dim_lamps_that_bright_ones_left_get_a_tree() {
     }
 }
 
-/// Where everything moves as one nothing is lost, and nothing is built. At rest each node is tried once; then the rebuilder is at rest too.
+/// Where everything moves as one nothing is lost, and nothing is built. At rest each node is tried once; then the rebuilder is
+/// at rest too.
 #[test]
 fn what_came_to_rest_is_tried_once() {
     let (mut scene, ids, places) = lamps(&mut Random(1), |_| 1.0);
@@ -245,8 +246,8 @@ pub(in crate::bvh::top) fn above_and_part(scene: &LightBvh) -> [u32; 2] {
     [scene.top.root, part]
 }
 
-/// A node is tried at rest once one in eight of its instances changed; above parts it then comes in whatever it costs, a part where it costs no
-/// more than what is there. Before it rests it is not.
+/// A node is tried at rest once one in eight of its instances changed; above parts it then comes in whatever it costs, a part
+/// where it costs no more than what is there. Before it rests it is not.
 #[test]
 fn one_in_eight_that_changed_is_tried_at_rest() {
     let (mut scene, ..) = lamps(&mut Random(1), |_| 1.0);

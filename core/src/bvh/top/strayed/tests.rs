@@ -189,8 +189,8 @@ fn over_new(bvh: &LightBvh, at: [f32; 3]) -> f64 {
     (logs / 6.0).exp()
 }
 
-/// In two ranges of one call, one light in each frame, or set as a whole where every second one is dark: beside it a sample is as good as in a new
-/// tree, where it had 2 to 15 times the variance.
+/// In two ranges of one call, one light in each frame, or set as a whole where every second one is dark: beside it a sample is
+/// as good as in a new tree, where it had 2 to 15 times the variance.
 #[test]
 fn what_goes_elsewhere_in_pieces_is_put_in_elsewhere() {
     let to = [35.0, 30.0, 20.0];
@@ -229,7 +229,8 @@ fn what_goes_elsewhere_in_pieces_is_put_in_elsewhere() {
     }
 }
 
-/// What sways within its own extent is not noted, what stays among its neighbours is not put in elsewhere, and none is known that is gone.
+/// What sways within its own extent is not noted, what stays among its neighbours is not put in elsewhere, and none is known
+/// that is gone.
 #[test]
 fn what_stays_where_it_belongs_stays() {
     let (mut bvh, mesh) = scene(200);
@@ -304,8 +305,9 @@ fn what_rests_is_put_in_elsewhere_sooner_than_what_moves() {
     bvh.validate().expect("valid");
 }
 
-/// [`lies_elsewhere`](LightBvh) by its definition: farther from where it was than its node was wide, itself there, about the mean of all; and as the guard
-/// says: while it moves twice as far from the mean of the others, in squared distance; at rest farther than where it was.
+/// [`lies_elsewhere`](LightBvh) by its definition: farther from where it was than its node was wide, itself there, about the
+/// mean of all; and as the guard says: while it moves twice as far from the mean of the others, in squared distance; at rest
+/// farther than where it was.
 fn lies_elsewhere_by_definition(bvh: &LightBvh, index: usize, guard: Guard) -> bool {
     let placed = &bvh.placed[index];
     let own = bvh.in_world(index as u32);
@@ -375,7 +377,8 @@ fn what_lies_elsewhere_does_so_by_its_definition() {
     assert!(found.iter().all(|&count| count > 50), "{found:?}");
 }
 
-/// A mesh that is dimmer than it was, and changes in every frame, may be as bright again in the next: it is put in elsewhere once it rests.
+/// A mesh that is dimmer than it was, and changes in every frame, may be as bright again in the next: it is put in elsewhere
+/// once it rests.
 #[test]
 fn what_blinks_waits_until_it_rests() {
     let (mut bvh, mesh) = scene(8);
@@ -484,7 +487,8 @@ fn files_go_on() {
     }
 }
 
-/// Lights that go out and come on again where they were did not go anywhere, and a mesh is known to be where it is before the first refit.
+/// Lights that go out and come on again where they were did not go anywhere, and a mesh is known to be where it is before the
+/// first refit.
 #[test]
 fn what_was_dark_for_a_while_did_not_stray() {
     let (mut bvh, mesh) = scene(20);

@@ -59,8 +59,8 @@ fn what_gains_nothing_is_known_above() {
     assert_eq!(scene.quality(root).loss(), before);
 }
 
-/// An instance that a new tree was built over is where it belongs, as bright as it is: measured against what it was before, the next edit
-/// would put it in elsewhere for nothing. Where it was is forgotten by a tree that is built as a whole alone.
+/// An instance that a new tree was built over is where it belongs, as bright as it is: measured against what it was before, the
+/// next edit would put it in elsewhere for nothing. Where it was is forgotten by a tree that is built as a whole alone.
 #[test]
 fn what_comes_in_is_where_it_belongs() {
     for is_whole in [false, true] {
@@ -88,8 +88,8 @@ fn what_comes_in_is_where_it_belongs() {
     }
 }
 
-/// The parts are the largest nodes of at most 1024 instances, each once: smaller ones would build the same instances again and again, and
-/// larger ones take longer than a frame has.
+/// The parts are the largest nodes of at most 1024 instances, each once: smaller ones would build the same instances again and
+/// again, and larger ones take longer than a frame has.
 #[test]
 fn the_largest_nodes_that_fit_are_parts() {
     let (mut scene, _) = grid(18);
@@ -113,7 +113,8 @@ fn the_largest_nodes_that_fit_are_parts() {
     assert_eq!(PART, 1024);
 }
 
-/// What changed after a part was copied is still to be tried when it rests, though the tree came to nothing: that tree knew nothing of it.
+/// What changed after a part was copied is still to be tried when it rests, though the tree came to nothing: that tree knew
+/// nothing of it.
 #[test]
 fn what_changed_after_the_copy_is_still_to_be_tried() {
     for changes_after in [false, true] {
@@ -153,8 +154,8 @@ fn what_changed_after_the_copy_is_still_to_be_tried() {
     }
 }
 
-/// Over subtrees that are all mixed no order of nodes above them is better than another, while the parts below may gain all that they
-/// lost: what was tried above and gains nothing says nothing of these.
+/// Over subtrees that are all mixed no order of nodes above them is better than another, while the parts below may gain all
+/// that they lost: what was tried above and gains nothing says nothing of these.
 #[test]
 fn what_is_tried_above_parts_says_nothing_of_parts() {
     let (mut scene, _) = grid(18);

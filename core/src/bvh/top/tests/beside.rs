@@ -74,7 +74,8 @@ fn a_part_above_parts_comes_in_beside_edits() {
     assert!(came >= 20, "{came}");
 }
 
-/// A frame has time for so many that came into what was built beside it, in all that it puts in place; with one more a tree is given up.
+/// A frame has time for so many that came into what was built beside it, in all that it puts in place; with one more a tree is
+/// given up.
 #[cfg(feature = "std")]
 #[test]
 fn a_frame_puts_in_no_more_than_it_has_time_for() {
@@ -104,8 +105,9 @@ fn a_frame_puts_in_no_more_than_it_has_time_for() {
     }
 }
 
-/// A binary tree has one node fewer than instances, and there are as many numbers as records of instances. Each instance that left a part
-/// has a node elsewhere now, so where two did, what was built for the part has a node more than there are numbers. It is given up then.
+/// A binary tree has one node fewer than instances, and there are as many numbers as records of instances. Each instance that
+/// left a part has a node elsewhere now, so where two did, what was built for the part has a node more than there are numbers.
+/// It is given up then.
 #[cfg(feature = "std")]
 #[test]
 fn a_part_whose_nodes_would_have_no_records_is_given_up() {

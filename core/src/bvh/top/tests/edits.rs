@@ -197,8 +197,8 @@ fn subtrees_are_built_anew_after_a_sixteenth_of_their_instances() {
     }
 }
 
-/// What is due at several levels is built once: a move has two subtrees of at most 512 instances built, the one where it was and the one
-/// where it is. Among lamps at all distances nearly all nodes of a path are due together.
+/// What is due at several levels is built once: a move has two subtrees of at most 512 instances built, the one where it was
+/// and the one where it is. Among lamps at all distances nearly all nodes of a path are due together.
 #[test]
 fn no_subtree_is_built_within_another() {
     let random = &mut Random(12);

@@ -5,8 +5,8 @@ use super::super::insert::Item;
 use super::*;
 use crate::trail::max_levels;
 
-/// What went while a part was built is taken out of its tree node by node, so a frame takes out 160 at most: without the limit it would
-/// take longer than it may.
+/// What went while a part was built is taken out of its tree node by node, so a frame takes out 160 at most: without the limit
+/// it would take longer than it may.
 #[cfg(feature = "std")]
 #[test]
 fn a_frame_takes_out_no_more_than_it_has_time_for() {
@@ -80,8 +80,8 @@ fn an_insertion_keeps_within_the_levels() {
     assert!(one.step(one.top.root, most - 2, &item).is_some());
 }
 
-/// Where more are misplaced than a call puts in elsewhere, those go first that cost most: in any other order the brightest lamps might
-/// wait for a rebuild.
+/// Where more are misplaced than a call puts in elsewhere, those go first that cost most: in any other order the brightest
+/// lamps might wait for a rebuild.
 #[test]
 fn the_costliest_are_put_in_elsewhere_first() {
     let (mut scene, ids) = grid(10);
@@ -98,7 +98,8 @@ fn the_costliest_are_put_in_elsewhere_first() {
     assert!(put >= 30, "{put}");
 }
 
-/// A tree that would reach below the last level by itself, or by a subtree that it keeps, does not come in: trails have no room for it.
+/// A tree that would reach below the last level by itself, or by a subtree that it keeps, does not come in: trails have no room
+/// for it.
 #[cfg(feature = "std")]
 #[test]
 fn a_tree_that_would_be_too_deep_is_given_up() {
@@ -130,7 +131,8 @@ fn a_tree_that_would_be_too_deep_is_given_up() {
     }
 }
 
-/// What a frame builds anew beside what it adopts is bounded in all, however many subtrees are due: else it would take longer than it may.
+/// What a frame builds anew beside what it adopts is bounded in all, however many subtrees are due: else it would take longer
+/// than it may.
 #[test]
 fn few_instances_are_built_anew_in_all() {
     let (mut scene, _) = grid(10);

@@ -13,8 +13,8 @@ fn is_computed(scene: &mut LightBvh) {
     }
 }
 
-/// What moved far while a part was built stays with those that it went to: the tree knows it where it was, and would stretch a node over
-/// the whole part.
+/// What moved far while a part was built stays with those that it went to: the tree knows it where it was, and would stretch a
+/// node over the whole part.
 #[test]
 fn what_moved_while_a_part_was_built_stays_where_it_went() {
     let (mut scene, ids) = grid(9);
@@ -75,7 +75,8 @@ fn trees_that_meshes_got_meanwhile_are_known() {
     is_computed(&mut scene);
 }
 
-/// Where a device refits in place of the CPU, a part was copied with roots that are not the device's: it computes all nodes that come in.
+/// Where a device refits in place of the CPU, a part was copied with roots that are not the device's: it computes all nodes
+/// that come in.
 #[test]
 fn a_device_computes_all_that_comes_in() {
     let (mut scene, _) = grid(9);

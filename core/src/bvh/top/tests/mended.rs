@@ -2,8 +2,8 @@
 
 use super::*;
 
-/// A pool of lamps parked at one point scatters: more than a part holds, so that levels above parts are tried over subtrees that are all
-/// mixed and gain nothing. The parts are still built, and the tree comes to cost what a new one does.
+/// A pool of lamps parked at one point scatters: more than a part holds, so that levels above parts are tried over subtrees
+/// that are all mixed and gain nothing. The parts are still built, and the tree comes to cost what a new one does.
 #[test]
 fn a_parked_pool_that_scatters_is_mended() {
     for seed in [1, 3, 5] {
@@ -44,8 +44,8 @@ fn a_parked_pool_that_scatters_is_mended() {
     }
 }
 
-/// Lamps that were off when the tree was built come on, all in one call: more than that call puts in elsewhere, and no node has lost
-/// its order. The rest gets a tree nevertheless.
+/// Lamps that were off when the tree was built come on, all in one call: more than that call puts in elsewhere, and no node has
+/// lost its order. The rest gets a tree nevertheless.
 #[test]
 fn lamps_that_come_on_at_once_get_a_tree() {
     for (count, seed) in [(1000, 1), (2000, 1), (10_000, 2)] {
@@ -83,8 +83,8 @@ fn lamps_that_come_on_at_once_get_a_tree() {
     }
 }
 
-/// A part is tried once an eighth of it is in subtrees that were kept while the nodes above were built; a node above parts once half of it
-/// is built anew.
+/// A part is tried once an eighth of it is in subtrees that were kept while the nodes above were built; a node above parts once
+/// half of it is built anew.
 #[test]
 fn a_part_of_which_an_eighth_was_kept_is_tried() {
     let (mut scene, _) = grid(18);
@@ -115,8 +115,8 @@ fn a_part_of_which_an_eighth_was_kept_is_tried() {
     }
 }
 
-/// Edits between a top level that was built as a whole and its first refit count alone, not with them all that it was built of: what rests has
-/// nothing to be tried.
+/// Edits between a top level that was built as a whole and its first refit count alone, not with them all that it was built of:
+/// what rests has nothing to be tried.
 #[test]
 fn what_a_whole_top_level_was_built_of_is_no_change() {
     let random = &mut crate::kit::Random(5);

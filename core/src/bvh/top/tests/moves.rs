@@ -84,8 +84,8 @@ fn a_lamp_that_flickers_stays_where_its_light_belongs() {
     scene.validate().expect("valid");
 }
 
-/// Edits between a batch that builds the top level and the first refit find nodes that know what is below them, and count as edits of a
-/// built tree.
+/// Edits between a batch that builds the top level and the first refit find nodes that know what is below them, and count as
+/// edits of a built tree.
 #[test]
 fn edits_before_the_first_refit_are_put_where_they_belong() {
     let random = &mut Random(21);
@@ -142,7 +142,8 @@ fn edits_before_the_first_refit_are_put_where_they_belong() {
     assert_eq!(trees[0], trees[1]);
 }
 
-/// Lights whose vertices are set anew are where those are: a lamp that jumps so is put in elsewhere as one that is moved, one that sways stays.
+/// Lights whose vertices are set anew are where those are: a lamp that jumps so is put in elsewhere as one that is moved, one
+/// that sways stays.
 #[test]
 fn meshes_whose_vertices_jump_are_put_in_elsewhere() {
     let mut scene = LightBvh::default();
@@ -227,8 +228,8 @@ fn large_meshes_that_jump_are_put_in_elsewhere() {
     }
 }
 
-/// A lamp whose triangles are set before its first instance comes in, in one call or in two, is put in where it is then, by the whole or
-/// by a range.
+/// A lamp whose triangles are set before its first instance comes in, in one call or in two, is put in where it is then, by the
+/// whole or by a range.
 #[test]
 fn instances_come_in_where_their_meshes_are() {
     for (is_range, is_one_call) in [(false, false), (false, true), (true, false), (true, true)] {
@@ -283,8 +284,8 @@ fn lamps_that_come_on_are_bright_ones() {
     assert_eq!(scene.top.changes[root], 0, "the others outshine it");
 }
 
-/// Of lamps that come on in one call more than it puts in elsewhere the rest keeps its place, and no node has lost its order. The tree is tried
-/// for that at once, and not when all has come to rest.
+/// Of lamps that come on in one call more than it puts in elsewhere the rest keeps its place, and no node has lost its order.
+/// The tree is tried for that at once, and not when all has come to rest.
 #[cfg(feature = "std")]
 #[test]
 fn what_stays_misplaced_is_tried_at_once() {
@@ -306,8 +307,8 @@ fn what_stays_misplaced_is_tried_at_once() {
     }
 }
 
-/// What lies far from those around it in a tree as it was built stays there when it moves a little: put in elsewhere, it would come to
-/// lie as far from others, frame after frame.
+/// What lies far from those around it in a tree as it was built stays there when it moves a little: put in elsewhere, it would
+/// come to lie as far from others, frame after frame.
 #[test]
 fn what_was_built_far_off_stays() {
     let mut scene = Bvh::<crate::FullNode<2>, crate::Eq4, 2>::default();

@@ -1,4 +1,5 @@
-//! What was measured as one page, `trade.html`, which needs no network and no other file; as JSON; as Markdown and plots for documents.
+//! What was measured as one page, `trade.html`, which needs no network and no other file; as JSON; as Markdown and plots for
+//! documents.
 
 pub(in crate::cli) mod machine;
 mod page;
@@ -107,8 +108,8 @@ impl Report {
         Ok(())
     }
 
-    /// Writes `trade.json`, what `--json` prints and the machine, `trade.html`, `trade.md` and its plots into `folder`, each whole or not
-    /// at all.
+    /// Writes `trade.json`, what `--json` prints and the machine, `trade.html`, `trade.md` and its plots into `folder`, each
+    /// whole or not at all.
     pub fn write(
         &self,
         folder: &Path,

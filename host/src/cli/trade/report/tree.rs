@@ -161,7 +161,8 @@ impl Set {
         }
     }
 
-    /// The outline of the ellipsoid under the perspective's derivative at its centre; nothing behind the camera or beside the image.
+    /// The outline of the ellipsoid under the perspective's derivative at its centre; nothing behind the camera or beside the
+    /// image.
     fn seen(&self, camera: &Camera, (width, height): (u32, u32), all: f64) -> Option<Ellipse> {
         let [origin, right, up, forward] =
             [camera.origin, camera.right, camera.up, camera.forward].map(|v| Vec3::from_array(v).as_dvec3());

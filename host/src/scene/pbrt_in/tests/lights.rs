@@ -209,7 +209,8 @@ fn a_sky_by_a_picture_is_bright_where_the_picture_is() {
     brightest("Camera \"perspective\"\nWorldBegin\n", [x, y, -z]);
     // Turned by a quarter about z: +x becomes +y.
     brightest(&format!("{UNMIRRORED}Rotate 90 0 0 1\n"), [-y, x, z]);
-    // A patch that faces +z gets 4π times the mean over the sphere times the cosine, where all comes from about one direction; 5 lux are asked for.
+    // A patch that faces +z gets 4π times the mean over the sphere times the cosine, where all comes from about one direction;
+    // 5 lux are asked for.
     let text = format!(
         "{UNMIRRORED}LightSource \"infinite\" \"string filename\" \"sky.exr\" \"float illuminance\" 5\n{TRIANGLE}"
     );

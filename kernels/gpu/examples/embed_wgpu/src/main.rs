@@ -10,8 +10,8 @@
 //!   samples of 200,000 are other lights. The program says how many words differ, and goes on. If the CPU must know what the device
 //!   chose, take its word for it: copy its samples back instead of computing them again.
 //!
-//! wgpu opens devices without `vulkanMemoryModel`, so `without_vulkan_memory_model` changes the modules. Kernels take push constants,
-//! which wgpu calls immediates (`Features::IMMEDIATES`).
+//! wgpu opens devices without `vulkanMemoryModel`, so `without_vulkan_memory_model` changes the modules. Kernels take push
+//! constants, which wgpu calls immediates (`Features::IMMEDIATES`).
 
 mod engine;
 mod lights;

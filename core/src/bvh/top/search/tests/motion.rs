@@ -62,8 +62,8 @@ fn another_tree_of_a_mesh_is_no_change() {
     assert_eq!(scene.top.changes[root], 0);
 }
 
-/// Of 513 to 1024 lamps that wander the root is the only node that no edit builds anew, and a part by itself: in the mean over all levels
-/// what it lost is little.
+/// Of 513 to 1024 lamps that wander the root is the only node that no edit builds anew, and a part by itself: in the mean over
+/// all levels what it lost is little.
 #[test]
 fn what_wanders_in_one_part_keeps_a_good_tree() {
     let mut all = 0.0_f64;

@@ -23,7 +23,8 @@ fn worst(bvh: &LightBvh, at: &[[f32; 3]]) -> f64 {
     at.iter().take(8).map(|&at| over_new(bvh, at)).fold(0.0, f64::max)
 }
 
-/// 32 and more were built into a tree of their own, whose lowest nodes reached across all that lies between: 5 to 38 times for ever.
+/// 32 and more were built into a tree of their own, whose lowest nodes reached across all that lies between: 5 to 38 times for
+/// ever.
 #[test]
 fn lamps_scattered_by_one_call_are_as_good_as_by_many() {
     for count in [31, 32, 64, 150] {
@@ -114,8 +115,8 @@ fn a_walker_is_looked_at_beside_many_that_sway_and_blink() {
     }
 }
 
-/// Lamps that go off and on in their places cost what they change: parts that were built while some were off had those put in anew, over and over, but for
-/// the few that a frame looks at.
+/// Lamps that go off and on in their places cost what they change: parts that were built while some were off had those put in
+/// anew, over and over, but for the few that a frame looks at.
 #[test]
 fn what_blinks_in_its_place_stays_there() {
     const COUNT: usize = 2500;
@@ -142,7 +143,8 @@ fn what_blinks_in_its_place_stays_there() {
     assert!(put < 100, "{put}");
 }
 
-/// What was dark as a part was built has a place anywhere in it: 3 to 12 times once it shines. By its triangles, and by its radiance.
+/// What was dark as a part was built has a place anywhere in it: 3 to 12 times once it shines. By its triangles, and by its
+/// radiance.
 #[test]
 fn what_was_dark_as_parts_were_built_is_looked_at() {
     let mut beyond = [0; 2];
@@ -192,7 +194,8 @@ fn what_was_dark_as_parts_were_built_is_looked_at() {
     assert!(beyond.iter().all(|&count| count <= 3), "{beyond:?} of 160");
 }
 
-/// Off, elsewhere, and on together: the second was hung beside the first, which then went elsewhere, and was found to be no farther from it than before.
+/// Off, elsewhere, and on together: the second was hung beside the first, which then went elsewhere, and was found to be no
+/// farther from it than before.
 #[test]
 fn lamps_that_come_on_together_do_not_keep_each_other() {
     let mut beyond = 0;
@@ -290,8 +293,8 @@ fn what_blinks_goes_on_from_a_file() {
     }
 }
 
-/// Through others from corner to corner while it is dark, by its radiance or its triangles: where it was put is known from before its first step, and
-/// once it shines it is looked at. To 15 times.
+/// Through others from corner to corner while it is dark, by its radiance or its triangles: where it was put is known from
+/// before its first step, and once it shines it is looked at. To 15 times.
 #[test]
 fn what_walks_in_the_dark_is_where_it_shines() {
     for turn in 0..12_usize {
@@ -326,7 +329,8 @@ fn what_walks_in_the_dark_is_where_it_shines() {
     }
 }
 
-/// Put in while they are off, and walked among each other: what is beside them costs nothing to be merged with. To 5 times once they come on together.
+/// Put in while they are off, and walked among each other: what is beside them costs nothing to be merged with. To 5 times once
+/// they come on together.
 #[test]
 fn what_came_in_off_and_walked_is_where_it_shines() {
     let mut beyond = 0;

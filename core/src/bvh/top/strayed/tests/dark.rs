@@ -1,4 +1,5 @@
-//! Lamps and meshes that went elsewhere while they were dark, or dim: a sample beside them is as good as in a new tree once they rest.
+//! Lamps and meshes that went elsewhere while they were dark, or dim: a sample beside them is as good as in a new tree once
+//! they rest.
 
 use super::*;
 
@@ -218,8 +219,8 @@ fn what_comes_on_is_noted_beside_many_that_move() {
     assert!(found < 1.5, "{found}");
 }
 
-/// A top level of up to 1024 instances is built as a whole, and lamps that were off then had a place anywhere in it: to 3.5 times once they come on. Off by
-/// radiance, or hidden by a map of scale 0.
+/// A top level of up to 1024 instances is built as a whole, and lamps that were off then had a place anywhere in it: to 3.5
+/// times once they come on. Off by radiance, or hidden by a map of scale 0.
 #[test]
 fn what_was_off_as_the_whole_top_level_was_built_is_looked_at() {
     let mut beyond = [0; 2];
@@ -278,7 +279,8 @@ fn what_was_off_as_the_whole_top_level_was_built_is_looked_at() {
     assert!(beyond.iter().all(|&count| count <= 16), "{beyond:?} of 320");
 }
 
-/// Of hardly any flux by its mesh, its radiance or both: it is off, and asks for no work at rest. A mesh of 1e-26 W was put in elsewhere in every frame.
+/// Of hardly any flux by its mesh, its radiance or both: it is off, and asks for no work at rest. A mesh of 1e-26 W was put in
+/// elsewhere in every frame.
 #[test]
 fn what_hardly_shines_rests() {
     for (by_mesh, by_radiance) in [
@@ -316,8 +318,8 @@ fn what_hardly_shines_rests() {
     }
 }
 
-/// In a file both lists are one, told apart by what an instance says of where it was put: what was placed stayed in the wrong one, and what was read went on
-/// otherwise.
+/// In a file both lists are one, told apart by what an instance says of where it was put: what was placed stayed in the wrong
+/// one, and what was read went on otherwise.
 #[test]
 fn what_comes_on_goes_on_from_a_file() {
     let random = &mut Random(190);
@@ -366,7 +368,8 @@ fn what_comes_on_goes_on_from_a_file() {
     }
 }
 
-/// Off as what a tree is built from is copied, and on before it comes in: it hangs anywhere in it, and no edit tells of it any more.
+/// Off as what a tree is built from is copied, and on before it comes in: it hangs anywhere in it, and no edit tells of it any
+/// more.
 #[test]
 fn what_comes_on_while_a_tree_is_built_is_looked_at() {
     let random = &mut Random(210);

@@ -76,7 +76,8 @@ impl World {
     }
 }
 
-/// Written in the middle, and read: both go on the same. Parts had what their records told of an instance that was gone, which is in no file.
+/// Written in the middle, and read: both go on the same. Parts had what their records told of an instance that was gone, which
+/// is in no file.
 #[test]
 fn what_fades_goes_on_from_a_file() {
     for (count, some, of, size, extent) in [(400, 150, 5, 8, 1.0), (300, 40, 3, 900, 8.0)] {

@@ -15,7 +15,8 @@ fn way(turn: usize, k: u16) -> [f32; 3] {
     signs.map(|sign| sign * along * 0.8)
 }
 
-/// No step is far from the one before, and the last of them that had it put in elsewhere decided: 4 to 13 times the variance, nothing due.
+/// No step is far from the one before, and the last of them that had it put in elsewhere decided: 4 to 13 times the variance,
+/// nothing due.
 #[test]
 fn a_lamp_that_walks_by_its_transform_is_where_it_stops() {
     for turn in 0..4 {
@@ -64,7 +65,8 @@ fn those_that_move_together_stay_together() {
         assert!(bvh.top.strayed.len() <= NOTED, "{}", bvh.top.strayed.len());
     }
     let hung = put_since(&bvh, stamp);
-    // Two in each frame, 120, but for that; those at the edge of what is beside them are put in anew while they have not gone farther.
+    // Two in each frame, 120, but for that; those at the edge of what is beside them are put in anew while they have not gone
+    // farther.
     assert!(hung <= 60, "{hung}");
     let stamp = bvh.epoch;
     rest(&mut bvh, own);
@@ -112,8 +114,8 @@ fn nobody_waits_for_those_that_never_rest() {
     assert!(found < 1.8, "{found}");
 }
 
-/// One of two instances of a mesh jumps in each step, the other one stays, for each step is shorter than its neighbours lie apart: it was forgotten,
-/// and rested at up to 7 times.
+/// One of two instances of a mesh jumps in each step, the other one stays, for each step is shorter than its neighbours lie
+/// apart: it was forgotten, and rested at up to 7 times.
 #[test]
 fn an_instance_that_stays_while_another_jumps_is_not_forgotten() {
     for turn in 0..4 {

@@ -25,7 +25,8 @@ pub(in crate::cli::bench) struct Quality {
     pub fresh: f64,
     /// The same for the median of the points' ratios.
     pub median_ratio: f64,
-    /// Their geometric mean. The means' own would be that of the few points that lie beside a light, whose variances are those of chance.
+    /// Their geometric mean. The means' own would be that of the few points that lie beside a light, whose variances are those
+    /// of chance.
     pub ratio: f64,
     /// Of nine in ten, and of the worst point.
     pub ninth_ratio: f64,

@@ -47,8 +47,8 @@ impl Row {
 /// Bound of the start and the end of a frame, ns.
 const BOUND: f64 = 300_000.0;
 
-/// How many rows of starts and ends of frames and of adoptions are within their bound, 99 frames of 100 (all, where there were fewer), and
-/// those that are not.
+/// How many rows of starts and ends of frames and of adoptions are within their bound, 99 frames of 100 (all, where there were
+/// fewer), and those that are not.
 fn bounded(rows: &[Row]) -> (usize, Vec<&Row>) {
     let of_frames = rows
         .iter()
