@@ -4,7 +4,8 @@ extern crate std;
 
 use std::vec::Vec;
 
-use super::{FARTHER, FEW, Guard, Looked, distance};
+use super::looked::{FARTHER, Guard};
+use super::{FEW, Looked, distance};
 use crate::bvh::{RebuilderParams, Swap};
 use crate::kit::{Random, cross, dot, minus};
 use crate::node::{Node, kind};
