@@ -9,134 +9,22 @@
 mod clock;
 mod handover;
 mod meshes;
+mod params;
 mod queue;
+mod report;
 mod worker;
 
 use alloc::collections::BTreeSet;
-use alloc::string::String;
 use alloc::vec::Vec;
-use core::fmt;
-use core::time::Duration;
 
 use self::clock::Clock;
 use self::meshes::Meshes;
+pub use self::params::{RebuilderParams, Swap};
 use self::queue::Queue;
+pub use self::report::{FrameStart, RebuildError};
 use self::worker::{Built, Job, Product, Worker, build};
-use crate::bvh::{Bvh, Looked, RebuildParams, Search, Taken, Trails};
+use crate::bvh::{Bvh, Looked, Search, Taken, Trails};
 use crate::node::{DefaultNode, Holds, Node};
-
-/// When results are swapped in.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Swap {
-    /// In the frame that is due or the first one after it that finds the worker done; never waits.
-    #[default]
-    WhenReady,
-    /// In the very frame that is due, waiting for the worker if it is not done: trees depend on the edits alone, never on
-    /// how fast the worker was, so that runs and devices can be compared word for word.
-    Deterministic,
-}
-
-/// How a [`Rebuilder`] works. By default due after 1 frame, [`Swap::WhenReady`], [`RebuildParams`]'s defaults.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RebuilderParams {
-    /// Frames from the end of the one that starts a rebuild to the start of the one in which it is due, at least 1; 0 is
-    /// taken as 1.
-    pub after: u32,
-    /// What happens when it is due and not done.
-    pub swap: Swap,
-    /// What is built anew.
-    pub rebuild: RebuildParams,
-    /// Bytes that the start of a frame copies of meshes that are built anew, at least 16 KiB; 256 KiB, the default, take 0.1 ms
-    /// as a rule. In frames in which a part of the top level may come in, a quarter of them. A mesh of less than a 256th as
-    /// many triangles is put in place at once, as is a single level, whose lights are its triangles; a larger one over the
-    /// frames that it takes, 112 bytes for a triangle before it is built, and its nodes and trails after it; memory that is new
-    /// counts three times. Then instances follow the new tree, 256 in a frame, all at once where the mesh itself changes. A
-    /// subtree that lost its shape while the mesh as a whole has not, of a node for each 128 bytes at most, is built anew
-    /// alone.
-    pub bytes: u32,
-    /// Large meshes that are under way at a time, each with a thread of its own; at least 1. By default 2.
-    pub meshes: u32,
-    /// Most instances of the parts of the top level that a frame hands to the worker; at least 1024, the default, with which
-    /// start and end of a frame take 0.1 to 0.2 ms, and more than 0.3 ms once in some hundreds to ten thousand, by the machine
-    /// and how busy it is (`docs/dynamics.md`). Each further 1000 take about 0.1 ms more of each. Where all of many instances
-    /// move their own ways, what is built in a frame decides how good the tree is: with *N* of them every part has its turn in
-    /// *N* over this many frames.
-    pub leaves: u32,
-}
-
-impl Default for RebuilderParams {
-    /// Due at the start of the next frame; no frame waits.
-    fn default() -> Self {
-        Self {
-            after: 1,
-            swap: Swap::WhenReady,
-            rebuild: RebuildParams::default(),
-            bytes: 1 << 18,
-            meshes: 2,
-            leaves: 1024,
-        }
-    }
-}
-
-/// What the start of a frame did.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct FrameStart {
-    /// Whether parts of the top level, or small meshes, that were built came back; those that gain nothing, or whose place is
-    /// gone, change nothing. Large meshes are counted by `adopted` and `parts`.
-    pub swapped: bool,
-    /// How long this call waited for threads, under [`Swap::Deterministic`] alone; zero where there is no clock.
-    pub waited: Duration,
-    /// How long the worker took for what was swapped in; zero if nothing was, and where there is no clock.
-    pub built: Duration,
-    /// Number of large meshes whose new trees took their places since the last frame began.
-    pub adopted: u32,
-    /// Number of parts of large meshes that were built anew, the rest of their trees being as good as it was, and put in place
-    /// since then.
-    pub parts: u32,
-    /// Number of large meshes, and of parts of them, whose new trees came to nothing since then: the mesh is gone or was built
-    /// by other means, building failed, or a part found no tree of as many nodes. Deformation drops none: what changes
-    /// meanwhile is computed in the new tree.
-    pub dropped: u32,
-    /// Whether large meshes wait because another `Rebuilder` has some of the same light BVH under way. One for each light BVH
-    /// is enough: a second one begins no large mesh as long as the first has one under way.
-    pub is_second: bool,
-    /// Number of large meshes that are under way or wait for it.
-    pub under_way: u32,
-    /// What of [`RebuilderParams::bytes`] went into them in this call: bytes copied, written for the first time, and nodes
-    /// computed at bytes that take as long. What changes meanwhile is computed in the new trees beside that.
-    pub copied: u32,
-    /// Whether it was built at the end of its frame on the frame's own thread, since no other could be started.
-    pub inline: bool,
-}
-
-/// Why a rebuild came to nothing. The scene goes on with the tree that it has.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum RebuildError {
-    /// Building panicked.
-    Panicked {
-        /// What the panic said.
-        message: String,
-    },
-    /// It was taken from another light BVH than the one that it came back to.
-    Foreign,
-}
-
-impl fmt::Display for RebuildError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Panicked { message } => write!(
-                f,
-                "the rebuild panicked: {message}; the scene keeps its refitted tree and the next rebuild is tried anew"
-            ),
-            Self::Foreign => write!(f, "{}", crate::bvh::Foreign),
-        }
-    }
-}
-
-impl core::error::Error for RebuildError {}
 
 /// Runs the rebuilds of one [`Bvh`] beside its frames (paper section 3.5), [`begin_frame`](Self::begin_frame) before the
 /// frame's edits and [`end_frame`](Self::end_frame) after its refit: that of the top level and of small meshes, one at a time,
