@@ -1,4 +1,4 @@
-/* A hundred lamps from C: they move, one goes, and samples are printed as words, which are those of Rust. */
+/* A hundred lamps and a panel from C: they move, one goes, and samples are printed as words, which are those of Rust. */
 #include "lightbvh.h"
 
 #include <inttypes.h>
@@ -7,6 +7,7 @@
 #include <string.h>
 
 #define LAMPS 100
+#define PANEL 200
 #define POINTS 1000
 
 /* Ends the program where a call fails. */
@@ -31,6 +32,18 @@ static lightbvh_transform at(float x, float y, float z)
     return transform;
 }
 
+/* A row of triangles, in another order for each frame. */
+static void arrange(lightbvh_triangle *panel, const lightbvh_triangle *lamp, int frame)
+{
+    int k, vertex;
+    for (k = 0; k < PANEL; k++) {
+        panel[k] = *lamp;
+        for (vertex = 0; vertex < 3; vertex++) {
+            panel[k].p[vertex][0] += 0.5f * (float)(k * frame % 199);
+        }
+    }
+}
+
 int main(void)
 {
     /* 5 cm^2 that shine down with 900 W/(m^2 sr). */
@@ -38,17 +51,21 @@ int main(void)
         {{0, 3, 0}, {0.03125f, 3, 0}, {0, 3, 0.03125f}}, {900, 900, 900}, 0, 0};
     lightbvh *bvh = lightbvh_create();
     lightbvh_mesh mesh;
-    lightbvh_instance lamps[LAMPS];
+    lightbvh_instance gone, lamps[LAMPS];
     lightbvh_transform place, places[LAMPS];
     uint32_t first, lights;
-    lightbvh_triangle larger = lamp;
+    lightbvh_triangle larger = lamp, panel[PANEL];
     lightbvh_point points[POINTS];
     lightbvh_sample samples[POINTS];
     uint64_t randoms[POINTS];
+    lightbvh_rebuilder *rebuilder = lightbvh_rebuilder_create(1);
+    lightbvh_frame_start start;
+    lightbvh_range removed[4];
     size_t count;
-    int k;
+    unsigned trees = 0;
+    int k, frame;
 
-    if (bvh == NULL) {
+    if (bvh == NULL || rebuilder == NULL) {
         fprintf(stderr, "lightbvh: %s\n", lightbvh_last_error());
         return 1;
     }
@@ -65,12 +82,37 @@ int main(void)
     place = at(40, 2, 0);
     must(lightbvh_set_transform(bvh, lamps[40], &place));
     must(lightbvh_set_radiance(bvh, lamps[41], 0.5f));
-    must(lightbvh_remove_instance(bvh, lamps[42]));
+    gone = lamps[42];
+    must(lightbvh_remove_instance(bvh, gone));
     larger.p[1][0] = 0.0625f;
     must(lightbvh_set_triangles(bvh, mesh, &larger, 1));
     must(lightbvh_set_triangle_range(bvh, mesh, 0, &larger, 1));
     must(lightbvh_refit(bvh));
     must(lightbvh_rebuild(bvh));
+
+    /* What was kept of the light that went is replaced; then its number may be another's. */
+    must(lightbvh_removed_lights(bvh, removed, 4, &count));
+    for (k = 0; k < (int)count && k < 4; k++) {
+        printf("%u lights from %u on are no more\n", (unsigned)removed[k].count, (unsigned)removed[k].first);
+    }
+    must(lightbvh_forget_removed_lights(bvh));
+
+    /* A panel whose triangles change places in each frame, so that its tree is built anew beside the frames. Where words need
+     * not be the same in every run, lightbvh_rebuilder_create(0) keeps frames from waiting. */
+    arrange(panel, &lamp, 1);
+    must(lightbvh_add_mesh(bvh, panel, PANEL, &mesh));
+    place = at(0, 1, 4);
+    must(lightbvh_add_instance(bvh, mesh, &place, 0.25f, &lamps[42]));
+    for (frame = 1; frame <= 30; frame++) {
+        must(lightbvh_begin_frame(rebuilder, bvh, &start));
+        trees += start.swapped;
+        arrange(panel, &lamp, frame);
+        must(lightbvh_set_triangles(bvh, mesh, panel, PANEL));
+        must(lightbvh_refit(bvh));
+        must(lightbvh_end_frame(rebuilder, bvh));
+    }
+    printf("trees came in in %u frames\n", trees);
+
     must(lightbvh_light_count(bvh, &count));
     must(lightbvh_lights_of(bvh, lamps[40], &first, &lights));
     printf("lights %u to %u are of lamp 40\n", (unsigned)first, (unsigned)(first + lights));
@@ -101,12 +143,13 @@ int main(void)
     }
 
     /* What is wrong is refused, with a sentence. */
-    if (lightbvh_set_radiance(bvh, lamps[42], 1) != LIGHTBVH_REFUSED ||
+    if (lightbvh_set_radiance(bvh, gone, 1) != LIGHTBVH_REFUSED ||
         lightbvh_remove_mesh(bvh, mesh) != LIGHTBVH_REFUSED) {
         fprintf(stderr, "a wrong edit was done\n");
         return 1;
     }
     printf("%s\n", lightbvh_last_error());
+    lightbvh_rebuilder_free(rebuilder);
     lightbvh_free(bvh);
     return 0;
 }

@@ -31,8 +31,10 @@ typedef enum lightbvh_status {
     LIGHTBVH_BAD_POINT = 3,
     /* There is no light of that number in that instance. */
     LIGHTBVH_NO_LIGHT = 4,
-    /* A defect of this library. A light BVH that was being changed then only can be freed. */
-    LIGHTBVH_PANICKED = 5
+    /* A defect of this library. A light BVH that was being changed then only can be freed, as can a rebuilder. */
+    LIGHTBVH_PANICKED = 5,
+    /* A rebuild came to nothing; the light BVH keeps the tree that it has, and the next rebuild is tried anew. */
+    LIGHTBVH_NO_REBUILD = 6
 } lightbvh_status;
 
 /* A mesh. All zero is no mesh; an id of a removed mesh, or of another light BVH, is refused. */
@@ -87,6 +89,24 @@ typedef struct lightbvh_light_point {
     float radiance[3];
 } lightbvh_light_point;
 
+/* Numbers of lights: `count` from `first` on. */
+typedef struct lightbvh_range {
+    uint32_t first, count;
+} lightbvh_range;
+
+/* Builds trees anew on threads of its own, beside the frames of one light BVH. */
+typedef struct lightbvh_rebuilder lightbvh_rebuilder;
+
+/* What the start of a frame did. */
+typedef struct lightbvh_frame_start {
+    uint32_t swapped;   /* 1 where parts of the top level, or small meshes, that were built came in */
+    uint32_t adopted;   /* large meshes whose new trees took their places since the last frame began */
+    uint32_t parts;     /* parts of large meshes that did */
+    uint32_t dropped;   /* new trees of large meshes, and of parts of them, that came to nothing since then */
+    uint32_t under_way; /* large meshes that are under way or wait for it */
+    uint32_t copied;    /* bytes that this call copied for large meshes */
+} lightbvh_frame_start;
+
 /* What the last function that failed on this thread had to say, in UTF-8; "" before any did. It stays until the next one
  * fails on this thread. Never null. */
 const char *lightbvh_last_error(void);
@@ -103,8 +123,7 @@ lightbvh_status lightbvh_add_mesh(lightbvh *bvh, const lightbvh_triangle *triang
 /* Puts a mesh into the world. `radiance` is a factor on that of the mesh: 0, or from 2^-60 to 2^60. */
 lightbvh_status lightbvh_add_instance(lightbvh *bvh, lightbvh_mesh mesh, const lightbvh_transform *transform,
                                       float radiance, lightbvh_instance *instance);
-/* As lightbvh_add_instance for `count` places, all or none of them. One at a time takes time in proportion to all instances
- * there are, each time; together they take it once. */
+/* As lightbvh_add_instance for `count` places, all or none of them. Many together take less time than one at a time. */
 lightbvh_status lightbvh_add_instances(lightbvh *bvh, lightbvh_mesh mesh, const lightbvh_transform *transforms,
                                        float radiance, size_t count, lightbvh_instance *instances);
 lightbvh_status lightbvh_set_transform(lightbvh *bvh, lightbvh_instance instance, const lightbvh_transform *transform);
@@ -122,9 +141,35 @@ lightbvh_status lightbvh_remove_mesh(lightbvh *bvh, lightbvh_mesh mesh);
 
 /* Computes the nodes that the edits touched: once a frame. */
 lightbvh_status lightbvh_refit(lightbvh *bvh);
-/* Builds the top level anew, and meshes whose trees lost quality, and refits: once in a while, since refits alone make
- * samples of moving lights worse from frame to frame. It runs on this thread. */
+/* Builds the top level anew, and meshes whose trees lost quality, and refits, on this thread, in time in proportion to
+ * the scene: as one is loaded. Lights that move want a rebuilder. */
 lightbvh_status lightbvh_rebuild(lightbvh *bvh);
+
+/* Frames: lightbvh_begin_frame, edits, lightbvh_refit, lightbvh_end_frame. Refits alone make samples of moving lights worse
+ * from frame to frame; the rebuilder builds what lost quality on its threads, and begin and end of a frame take 0.3 ms at most
+ * on most machines (docs/dynamics.md), whatever it builds. */
+
+/* A rebuilder, to be freed by lightbvh_rebuilder_free; null only where memory or the library fails. With `after` 0 trees come
+ * in once they are ready, and no frame waits. With another they come in as that many frames have passed, and that frame waits
+ * for them where it must: samples then depend on the edits alone, never on how fast a thread was. */
+lightbvh_rebuilder *lightbvh_rebuilder_create(uint32_t after);
+/* Waits for what its threads are building, 0.3 s for a mesh of 10^6 triangles, and frees it. Null does nothing. */
+void lightbvh_rebuilder_free(lightbvh_rebuilder *rebuilder);
+/* Puts in place what was built: before the frame's edits. `start` may be null. */
+lightbvh_status lightbvh_begin_frame(lightbvh_rebuilder *rebuilder, lightbvh *bvh, lightbvh_frame_start *start);
+/* Has what lost quality built: after the frame's lightbvh_refit. */
+lightbvh_status lightbvh_end_frame(lightbvh_rebuilder *rebuilder, const lightbvh *bvh);
+
+/* What keeps numbers of lights from frame to frame, as reservoirs do, asks in each frame after its edits which numbers are no
+ * more, replaces what it keeps of them, and has them forgotten: until then no new light gets such a number. The exception keeps
+ * memory bounded where they never are: once more than 65536 numbers wait, and more than there are lights or than half of what
+ * is left of 2^30, all of them are free, and the first range is that of every number there was. */
+
+/* Ranges of numbers of lights that are no more, since they were forgotten last: `count` of them, of which the first `capacity`
+ * are written. */
+lightbvh_status lightbvh_removed_lights(const lightbvh *bvh, lightbvh_range *ranges, size_t capacity, size_t *count);
+/* New lights may get those numbers from now on. */
+lightbvh_status lightbvh_forget_removed_lights(lightbvh *bvh);
 
 /* Questions. */
 

@@ -21,6 +21,8 @@ pub enum Status {
     NoLight = 4,
     /// A defect of the library.
     Panicked = 5,
+    /// A rebuild came to nothing.
+    NoRebuild = 6,
 }
 
 /// Why a function fails.

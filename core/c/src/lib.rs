@@ -4,9 +4,11 @@
 mod edit;
 mod error;
 mod handle;
+mod identity;
 mod ids;
 mod query;
 mod raw;
+mod rebuilder;
 
 pub use edit::{
     CTransform, lightbvh_add_instance, lightbvh_add_instances, lightbvh_add_mesh, lightbvh_rebuild,
@@ -15,8 +17,13 @@ pub use edit::{
 };
 pub use error::{Status, lightbvh_last_error};
 pub use handle::{Handle, lightbvh_create, lightbvh_free};
+pub use identity::{CRange, lightbvh_forget_removed_lights, lightbvh_removed_lights};
 pub use ids::{CInstance, CMesh};
 pub use query::{
     lightbvh_light_count, lightbvh_lights_of, lightbvh_pmf, lightbvh_point_of, lightbvh_sample_batch,
     lightbvh_sample_light, lightbvh_triangle_of,
+};
+pub use rebuilder::{
+    CFrameStart, CRebuilder, lightbvh_begin_frame, lightbvh_end_frame, lightbvh_rebuilder_create,
+    lightbvh_rebuilder_free,
 };

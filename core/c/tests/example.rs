@@ -5,8 +5,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use lightbvh::bvh::RebuildParams;
-use lightbvh::{Edit, EmissiveTriangle, LightBvh, ShadingPoint, Transform};
+use lightbvh::bvh::{RebuildParams, RebuilderParams, Swap};
+use lightbvh::{Edit, EmissiveTriangle, LightBvh, Rebuilder, ShadingPoint, Transform};
 
 /// The static library that Cargo made for this test: beside the test's own program.
 fn library() -> PathBuf {
@@ -41,6 +41,7 @@ fn expected() -> String {
         mesh: 0,
         flags: 0,
     };
+    let first = lamp;
     let mut bvh = LightBvh::default();
     let mesh = bvh.add_mesh(vec![lamp]).unwrap();
     let at = |k: u16| Transform::at([f32::from(k), 0.0, 0.0]);
@@ -62,8 +63,44 @@ fn expected() -> String {
     let rebuilt = bvh.rebuild(&RebuildParams::eager()).run();
     bvh.install(rebuilt).unwrap();
     bvh.refit();
+    let mut text = String::new();
+    for range in bvh.take_removed_lights() {
+        writeln!(text, "{} lights from {} on are no more", range.len(), range.start).unwrap();
+    }
+    let mut rebuilder = Rebuilder::new(RebuilderParams {
+        after: 1,
+        swap: Swap::Deterministic,
+        ..RebuilderParams::default()
+    });
+    let mut trees = 0;
+    let arrange = |frame: u16| -> Vec<EmissiveTriangle> {
+        let place = |k: u16| {
+            let mut own = first;
+            for p in &mut own.p {
+                p[0] += 0.5 * f32::from(k * frame % 199);
+            }
+            own
+        };
+        (0..200).map(place).collect()
+    };
+    let mesh = bvh.add_mesh(arrange(1)).unwrap();
+    let place = Transform::at([0.0, 1.0, 4.0]);
+    let panel = Edit::AddInstance {
+        mesh,
+        transform: place,
+        radiance: 0.25,
+    };
+    bvh.apply(vec![panel]).unwrap();
+    for frame in 1..=30 {
+        trees += u32::from(rebuilder.begin_frame(&mut bvh).unwrap().swapped);
+        bvh.set_triangles(mesh, arrange(frame)).unwrap();
+        bvh.refit();
+        rebuilder.end_frame(&bvh);
+    }
+    assert!(trees > 0, "a frame in which a tree came in");
+    writeln!(text, "trees came in in {trees} frames").unwrap();
     let lights = bvh.lights_of(lamps[40]).unwrap();
-    let mut text = format!("lights {} to {} are of lamp 40\n", lights.start, lights.end);
+    writeln!(text, "lights {} to {} are of lamp 40", lights.start, lights.end).unwrap();
     writeln!(text, "{} lights", bvh.light_count()).unwrap();
     for k in 0..1000_u16 {
         let point = ShadingPoint {
@@ -140,7 +177,9 @@ fn header_and_library_have_the_same_functions() {
         include_str!("../src/edit.rs"),
         include_str!("../src/error.rs"),
         include_str!("../src/handle.rs"),
+        include_str!("../src/identity.rs"),
         include_str!("../src/query.rs"),
+        include_str!("../src/rebuilder.rs"),
     );
     let name = |text: &str| text.split('(').next().unwrap_or_default().to_owned();
     let mut in_rust: Vec<String> = source.split("extern \"C\" fn ").skip(1).map(name).collect();

@@ -38,6 +38,7 @@ fn identity() -> CTransform {
 #[test]
 fn null_and_unaligned_pointers_are_refused() {
     let bvh = lightbvh_create();
+    let rebuilder = lightbvh_rebuilder_create(0);
     let mut mesh: CMesh = words([0; 4]);
     let mut sample = SampledLight::NONE;
     let (mut pmf, mut count) = (0.0, 0);
@@ -70,8 +71,17 @@ fn null_and_unaligned_pointers_are_refused() {
             lightbvh_lights_of(bvh, words([0; 4]), null_mut(), null_mut()),
             lightbvh_point_of(bvh, 0, 0, 0.5, 0.5, null_mut()),
             lightbvh_light_count(bvh, null_mut()),
+            lightbvh_begin_frame(null_mut(), bvh, null_mut()),
+            lightbvh_begin_frame(rebuilder, null_mut(), null_mut()),
+            lightbvh_begin_frame(rebuilder, bvh, std::ptr::without_provenance_mut(2)),
+            lightbvh_end_frame(null_mut(), bvh),
+            lightbvh_end_frame(rebuilder, null()),
+            lightbvh_removed_lights(null(), null_mut(), 0, &mut count),
+            lightbvh_removed_lights(bvh, null_mut(), 1, &mut count),
+            lightbvh_removed_lights(bvh, null_mut(), 0, null_mut()),
+            lightbvh_forget_removed_lights(null_mut()),
         ];
-        assert_eq!(refused, [Status::BadPointer; 22]);
+        assert_eq!(refused, [Status::BadPointer; 31]);
         // A mesh whose id could not be returned was not made.
         assert_eq!(lightbvh_light_count(bvh, &mut count), Status::Ok);
         assert_eq!(count, 0);
@@ -82,8 +92,125 @@ fn null_and_unaligned_pointers_are_refused() {
         );
         assert_eq!(lightbvh_pmf(bvh, &POINT, 0, 0, &mut pmf), Status::Ok);
         assert_eq!(pmf.to_bits(), 0);
+        lightbvh_rebuilder_free(rebuilder);
+        lightbvh_rebuilder_free(null_mut());
         lightbvh_free(bvh);
         lightbvh_free(null_mut());
+    }
+}
+
+/// As many lights of one mesh as there are places.
+unsafe fn add(bvh: *mut Handle, places: &[CTransform]) -> Vec<CInstance> {
+    let mut mesh: CMesh = words([0; 4]);
+    let mut instances = vec![words([0; 4]); places.len()];
+    // SAFETY: the caller's light BVH, and places for all results.
+    unsafe {
+        assert_eq!(lightbvh_add_mesh(bvh, &LAMP, 1, &mut mesh), Status::Ok);
+        let out = instances.as_mut_ptr();
+        let added = lightbvh_add_instances(bvh, mesh, places.as_ptr(), 1.0, places.len(), out);
+        assert_eq!(added, Status::Ok);
+        assert_eq!(lightbvh_refit(bvh), Status::Ok);
+    }
+    instances
+}
+
+fn at(x: f32) -> CTransform {
+    let one = 1.0_f32.to_bits();
+    words([one, 0, 0, 0, one, 0, 0, 0, one, x.to_bits(), 0, 0])
+}
+
+/// A number of a light that went is no other's until it is forgotten.
+#[test]
+fn numbers_of_lights_are_kept_until_they_are_forgotten() {
+    let bvh = lightbvh_create();
+    let mut ranges = [CRange::default(); 3];
+    let (mut count, mut first, mut lights) = (9, 0, 0);
+    // SAFETY: all pointers are good, or null where nothing is written.
+    unsafe {
+        let own = add(bvh, &[0.0, 2.0, 4.0, 6.0].map(at));
+        let mut number = |instance: CInstance| {
+            assert_eq!(
+                lightbvh_lights_of(bvh, instance, &mut first, &mut lights),
+                Status::Ok
+            );
+            first
+        };
+        let gone = [number(own[2]), number(own[0])];
+        assert_eq!(lightbvh_remove_instance(bvh, own[2]), Status::Ok);
+        assert_eq!(lightbvh_remove_instance(bvh, own[0]), Status::Ok);
+        assert_eq!(
+            lightbvh_removed_lights(bvh, null_mut(), 0, &mut count),
+            Status::Ok
+        );
+        assert_eq!((count, ranges), (2, [CRange::default(); 3]));
+        let known = gone.map(|first| CRange { first, count: 1 });
+        for capacity in 1..=3 {
+            let out = ranges.as_mut_ptr();
+            assert_eq!(
+                lightbvh_removed_lights(bvh, out, capacity, &mut count),
+                Status::Ok
+            );
+            let written = capacity.min(2);
+            assert_eq!((count, &ranges[..written]), (2, &known[..written]));
+        }
+        assert_eq!(ranges[2], CRange::default());
+        let kept = number(add(bvh, &[at(8.0)])[0]);
+        assert!(!gone.contains(&kept));
+        assert_eq!(lightbvh_forget_removed_lights(bvh), Status::Ok);
+        assert_eq!(
+            lightbvh_removed_lights(bvh, null_mut(), 0, &mut count),
+            Status::Ok
+        );
+        assert_eq!(count, 0);
+        assert!(gone.contains(&number(add(bvh, &[at(9.0)])[0])));
+        lightbvh_free(bvh);
+    }
+}
+
+/// What was built for one light BVH is refused by another, which stays as it is.
+#[test]
+fn a_rebuild_comes_back_to_its_own() {
+    let (bvh, other) = (lightbvh_create(), lightbvh_create());
+    let rebuilder = lightbvh_rebuilder_create(1);
+    let mut start = CFrameStart::default();
+    // SAFETY: all pointers are good.
+    unsafe {
+        add(bvh, &[at(0.0)]);
+        add(other, &[at(0.0)]);
+        // A mesh whose triangles change places is due.
+        let row = |by: u16| -> Vec<EmissiveTriangle> {
+            let lamp = |k: u16| {
+                let mut own = LAMP;
+                own.p
+                    .iter_mut()
+                    .for_each(|p| p[0] += 4.0 * f32::from(k * by % 199));
+                own
+            };
+            (0..200).map(lamp).collect()
+        };
+        let (mut mesh, mut instance): (CMesh, CInstance) = (words([0; 4]), words([0; 4]));
+        let (row, scrambled) = (row(1), row(7));
+        assert_eq!(lightbvh_add_mesh(bvh, row.as_ptr(), 200, &mut mesh), Status::Ok);
+        assert_eq!(
+            lightbvh_add_instance(bvh, mesh, &at(9.0), 1.0, &mut instance),
+            Status::Ok
+        );
+        assert_eq!(lightbvh_refit(bvh), Status::Ok);
+        assert_eq!(lightbvh_begin_frame(rebuilder, bvh, &mut start), Status::Ok);
+        let changed = lightbvh_set_triangles(bvh, mesh, scrambled.as_ptr(), 200);
+        assert_eq!(changed, Status::Ok);
+        assert_eq!(lightbvh_refit(bvh), Status::Ok);
+        assert_eq!(lightbvh_end_frame(rebuilder, bvh), Status::Ok);
+        assert_eq!(
+            lightbvh_begin_frame(rebuilder, other, &mut start),
+            Status::NoRebuild
+        );
+        assert!(last().contains("another light BVH"), "{}", last());
+        assert_eq!(start, CFrameStart::default());
+        assert_eq!(lightbvh_begin_frame(rebuilder, other, null_mut()), Status::Ok);
+        lightbvh_rebuilder_free(rebuilder);
+        lightbvh_free(bvh);
+        lightbvh_free(other);
     }
 }
 

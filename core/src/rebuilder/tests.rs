@@ -1,6 +1,7 @@
 //! Rebuilds beside the frame.
 
 use super::*;
+use crate::bvh::RebuildParams;
 use crate::kit::{line, triangle};
 use crate::{CompactNode, Edit, EmissiveTriangle, LightBvh, Transform};
 use alloc::vec;

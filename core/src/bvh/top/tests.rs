@@ -14,6 +14,7 @@ use crate::{CompactNode, Edit, InstanceId, LightBvh, MeshId, Rebuilder, Transfor
 mod adoption;
 mod beside;
 mod edits;
+mod insertion;
 mod limits;
 mod meanwhile;
 mod mended;
