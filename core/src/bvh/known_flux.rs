@@ -100,6 +100,13 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         own.known_flux.was_brighter(self.root_of(blas).phi())
     }
 
+    /// Whether a bottom level is off and was on before, and has changed since the epoch `rests_since`: it is to be expected back.
+    #[cfg(feature = "std")]
+    pub(super) fn is_blinking(&self, blas: u32, rests_since: u64) -> bool {
+        let own = &self.blases[blas as usize];
+        own.known_flux.blinks && own.changed > rests_since && self.root_of(blas).phi() <= 0.0
+    }
+
     /// The mean flux of what hangs in the top level, W.
     pub(super) fn usual_flux(&self) -> f64 {
         let count = self.top.counts[self.top.number(self.top.root) as usize];

@@ -33,6 +33,10 @@ pub(super) struct Args {
     /// Number of frames, 100 to 10^8. That memory is flat is judged from 8,000 on.
     #[arg(long, default_value_t = 100_000)]
     frames: u32,
+    /// Parts of frames in 1000 that may take longer than their bound, 0 to 1000: on a core that others use too some do, whatever
+    /// they do there. Else exit status 1, as where a word differs, memory grows, or a count of work or an invariant does not hold.
+    #[arg(long, default_value_t = 0, value_name = "IN_1000")]
+    late: u32,
     /// Chooses all edits.
     #[arg(long, default_value_t = 0)]
     seed: u32,
@@ -49,6 +53,7 @@ pub(super) fn run(context: &Context, args: &Args) -> Result<Outcome, HostError> 
         given("--frames", args.frames, 100..=100_000_000),
         given("--instances", args.instances, 10..=1_000_000),
         given("--mesh-triangles", args.mesh_triangles, 10..=1_000_000),
+        given("--late", args.late, 0..=1000),
     ])?;
     let opened = devices::open(context)?;
     let report = soak(context, args, &opened)?;
@@ -64,7 +69,7 @@ fn soak(context: &Context, args: &Args, opened: &[devices::Opened]) -> Result<Re
     let mut memory = Memory::new(args.frames);
     let mut counts = Counts::default();
     let mut beyond = Beyond::default();
-    let mut invalid = None;
+    let (mut parts, mut invalid) = (0, None);
     let bar = progress::bar(args.frames.into(), "{bar:40} {pos}/{len} {eta}", context.json);
     let mut rebuilder = rebuilder(0);
     for frame in 0..args.frames {
@@ -99,6 +104,7 @@ fn soak(context: &Context, args: &Args, opened: &[devices::Opened]) -> Result<Re
 
         let phases = [begin, edit, refit.and(computed), end];
         times.take(frame, &phases);
+        parts += phases.len();
         let bounds = work.bounds();
         for (phase, (time, bound)) in times::PHASES.into_iter().zip(phases.iter().zip(bounds)) {
             if time.thread > bound {
@@ -127,6 +133,8 @@ fn soak(context: &Context, args: &Args, opened: &[devices::Opened]) -> Result<Re
         bytes: RebuilderParams::default().bytes,
         rows: times.rows(),
         beyond: beyond.count,
+        parts,
+        late: args.late,
         first_beyond: beyond.first,
         invalid,
         memory: memory.scene(),

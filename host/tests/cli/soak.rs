@@ -40,6 +40,7 @@ fn a_soak_finds_nothing() {
         "{}",
         report["first_beyond"]
     );
+    assert_eq!(report["parts"], 8000);
     for memory in ["memory", "process"] {
         assert_eq!(report[memory]["flat"], true, "{memory}: {}", report[memory]);
     }
@@ -47,7 +48,7 @@ fn a_soak_finds_nothing() {
 
 #[test]
 fn a_soak_of_nothing_is_refused() {
-    for line in ["--frames 0", "--instances 0", "--mesh-triangles 0"] {
+    for line in ["--frames 0", "--instances 0", "--mesh-triangles 0", "--late 1001"] {
         let said = refused(&format!("soak {line}"));
         assert!(said.contains(line), "{said}");
     }

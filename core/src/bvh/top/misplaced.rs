@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 
 use super::cost::Cluster;
+use super::strayed::OFF;
 use crate::bvh::{Bvh, Trails};
 use crate::exact::hash;
 use crate::light::Light;
@@ -141,17 +142,24 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             let range = self.blases[blas as usize].triangles.clone();
             let mesh = center_of::<N>(&self.triangles[range.start as usize..range.end as usize]);
             let Some(center) = mesh else { continue };
-            // One that sways within its own extent is where it was, wherever its instances are.
+            // One that sways within its own extent is where it was, wherever its instances are. What is dark has no extent, and
+            // no centre.
             let was = self.root_of(blas);
             let squared = distance(center.map(f64::from), was.center().to_array().map(f64::from));
-            if squared * SWAYS <= f64::from(was.spread()) {
+            if was.phi() > OFF && squared * SWAYS <= f64::from(was.spread()) {
                 continue;
             }
             let before = jumped.len();
-            for &user in &self.meshes[self.blases[blas as usize].mesh as usize].users {
-                let center = self.instances[user as usize].vertex(center);
+            let lit = self.blases[blas as usize].center;
+            for k in 0..self.meshes[self.blases[blas as usize].mesh as usize].users.len() {
+                let user = self.meshes[self.blases[blas as usize].mesh as usize].users[k];
                 // An opened one is looked at after the refit.
-                if self.placed[user as usize].parts.is_empty() && self.has_jumped(user, center) {
+                if !self.placed[user as usize].parts.is_empty() {
+                    continue;
+                }
+                let own = &self.instances[user as usize];
+                let (center, lit) = (own.vertex(center), own.vertex(lit));
+                if self.has_jumped(user, center, lit) {
                     jumped.push(user);
                 }
             }
@@ -185,16 +193,29 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     }
 
     /// Whether an instance whose centre is `center` now, metres, lies farther from where the last refit saw it than the
-    /// deviation of what its node holds.
-    fn has_jumped(&self, index: u32, center: [f32; 3]) -> bool {
+    /// deviation of what its node holds; of one that was dark, from where it is noted that it was put, else from where its mesh
+    /// had `lit` it. Where neither is known it is where it was: it was dark when it was put there as well, and is looked at as
+    /// frames begin.
+    fn has_jumped(&mut self, index: u32, center: [f32; 3], lit: [f32; 3]) -> bool {
         let placed = &self.placed[index as usize];
         if placed.node == INVALID || self.parents[placed.node as usize] == INVALID {
             return false;
         }
         let words = &self.nodes[placed.node as usize];
-        let was = words.summary(placed.slot as usize).center().to_array();
-        let whole = words.merged();
-        distance(center.map(f64::from), was.map(f64::from)) > f64::from(whole.spread())
+        let known = words.summary(placed.slot as usize);
+        let is_dark = known.phi() <= OFF;
+        let was = match (is_dark, placed.hung_center[0].is_nan()) {
+            (false, _) => known.center().to_array(),
+            (true, false) => placed.hung_center,
+            (true, true) => lit,
+        };
+        let squared = distance(center.map(f64::from), was.map(f64::from));
+        // Most that blink have not moved at all.
+        let has_jumped = squared > 0.0 && squared > f64::from(words.merged().spread());
+        if is_dark && has_jumped {
+            self.placed[index as usize].hung_center = was;
+        }
+        has_jumped
     }
 
     /// What an instance that is misplaced costs more where it is; 0 of one that is not. Looks at a slot of each of the two

@@ -92,6 +92,17 @@ impl<N> TopTree<N> {
 }
 
 impl<N> TopCopy<N> {
+    /// Number of its instances, and their bottom levels.
+    #[cfg(feature = "std")]
+    pub(super) fn len(&self) -> usize {
+        self.instances.len()
+    }
+
+    #[cfg(feature = "std")]
+    pub(super) fn blases(&self) -> impl Iterator<Item = u32> + '_ {
+        self.instances.iter().map(|own| own.blas)
+    }
+
     /// A tree over the copy, refitted.
     pub(in crate::bvh) fn build<const W: usize>(self, params: &BuildParams) -> TopTree<N>
     where

@@ -33,6 +33,9 @@ const PAYS_AT_ONCE: f64 = 0.8;
 const SHARE: u64 = 8;
 /// Frames after which what has not changed is at rest.
 const REST: usize = 16;
+/// One instance in so many that is off, and was on a moment ago, keeps a part as it is: a tree is built by flux, puts what is
+/// off anywhere, and each would be put in elsewhere when it comes on again.
+const BLINKS: usize = 32;
 
 /// How far the top level's nodes have been looked at.
 #[derive(Clone, Copy, Debug, Default)]
@@ -111,20 +114,20 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             search.left = 0;
             let is_worn = has_changed && self.is_worn_whole(worse);
             if is_worn {
-                return alloc::vec![self.copy_whole_part()];
+                return alloc::vec![self.unless_blinking(self.copy_whole_part(), asked)];
             }
             let pays = match () {
                 () if !self.is_untried(self.top.root, asked) => None,
                 () if self.is_rested(self.top.root, asked) => Some(1.0),
                 () => Some(PAYS),
             };
-            return Vec::from_iter(pays.map(|pays| self.copy_part(self.top.root, pays)));
+            return Vec::from_iter(pays.map(|pays| self.copy_asked(self.top.root, pays, asked)));
         }
         search.waits -= u32::from(search.waits > 0);
         if search.waits == 0 {
             if let Some(node) = self.worn_above(asked, HASTE) {
                 self.search_again(search);
-                return alloc::vec![self.copy_part(node, PAYS_AT_ONCE)];
+                return alloc::vec![self.copy_asked(node, PAYS_AT_ONCE, asked)];
             }
         }
         let (mut parts, mut stirred, mut above) = (Vec::new(), Vec::new(), None);
@@ -158,8 +161,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             self.search_again(search);
             // What is built over subtrees shows what it gains once those have been split.
             let is_once = self.is_rested(node, asked);
-            let copy = self.copy_part(node, if is_once { f64::INFINITY } else { PAYS });
-            return alloc::vec![copy];
+            let pays = if is_once { f64::INFINITY } else { PAYS };
+            return alloc::vec![self.copy_asked(node, pays, asked)];
         }
         for (found, count) in stirred {
             if count <= room {
@@ -173,7 +176,25 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             self.search_again(search);
         }
         let copies = parts.into_iter();
-        copies.map(|(node, pays)| self.copy_part(node, pays)).collect()
+        copies
+            .map(|(node, pays)| self.copy_asked(node, pays, asked))
+            .collect()
+    }
+
+    fn copy_asked(&self, node: u32, pays: f64, asked: Asked) -> TopCopy<N> {
+        self.unless_blinking(self.copy_part(node, pays), asked)
+    }
+
+    /// A tree in which much blinks and is off does not come in: it counts as tried.
+    fn unless_blinking(&self, mut copy: TopCopy<N>, asked: Asked) -> TopCopy<N> {
+        let blases = copy.blases();
+        let off = blases
+            .filter(|&blas| self.is_blinking(blas, asked.rests_since))
+            .count();
+        if off * BLINKS > copy.len() {
+            copy.pays = 0.0;
+        }
+        copy
     }
 
     /// All nodes are to be looked at again.

@@ -104,6 +104,9 @@ pub(super) struct Report {
     pub rows: Vec<Row>,
     /// Parts of frames that took longer than their bound, by the thread's clock.
     pub beyond: usize,
+    /// All parts of frames there were, and how many in 1000 may take longer.
+    pub parts: usize,
+    pub late: u32,
     pub first_beyond: Vec<Violation>,
     /// The invariant that did not hold, which ended the soak.
     pub invalid: Option<String>,
@@ -118,17 +121,26 @@ impl Report {
         self.edits.nodes as f64 / self.edits.touched.max(1) as f64
     }
 
-    /// Whether every frame kept its bounds, of time and of what was counted, memory is flat, and no word of a device differs.
-    pub fn is_good(&self) -> bool {
+    /// Whether what was counted kept its bounds, memory is flat, all is valid, and no word of a device differs.
+    fn is_sound(&self) -> bool {
         let equal = self.devices.iter().all(|device| device.different == 0);
         self.invalid.is_none()
-            && self.beyond == 0
             && self.edits.inline == 0
             && self.edits.copied <= self.bytes
             && self.nodes_each() <= NODES
             && self.memory.is_good()
             && self.process.is_good()
             && equal
+    }
+
+    /// Whether no more parts of frames took longer than their bound than may.
+    fn is_in_time(&self) -> bool {
+        self.beyond * 1000 <= self.late as usize * self.parts
+    }
+
+    /// Whether every frame kept its bounds, of time and of what was counted.
+    pub fn is_good(&self) -> bool {
+        self.is_sound() && self.is_in_time()
     }
 }
 
@@ -184,21 +196,29 @@ pub(super) fn print(context: &Context, report: &Report) -> Result<(), HostError>
     }
     for device in &report.devices {
         say!(
-            "{}: {} words compared, {} different {:?}",
+            "{}: {} words compared, {} different{}",
             device.name,
             device.compared,
             device.different,
-            device.arrays
+            if device.different > 0 {
+                format!(", {:?}", device.arrays)
+            } else {
+                String::new()
+            }
         )?;
     }
     for one in &report.first_beyond {
         say!(
-            "frame {}: {} took {:.1} µs, bound {:.1} µs, {:?}{}",
+            "frame {}: {} took {:.1} µs, bound {:.1} µs; {} instances and {} triangles changed, {} triangles added, {} nodes \
+             computed{}",
             one.frame,
             one.what,
             one.thread_ns as f64 * 1e-3,
             one.bound_ns as f64 * 1e-3,
-            one.changed,
+            one.changed.instances,
+            one.changed.triangles,
+            one.changed.built,
+            one.changed.nodes,
             if one.adopted {
                 ", a rebuild was swapped in"
             } else {
@@ -206,9 +226,62 @@ pub(super) fn print(context: &Context, report: &Report) -> Result<(), HostError>
             }
         )?;
     }
-    say!("parts of frames beyond their bound: {}", report.beyond)?;
+    say!(
+        "time, by the thread's clock: {} of {} parts of frames beyond their bound, {:.2} in 1000, of which {} may: {}",
+        report.beyond,
+        report.parts,
+        report.beyond as f64 * 1000.0 / report.parts.max(1) as f64,
+        report.late,
+        if report.is_in_time() { "good" } else { "LATE" }
+    )?;
     if let Some(invalid) = &report.invalid {
         say!("INVALID: {invalid}")?;
     }
+    say!(
+        "words, invariants, memory and counts of work: {}",
+        if report.is_sound() { "good" } else { "WRONG" }
+    )?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is late is told apart from what is wrong, and as many parts may be late as was said.
+    #[test]
+    fn late_is_not_wrong() {
+        let flat = Means {
+            second_quarter: 1.0,
+            last_quarter: 1.0,
+            flat: true,
+            judged: true,
+        };
+        let mut report = Report {
+            frames: 1000,
+            seed: 0,
+            instances: 0,
+            lights: 0,
+            edits: Counts::default(),
+            bytes: 0,
+            rows: Vec::new(),
+            beyond: 8,
+            parts: 4000,
+            late: 0,
+            first_beyond: Vec::new(),
+            invalid: None,
+            memory: flat,
+            process: flat,
+            devices: Vec::new(),
+        };
+        assert!(report.is_sound() && !report.is_in_time() && !report.is_good());
+        report.late = 2;
+        assert!(report.is_good());
+        report.late = 1;
+        assert!(!report.is_good());
+        (report.beyond, report.invalid) = (0, Some("a node".to_owned()));
+        assert!(report.is_in_time() && !report.is_good());
+        (report.invalid, report.edits.copied) = (None, 1);
+        assert!(!report.is_sound());
+    }
 }

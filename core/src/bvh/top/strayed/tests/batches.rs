@@ -143,6 +143,38 @@ fn what_blinks_in_its_place_stays_there() {
     assert!(put < 100, "{put}");
 }
 
+/// A mesh of more instances than are noted that goes off and on by its lights: all were put in elsewhere each time, for what is
+/// off has no centre. One that comes on elsewhere is put there.
+#[test]
+fn a_mesh_that_blinks_in_its_place_stays_there() {
+    for count in [200, 600] {
+        let random = &mut Random(75);
+        let (mut bvh, _, _, side) = lamps(2500, random);
+        let mesh = bvh.add_mesh(eight([0.0; 3], 1.0)).expect("a mesh");
+        let ids = put_in(&mut bvh, mesh, &somewhere(count, side, random));
+        let own = &mut rebuilder();
+        let mut turn = |bvh: &mut LightBvh, triangles: Vec<EmissiveTriangle>| {
+            own.begin_frame(bvh).expect("no panic");
+            let stamp = bvh.epoch;
+            bvh.set_triangles(mesh, triangles).expect("as many");
+            let put = put_since(bvh, stamp);
+            bvh.refit();
+            own.end_frame(bvh);
+            put
+        };
+        let mut put = 0;
+        for number in 0..120_u16 {
+            let found = turn(&mut bvh, eight([0.0; 3], f32::from(number % 2)));
+            put += if number >= 60 { found } else { 0 };
+        }
+        assert_eq!(put, 0, "{count}");
+        turn(&mut bvh, eight([0.0; 3], 0.0));
+        assert!(turn(&mut bvh, eight([0.7 * side; 3], 1.0)) > 64, "{count}");
+        bvh.validate().expect("valid");
+        assert!(bvh.lights_of(ids[0]).is_some());
+    }
+}
+
 /// What was dark as a part was built has a place anywhere in it: 3 to 12 times once it shines. By its triangles, and by its
 /// radiance.
 #[test]
