@@ -17,11 +17,12 @@ use crate::node::{Holds, Node};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RebuildParams {
     /// The top level is once it is worse than when it was built by this factor, as below: 1 for whenever something has changed,
-    /// infinite for never. Of one of 513 to 1024 instances a [`Rebuilder`](crate::Rebuilder) asks for its root alone as well,
-    /// which counts twice. Of a top level of more than 1024 instances a [`Rebuilder`](crate::Rebuilder) builds parts that are
-    /// worse by as much, and the nodes above them where those lost a twentieth at least. At the default of 1.1 trees were
-    /// better than at 1, for two thirds to three quarters of the time where lamps mix and about the same where clusters of them
-    /// change places (`docs/dynamics.md`, "When it pays").
+    /// infinite for never. A [`Rebuilder`](crate::Rebuilder) asks a top level of up to 1024 instances in proportion: of 102 it
+    /// takes a tenth of what the factor is above 1, for a tree over them takes a tenth of the time; of 513 and more its root
+    /// alone as well, which counts twice. Of one of more than 1024 it builds parts that are worse by the factor, and the nodes
+    /// above them where those lost a twentieth at least. At the default of 1.1 trees were better than at 1, for two thirds to
+    /// three quarters of the time where lamps mix and about the same where clusters of them change places
+    /// (`docs/dynamics-design.md`, "When it pays").
     ///
     /// Worse is what lost its order. That the order edits made is not that of a new tree, as after 10^4 lamps have come in in
     /// the order of a scan, is seen by a rebuilder alone, which tries parts in which much was built; by

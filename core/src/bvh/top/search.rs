@@ -224,12 +224,14 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
 
     /// Whether a top level of one part has lost its shape: all its nodes together, or its root alone, where that has more
     /// instances below than edits build anew. Edits keep the nodes below as they were built, and in the mean over all levels
-    /// what the root lost is little. It counts twice (measured: `tests::motion`).
+    /// what the root lost is little. It counts twice (measured: `tests::motion`). The fewer its instances, the less a tree over
+    /// them takes to build, and the less it may have lost: in proportion.
     fn is_worn_whole(&self, worse: f64) -> bool {
         let quality = self.quality(self.top.root);
-        let is_beyond_edits = self.top.counts[self.top.number(self.top.root) as usize] > MOST;
-        quality.drift() >= worse
-            || (is_beyond_edits && is_worn_by(2.0 * f64::from(quality.own()), worse, LEAST))
+        let count = self.top.counts[self.top.number(self.top.root) as usize];
+        let share = f64::from(count.max(1)) / f64::from(PART);
+        quality.drift() >= 1.0 + (worse - 1.0) * share
+            || (count > MOST && is_worn_by(2.0 * f64::from(quality.own()), worse, LEAST))
     }
 
     /// Of the highest nodes that have more than [`PART`] instances below, the one that has most to gain: of which most

@@ -6,7 +6,7 @@ use std::vec::Vec;
 
 use super::looked::{FARTHER, Guard};
 use super::{FEW, Looked, distance};
-use crate::bvh::{RebuilderParams, Swap};
+use crate::bvh::{RebuildParams, RebuilderParams, Swap};
 use crate::kit::{Random, cross, dot, minus};
 use crate::node::{Node, kind};
 use crate::rebuilder::Rebuilder;
@@ -383,7 +383,15 @@ fn what_lies_elsewhere_does_so_by_its_definition() {
 #[test]
 fn what_blinks_waits_until_it_rests() {
     let (mut bvh, mesh) = scene(8);
-    let own = &mut rebuilder();
+    // A tree that is built anew would have it where it belongs.
+    let own = &mut Own::new(RebuilderParams {
+        swap: Swap::Deterministic,
+        rebuild: RebuildParams {
+            top: f64::INFINITY,
+            ..RebuildParams::default()
+        },
+        ..RebuilderParams::default()
+    });
     let of = |at: [f32; 3], radiance: f32| halves(mesh, &eight(at, radiance));
     for radiance in [100.0, 1.0, 100.0] {
         frame(&mut bvh, own, of([-40.0; 3], radiance).to_vec());
