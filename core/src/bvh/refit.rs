@@ -59,6 +59,8 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
     /// [`plan_of_everything`](Self::plan_of_everything) says. The words of places that are not in use any more may differ from
     /// a mirror's.
     ///
+    /// One who asks is enough: `lightbvh_gpu::Mirror` makes this call itself, and copies everything after one besides.
+    ///
     /// To read the arrays beside the lists, drop what this returns and ask [`work`](Self::work), before the next refit.
     ///
     /// Where only a device refits, nodes here stay as they were: samples taken here are of that tree, and a
