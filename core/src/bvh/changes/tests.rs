@@ -275,6 +275,34 @@ fn small_and_far_lights_are_in_the_world_what_they_are_in_their_mesh() {
     world.checked().expect("in the domain");
 }
 
+/// Triangles that change one by one are told one by one, be they every second one of a mesh: all would be twice as much to copy.
+#[test]
+fn separate_triangles_are_told_by_themselves() {
+    const COUNT: u32 = 20_000;
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(std::vec![lamp(); COUNT as usize]).expect("a mesh");
+    bvh.add_instance(mesh, Transform::IDENTITY).expect("one");
+    bvh.plan();
+    bvh.refit();
+    let mut brighter = lamp();
+    brighter.radiance = [2.0; 3];
+    let every_second = (0..COUNT / 2).map(|k| Edit::SetTriangleRange {
+        mesh,
+        first: 2 * k,
+        triangles: std::vec![brighter],
+    });
+    // And two more, on the other places.
+    let more = [1, 5001].map(|first| Edit::SetTriangleRange {
+        mesh,
+        first,
+        triangles: std::vec![brighter],
+    });
+    bvh.apply(every_second.chain(more).collect()).expect("its own");
+    let plan = bvh.plan();
+    let written: usize = plan.written_triangles.iter().map(ExactSizeIterator::len).sum();
+    assert_eq!(written, COUNT as usize / 2 + 2);
+}
+
 #[test]
 fn what_is_gone_is_in_no_list() {
     let (mut bvh, ids) = lamps(60);

@@ -98,6 +98,32 @@ fn what_lost_much_is_first_wherever_it_is() {
     assert_eq!(copies[0].root, Some(scene.part(node)));
 }
 
+/// A node above parts that lost little waits while a part is worn, and has its turn where none is.
+#[test]
+fn what_lost_little_above_parts_waits_for_them() {
+    let first = |has_worn_part: bool, lost: f32| {
+        let (mut scene, _) = grid(18);
+        let root = scene.top.root;
+        if has_worn_part {
+            let part = parts(&scene)[0];
+            wear(&mut scene, part);
+        }
+        wear(&mut scene, root);
+        let all = scene.quality(root).own();
+        assert!(all > 0.2, "{all}");
+        scene.quality[root as usize].built = all - lost;
+        scene.judge_list(&[root]);
+        assert!((scene.quality(root).own() - lost).abs() < 0.01);
+        let mut search = Search::default();
+        scene.search_again(&mut search);
+        let copies = scene.copy_worn_parts(1.02, 0, &mut search);
+        assert!(!copies.is_empty());
+        copies[0].root == Some(scene.part(root))
+    };
+    // 0.05 at least, 0.12 while parts are worn.
+    assert!(first(false, 0.1) && !first(true, 0.1) && first(true, 0.15));
+}
+
 /// Small meshes that are many take turns with the top level where that is large: both in one frame would take longer than it may.
 #[test]
 fn many_small_meshes_take_turns_with_the_top_level() {
