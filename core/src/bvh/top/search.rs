@@ -185,13 +185,13 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         self.unless_blinking(self.copy_part(node, pays), asked)
     }
 
-    /// A tree in which much blinks and is off does not come in: it counts as tried.
+    /// A tree in which much blinks and is off does not come in, unless all are asked for: it counts as tried.
     fn unless_blinking(&self, mut copy: TopCopy<N>, asked: Asked) -> TopCopy<N> {
         let blases = copy.blases();
         let off = blases
             .filter(|&blas| self.is_blinking(blas, asked.rests_since))
             .count();
-        if off * BLINKS > copy.len() {
+        if asked.worse > 1.0 && off * BLINKS > copy.len() {
             copy.pays = 0.0;
         }
         copy
