@@ -16,7 +16,7 @@ fn scattered(seed: u32) -> Own {
     let random = &mut Random(seed);
     let mut scene = Own::default();
     for _ in 0..24 {
-        let wide = 0.1 * 400.0f32.powf(random.unit());
+        let wide = (0.1 * 400.0_f64.powf(f64::from(random.unit()))) as f32;
         let lamps = [0; 3].map(|_| {
             let [x, y, z] = (random.vector() * wide * LOW).to_array();
             EmissiveTriangle {

@@ -113,7 +113,7 @@ fn what_lost_little_above_parts_waits_for_them() {
         assert!(all > 0.2, "{all}");
         scene.quality[root as usize].built = all - lost;
         scene.judge_list(&[root]);
-        assert!((scene.quality(root).own() - lost).abs() < 0.01);
+        assert!(crate::exact::abs(scene.quality(root).own() - lost) < 0.01);
         let mut search = Search::default();
         scene.search_again(&mut search);
         let copies = scene.copy_worn_parts(1.02, 0, &mut search);

@@ -150,7 +150,7 @@ fn few_meshes_that_drift_keep_a_good_tree() {
         .concat()
     {
         let random = &mut Random(70 + seed);
-        let side = 2.0 * (count as f32).sqrt();
+        let side = 2.0 * crate::exact::sqrt(count as f32);
         let mut scene = LightBvh::default();
         let mut ids = Vec::new();
         let mut places: Vec<[f32; 3]> = Vec::new();
