@@ -11,7 +11,8 @@ pub struct FrameStart {
     /// Whether parts of the top level, or small meshes, that were built came back; those that gain nothing, or whose place is
     /// gone, change nothing. Large meshes are counted by `adopted` and `parts`.
     pub swapped: bool,
-    /// How long this call waited for threads, under [`Swap::Deterministic`](super::Swap::Deterministic) alone; zero where there is no clock.
+    /// How long this call waited for threads, under [`Swap::Deterministic`](super::Swap::Deterministic) alone; zero where there
+    /// is no clock.
     pub waited: Duration,
     /// How long the worker took for what was swapped in; zero if nothing was, and where there is no clock.
     pub built: Duration,
@@ -24,13 +25,14 @@ pub struct FrameStart {
     /// by other means, building failed, or a part found no tree of as many nodes. Deformation drops none: what changes
     /// meanwhile is computed in the new tree.
     pub dropped: u32,
-    /// Whether large meshes wait because another [`Rebuilder`](crate::Rebuilder) has some of the same light BVH under way. One for each light BVH
-    /// is enough: a second one begins no large mesh as long as the first has one under way.
+    /// Whether large meshes wait because another [`Rebuilder`](crate::Rebuilder) has some of the same light BVH under way. One
+    /// for each light BVH is enough: a second one begins no large mesh as long as the first has one under way.
     pub is_second: bool,
     /// Number of large meshes that are under way or wait for it.
     pub under_way: u32,
-    /// What of [`RebuilderParams::bytes`](super::RebuilderParams::bytes) went into them in this call: bytes copied, written for the first time, and nodes
-    /// computed at bytes that take as long. What changes meanwhile is computed in the new trees beside that.
+    /// What of [`RebuilderParams::bytes`](super::RebuilderParams::bytes) went into them in this call: bytes copied, written for
+    /// the first time, and nodes computed at bytes that take as long. What changes meanwhile is computed in the new trees
+    /// beside that.
     pub copied: u32,
     /// Whether it was built at the end of its frame on the frame's own thread, since no other could be started.
     pub inline: bool,
