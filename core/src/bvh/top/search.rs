@@ -33,8 +33,8 @@ const PAYS_AT_ONCE: f64 = 0.8;
 const SHARE: u64 = 8;
 /// Frames after which what has not changed is at rest.
 const REST: usize = 16;
-/// One instance in so many that is off, and was on a moment ago, keeps a part as it is: a tree is built by flux, puts what is
-/// off anywhere, and each would be put in elsewhere when it comes on again.
+/// One instance in so many that is off, and was on a moment ago, keeps a part that lost nothing as it is: a tree is built by
+/// flux, puts what is off anywhere, and each would be put in elsewhere when it comes on again.
 const BLINKS: usize = 32;
 
 /// How far the top level's nodes have been looked at.
@@ -114,7 +114,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             search.left = 0;
             let is_worn = has_changed && self.is_worn_whole(worse);
             if is_worn {
-                return alloc::vec![self.unless_blinking(self.copy_whole_part(), asked)];
+                return alloc::vec![self.copy_whole_part()];
             }
             let pays = match () {
                 () if !self.is_untried(self.top.root, asked) => None,
@@ -127,7 +127,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
         if search.waits == 0 {
             if let Some(node) = self.worn_above(asked, HASTE) {
                 self.search_again(search);
-                return alloc::vec![self.copy_asked(node, PAYS_AT_ONCE, asked)];
+                return alloc::vec![self.copy_part(node, PAYS_AT_ONCE)];
             }
         }
         let (mut parts, mut stirred, mut above) = (Vec::new(), Vec::new(), None);
@@ -162,7 +162,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             // What is built over subtrees shows what it gains once those have been split.
             let is_once = self.is_rested(node, asked);
             let pays = if is_once { f64::INFINITY } else { PAYS };
-            return alloc::vec![self.copy_asked(node, pays, asked)];
+            return alloc::vec![self.copy_part(node, pays)];
         }
         for (found, count) in stirred {
             if count <= room {
@@ -181,18 +181,18 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
             .collect()
     }
 
+    /// A copy of a part. One that lost nothing and is only tried does not come in where much of it blinks and is off: it counts
+    /// as tried, unless all are asked for. What lost its order is built whatever blinks.
     fn copy_asked(&self, node: u32, pays: f64, asked: Asked) -> TopCopy<N> {
-        self.unless_blinking(self.copy_part(node, pays), asked)
-    }
-
-    /// A tree in which much blinks and is off does not come in, unless all are asked for: it counts as tried.
-    fn unless_blinking(&self, mut copy: TopCopy<N>, asked: Asked) -> TopCopy<N> {
-        let blases = copy.blases();
-        let off = blases
-            .filter(|&blas| self.is_blinking(blas, asked.rests_since))
-            .count();
-        if asked.worse > 1.0 && off * BLINKS > copy.len() {
-            copy.pays = 0.0;
+        let mut copy = self.copy_part(node, pays);
+        if pays.is_finite() && asked.worse > 1.0 {
+            let blases = copy.blases();
+            let off = blases
+                .filter(|&blas| self.is_blinking(blas, asked.rests_since))
+                .count();
+            if off * BLINKS > copy.len() {
+                copy.pays = 0.0;
+            }
         }
         copy
     }
