@@ -47,7 +47,7 @@ thread_local! {
 
 /// Runs a function's body. What it fails with, or panics with, becomes its status and the thread's last error.
 pub(crate) fn guard(body: impl FnOnce() -> Result<(), Fault>) -> Status {
-    // A change marks the handle as broken while it runs (`Handle::change`).
+    // A change marks what it changes as broken while it runs (`Held::run`).
     let fault = match catch_unwind(AssertUnwindSafe(body)) {
         Ok(Ok(())) => return Status::Ok,
         Ok(Err(fault)) => fault,

@@ -3,24 +3,13 @@
 use lightbvh::LightBvh;
 
 use crate::error::{Fault, Status, guard};
+use crate::held::Held;
 use crate::raw;
 
 /// `lightbvh`.
-pub struct Handle {
-    bvh: LightBvh,
-    /// A change panicked, so nothing is known of the trees any more.
-    broken: bool,
-}
+pub type Handle = Held<LightBvh>;
 
 impl Handle {
-    fn sound(&self) -> Result<(), Fault> {
-        if self.broken {
-            let message = "a function panicked while it changed this light BVH; free it and make another";
-            return Err(Fault::new(Status::Panicked, message));
-        }
-        Ok(())
-    }
-
     /// Runs a function that asks.
     ///
     /// # Safety
@@ -29,12 +18,8 @@ impl Handle {
         bvh: *const Self,
         question: impl FnOnce(&LightBvh) -> Result<(), Fault>,
     ) -> Status {
-        guard(|| {
-            // SAFETY: the caller's promise.
-            let handle = unsafe { raw::shared(bvh, "bvh") }?;
-            handle.sound()?;
-            question(&handle.bvh)
-        })
+        // SAFETY: the caller's promise.
+        guard(|| question(unsafe { raw::shared(bvh, "bvh") }?.sound()?))
     }
 
     /// Runs a function that changes.
@@ -45,32 +30,15 @@ impl Handle {
         bvh: *mut Self,
         edit: impl FnOnce(&mut LightBvh) -> Result<(), Fault>,
     ) -> Status {
-        guard(|| {
-            // SAFETY: the caller's promise.
-            let handle = unsafe { raw::exclusive(bvh, "bvh") }?;
-            handle.sound()?;
-            handle.broken = true;
-            let done = edit(&mut handle.bvh);
-            // Not after a panic.
-            handle.broken = false;
-            done
-        })
+        // SAFETY: the caller's promise.
+        guard(|| unsafe { raw::exclusive(bvh, "bvh") }?.run(edit)?)
     }
 }
 
 /// A light BVH without lights.
 #[unsafe(no_mangle)]
 pub extern "C" fn lightbvh_create() -> *mut Handle {
-    let mut made = std::ptr::null_mut();
-    guard(|| {
-        let handle = Handle {
-            bvh: LightBvh::default(),
-            broken: false,
-        };
-        made = Box::into_raw(Box::new(handle));
-        Ok(())
-    });
-    made
+    Held::create("light BVH", LightBvh::default)
 }
 
 /// Frees it.
@@ -79,13 +47,8 @@ pub extern "C" fn lightbvh_create() -> *mut Handle {
 /// `bvh` is null, or what `lightbvh_create` gave, and not used any more.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lightbvh_free(bvh: *mut Handle) {
-    guard(|| {
-        if !bvh.is_null() {
-            // SAFETY: the caller's promise: it came out of a box, and goes back once.
-            drop(unsafe { Box::from_raw(bvh) });
-        }
-        Ok(())
-    });
+    // SAFETY: the caller's promise.
+    unsafe { Held::free(bvh) }
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 mod edit;
 mod error;
 mod handle;
+mod held;
 mod identity;
 mod ids;
 mod query;
@@ -17,6 +18,7 @@ pub use edit::{
 };
 pub use error::{Status, lightbvh_last_error};
 pub use handle::{Handle, lightbvh_create, lightbvh_free};
+pub use held::Held;
 pub use identity::{CRange, lightbvh_forget_removed_lights, lightbvh_removed_lights};
 pub use ids::{CInstance, CMesh};
 pub use query::{

@@ -3,16 +3,13 @@
 use lightbvh::bvh::{FrameStart, RebuilderParams, Swap};
 use lightbvh::{MomentNode, Rebuilder};
 
-use crate::error::{Fault, Status, guard};
+use crate::error::{Fault, Status};
 use crate::handle::Handle;
+use crate::held::Held;
 use crate::raw;
 
 /// `lightbvh_rebuilder`.
-pub struct CRebuilder {
-    rebuilder: Rebuilder<MomentNode<8>, 8>,
-    /// A call panicked, so nothing is known of it any more.
-    broken: bool,
-}
+pub type CRebuilder = Held<Rebuilder<MomentNode<8>, 8>>;
 
 /// What the start of a frame did: `lightbvh_frame_start`.
 #[repr(C)]
@@ -32,45 +29,19 @@ pub struct CFrameStart {
     pub copied: u32,
 }
 
-impl CRebuilder {
-    fn new(after: u32) -> Self {
-        let swap = match after {
-            0 => Swap::WhenReady,
-            _ => Swap::Deterministic,
-        };
-        Self {
-            rebuilder: Rebuilder::new(RebuilderParams {
-                after,
-                swap,
-                ..RebuilderParams::default()
-            }),
-            broken: false,
-        }
-    }
-
-    /// Runs a call.
-    fn run<T>(&mut self, call: impl FnOnce(&mut Rebuilder<MomentNode<8>, 8>) -> T) -> Result<T, Fault> {
-        if self.broken {
-            let message = "a function panicked while it used this rebuilder; free it and make another";
-            return Err(Fault::new(Status::Panicked, message));
-        }
-        self.broken = true;
-        let done = call(&mut self.rebuilder);
-        // Not after a panic.
-        self.broken = false;
-        Ok(done)
-    }
-}
-
 /// A rebuilder: of trees that come in once they are built, or after so many frames.
 #[unsafe(no_mangle)]
 pub extern "C" fn lightbvh_rebuilder_create(after: u32) -> *mut CRebuilder {
-    let mut made = std::ptr::null_mut();
-    guard(|| {
-        made = Box::into_raw(Box::new(CRebuilder::new(after)));
-        Ok(())
-    });
-    made
+    let swap = match after {
+        0 => Swap::WhenReady,
+        _ => Swap::Deterministic,
+    };
+    let params = RebuilderParams {
+        after,
+        swap,
+        ..RebuilderParams::default()
+    };
+    Held::create("rebuilder", || Rebuilder::new(params))
 }
 
 /// Ends its threads, and frees it.
@@ -79,13 +50,8 @@ pub extern "C" fn lightbvh_rebuilder_create(after: u32) -> *mut CRebuilder {
 /// `rebuilder` is null, or what `lightbvh_rebuilder_create` gave, and not used any more.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lightbvh_rebuilder_free(rebuilder: *mut CRebuilder) {
-    guard(|| {
-        if !rebuilder.is_null() {
-            // SAFETY: the caller's promise: it came out of a box, and goes back once.
-            drop(unsafe { Box::from_raw(rebuilder) });
-        }
-        Ok(())
-    });
+    // SAFETY: the caller's promise.
+    unsafe { Held::free(rebuilder) }
 }
 
 /// Puts in place what was built.
@@ -136,19 +102,5 @@ pub unsafe extern "C" fn lightbvh_end_frame(rebuilder: *mut CRebuilder, bvh: *co
             let rebuilder = raw::exclusive(rebuilder, "rebuilder")?;
             rebuilder.run(|rebuilder| rebuilder.end_frame(bvh))
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn after_a_panic_it_can_only_be_freed() {
-        let mut own = CRebuilder::new(0);
-        assert!(own.run(|_| ()).is_ok());
-        let seen = guard(|| own.run(|_| panic!("while it ran")));
-        assert_eq!(seen, Status::Panicked);
-        assert_eq!(own.run(|_| ()).unwrap_err().status, Status::Panicked);
     }
 }

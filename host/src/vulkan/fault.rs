@@ -20,8 +20,8 @@ impl Faults {
             .store(calls.saturating_add(1), std::sync::atomic::Ordering::Relaxed);
     }
 
-    /// An error where the device is lost before a call that may say so. What was submitted ends first: whoever hears of a lost
-    /// device may destroy what it used.
+    /// Counts a call that can return that the device is lost; an error from the call on by which it is. The device is idle by
+    /// then, for what it used may be destroyed after such an error.
     pub fn before(&self, device: &ash::Device) -> Result<(), vk::Result> {
         use std::sync::atomic::Ordering::Relaxed;
         let left = self.left.load(Relaxed);

@@ -1,0 +1,232 @@
+//! Several samples of one point: stratified numbers, batches, candidates, splitting.
+
+use super::*;
+
+/// A floor of 32² equal lamps, and a point above it: what a light contributes varies smoothly from lamp to lamp.
+fn floor() -> Lights {
+    let lamp = |i: u32| {
+        let (x, z) = ((i % 32) as f32, (i / 32) as f32);
+        EmissiveTriangle {
+            p: [[x, 0.0, z], [x, 0.0, z + 0.5], [x + 0.5, 0.0, z]],
+            radiance: [1.0; 3],
+            mesh: i / 64,
+            flags: 0,
+        }
+    };
+    Lights::new((0..1024).map(lamp).collect()).expect("lights")
+}
+
+/// Mean squared error of the mean of 64 estimates, relative to the sum of all; by `numbers`, which gives 64 for each trial.
+fn squared_error<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(
+    bvh: &Bvh<N, (), W>,
+    lights: &Lights,
+    numbers: impl Fn(&mut Random) -> [u32; 64],
+) -> f64 {
+    const TRIALS: u32 = 400;
+    let random = &mut Random::new(77);
+    let mut mean = 0.0;
+    for _ in 0..TRIALS {
+        let point = ShadingPoint {
+            p: [
+                random.between(4.0, 28.0),
+                random.between(1.0, 6.0),
+                random.between(4.0, 28.0),
+            ],
+            n: [0.0; 3],
+        };
+        let contributions: Vec<f64> = lights
+            .triangles()
+            .iter()
+            .map(|light| contribution(light, &point))
+            .collect();
+        let sum: f64 = contributions.iter().sum();
+        let estimates = numbers(random).map(|number| {
+            let sampled = bvh.by::<I>().sample(&point, number);
+            contributions[sampled.light as usize] / f64::from(sampled.pmf)
+        });
+        let off = estimates.iter().sum::<f64>() / 64.0 / sum - 1.0;
+        mean += off * off / f64::from(TRIALS);
+    }
+    mean
+}
+
+/// 64 stratified numbers, one in each 64th of the range, against 64 independent ones: the squared error is at least 8 times
+/// less. Multiples of the golden ratio, which have no number of samples in mind: at least 4 times less.
+fn stratified_numbers_pay<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(two: bool) {
+    if I::UNIFORM_HALVINGS > 0 {
+        return;
+    }
+    let lights = floor();
+    let bvh = built::<N, W>(&lights, &BuildParams::default(), two);
+    let independent = squared_error::<N, I, W>(&bvh, &lights, |random| [0; 64].map(|_| random.bits()));
+    let stratified = squared_error::<N, I, W>(&bvh, &lights, |random| {
+        std::array::from_fn(|k| (k as u32) << 26 | random.bits() >> 6)
+    });
+    let golden = squared_error::<N, I, W>(&bvh, &lights, |random| {
+        let start = random.bits();
+        std::array::from_fn(|k| start.wrapping_add((k as u32).wrapping_mul(0x9e37_79b9)))
+    });
+    println!(
+        "{} {W}: {independent:e}, {:.1}, {:.1}",
+        N::NAME,
+        independent / stratified,
+        independent / golden
+    );
+    assert!(
+        8.0 * stratified < independent,
+        "{stratified:e}, independent {independent:e}"
+    );
+    assert!(
+        4.0 * golden < independent,
+        "{golden:e}, independent {independent:e}"
+    );
+}
+
+#[test]
+fn stratified_numbers() {
+    each_layout!(stratified_numbers_pay(false));
+    each_layout!(stratified_numbers_pay(true));
+}
+
+/// Several walks at once are as many walks one by one, however many, and what is longer than the shortest list is left alone.
+fn batches_are_single_samples<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(two: bool) {
+    let lights = scene(200, 41);
+    let bvh = built::<N, W>(&lights, &BuildParams::default(), two);
+    let random = &mut Random::new(42);
+    for count in (0..=40).chain([1000]) {
+        let points: Vec<ShadingPoint> = (0..count).map(|_| generate::point(random, 10.0)).collect();
+        let numbers: Vec<Random64> = (0..count).map(|_| number(random)).collect();
+        let untouched = SampledLight {
+            light: 7,
+            instance: 5,
+            pmf: -1.0,
+        };
+        let mut sampled = vec![untouched; count + 3];
+        bvh.by::<I>().sample_batch(&points, &numbers, &mut sampled);
+        for k in 0..count {
+            let expected = bvh.by::<I>().sample(&points[k], numbers[k]);
+            assert_eq!(sampled[k], expected, "{k} of {count}");
+        }
+        assert_eq!(sampled[count..], [untouched; 3]);
+        let shorter = count.saturating_sub(5);
+        for (points, numbers, outs) in [
+            (shorter, count, count),
+            (count, shorter, count),
+            (count, count, shorter),
+        ]
+        .map(|(p, n, o)| (&points[..p], &numbers[..n], o))
+        {
+            let mut few = vec![untouched; outs];
+            bvh.by::<I>().sample_batch(points, numbers, &mut few);
+            assert_eq!(few[..shorter], sampled[..shorter]);
+            assert!(few[shorter..].iter().all(|&found| found == untouched));
+        }
+    }
+}
+
+/// Candidates are the samples of numbers at equal distances, in any layout, uniform choices among them.
+fn candidates_are_single_samples<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(two: bool) {
+    fn check<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize, const COUNT: usize>(
+        bvh: &LightTree<'_, N, I, W>,
+        point: &ShadingPoint,
+        number: Random64,
+    ) {
+        let many = bvh.sample_many::<COUNT>(point, number);
+        for (k, found) in (0..).zip(many) {
+            let expected = bvh.sample(point, number.spaced(k, COUNT as u32));
+            assert_eq!(found, expected, "{k} of {COUNT}");
+        }
+    }
+    for count in [1, 3, 200] {
+        let bvh = built::<N, W>(&scene(count, 51), &BuildParams::default(), two);
+        let bvh = bvh.by::<I>();
+        let random = &mut Random::new(52);
+        for _ in 0..200 {
+            let (point, number) = (generate::point(random, 10.0), number(random));
+            check::<N, I, W, 1>(&bvh, &point, number);
+            check::<N, I, W, 5>(&bvh, &point, number);
+            check::<N, I, W, 64>(&bvh, &point, number);
+            let (first, count) = (random.below(70), random.below(150));
+            let mut sampled = vec![SampledLight::NONE; random.below(80) as usize];
+            bvh.sample_spaced(&point, number, first, count, &mut sampled);
+            for (k, found) in (first..).zip(sampled) {
+                assert_eq!(
+                    found,
+                    bvh.sample(&point, number.spaced(k, count)),
+                    "{k} of {count}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn candidates() {
+    each_layout!(candidates_are_single_samples(false));
+    each_layout!(candidates_are_single_samples(true));
+}
+
+/// Splitting gives every light to one subtree: with as many subtrees as lights all are certain, with one it is a single sample, and
+/// between them the sum of f / pmf is the sum of f in the mean.
+fn splitting_is_unbiased<N: LightNode<W>, I: ImportanceModel<N, W>, const W: usize>(two: bool) {
+    const NUMBERS: u32 = 512;
+    for count in [1, 3, 60] {
+        let lights = scene(count, 53);
+        let bvh = built::<N, W>(&lights, &BuildParams::default(), two);
+        let random = &mut Random::new(54);
+        for _ in 0..8 {
+            let point = generate::point(random, 10.0);
+            // Near what lights are chosen by, so that no rare light is most of the sum; never of dark ones.
+            let pmfs = all_pmfs::<_, I, _>(&bvh, &lights, &point);
+            let lit =
+                |t: &EmissiveTriangle| f64::from(u8::from(Summary::phi(&N::Summary::of_triangle(t)) > 0.0));
+            let f: Vec<f64> = (0..)
+                .zip(lights.triangles().iter().zip(pmfs))
+                .map(|(light, (triangle, pmf))| f64::from(light % 3 + 1) * lit(triangle) * f64::from(pmf))
+                .collect();
+            let sum: f64 = f.iter().sum();
+            let estimate = |found: &[SampledLight]| -> f64 {
+                found.iter().map(|s| f[s.light as usize] / f64::from(s.pmf)).sum()
+            };
+            let bvh = bvh.by::<I>();
+            let (all, found) = bvh.sample_split::<64>(&point, number(random));
+            assert!(all[..found].iter().all(|s| s.pmf > 0.0));
+            let relative = estimate(&all[..found]) / sum;
+            assert!(
+                (relative - 1.0).abs() < 1e-6,
+                "{found} of {count} lights: {relative}"
+            );
+            let mut estimates = Vec::new();
+            for k in 0..NUMBERS {
+                let number = number(random).spaced(k, NUMBERS);
+                let (one, found) = bvh.sample_split::<1>(&point, number);
+                let expected = bvh.sample(&point, number);
+                if I::UNIFORM_HALVINGS == 0 {
+                    assert_eq!((found, one[0]), (1, expected));
+                }
+                let (some, found) = bvh.sample_split::<20>(&point, number);
+                assert!(found <= 20 && some[found..].iter().all(|s| *s == SampledLight::NONE));
+                estimates.push(estimate(&some[..found]) / sum);
+            }
+            let mean = estimates.iter().sum::<f64>() / f64::from(NUMBERS);
+            let variance = estimates.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / f64::from(NUMBERS);
+            let deviation = (variance / f64::from(NUMBERS)).sqrt();
+            assert!(
+                (mean - 1.0).abs() <= 5.0 * deviation + 1e-6,
+                "{count}: {mean} +- {deviation}"
+            );
+        }
+    }
+}
+
+#[test]
+fn splitting() {
+    each_layout!(splitting_is_unbiased(false));
+    each_layout!(splitting_is_unbiased(true));
+}
+
+#[test]
+fn batches() {
+    each_layout!(batches_are_single_samples(false));
+    each_layout!(batches_are_single_samples(true));
+}
