@@ -53,7 +53,7 @@ let mut rebuilder = Rebuilder::default();                                // no f
 for frame in 0..3 {
     rebuilder.begin_frame(&mut bvh)?;                                    // swaps in what was built beside the frames before
     bvh.set_transform(lamps[7], Transform::at([7.0, frame as f32, 0.0]))?;
-    bvh.refit();                                                         // what the edits touch; or on a device, by bvh.plan()
+    bvh.refit();                                                         // what the edits touch; on a device: lightbvh_gpu::Mirror
     rebuilder.end_frame(&bvh);
 
     let point = ShadingPoint { p: [5.0, 0.0, 0.0], n: [0.0, 1.0, 0.0] };

@@ -212,6 +212,10 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
         while begun < free && looked_at < LOOKED_AT {
             let Some(blas) = self.waiting.pop() else { break };
             looked_at += 1;
+            // A new tree may be worn before it comes in, and is then asked for twice: as it is, and as it has come in.
+            if self.is_under_way(blas, false) {
+                continue;
+            }
             if self.is_under_way(blas, true) {
                 // The part comes first.
                 self.waiting.push(blas);

@@ -439,3 +439,34 @@ fn meshes_of_many_instances_are_built_as_a_whole_alone() {
         assert_eq!(start.waited, core::time::Duration::ZERO, "it never waits");
     }
 }
+
+/// A mesh of which each light goes round in a time of its own, so that a new tree is worn before it comes in: it was begun
+/// twice each time, as it was and as it had come in, and one of them dropped.
+#[test]
+fn a_tree_that_is_worn_as_it_comes_in_is_begun_once() {
+    let lights = |turn: u32| {
+        let light = |k: u32| {
+            let along = (turn * (k % 7 + 1) + 13 * k) % 400;
+            line(along as u16, 1.0 + (k % 5) as f32)
+        };
+        (0..2000).map(light).collect::<alloc::vec::Vec<_>>()
+    };
+    let mut bvh = LightBvh::default();
+    let mesh = bvh.add_mesh(lights(0)).expect("a mesh");
+    bvh.add_instance(mesh, Transform::IDENTITY).expect("one");
+    bvh.refit();
+    let mut rebuilder = Own::new(RebuilderParams {
+        swap: Swap::Deterministic,
+        ..RebuilderParams::default()
+    });
+    let (mut adopted, mut dropped) = (0, 0);
+    for turn in 1..200 {
+        let start = rebuilder.begin_frame(&mut bvh).expect("no panic");
+        adopted += start.adopted;
+        dropped += start.dropped;
+        bvh.set_triangles(mesh, lights(turn)).expect("as many");
+        bvh.refit();
+        rebuilder.end_frame(&bvh);
+    }
+    assert!(adopted > 20 && dropped == 0, "{adopted}, {dropped}");
+}

@@ -160,6 +160,6 @@ mod tests {
                 assert!(left < NODE, "{apart}: {left}");
             }
         }
-        assert_eq!((NODE, SWEPT), (2048, 1024), "measured: docs/dynamics.md");
+        assert_eq!((NODE, SWEPT), (2048, 1024), "measured: docs/dynamics-design.md");
     }
 }

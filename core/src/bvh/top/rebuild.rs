@@ -99,6 +99,11 @@ impl<N> TopCopy<N> {
     }
 
     #[cfg(feature = "std")]
+    pub(super) fn names(&self) -> impl Iterator<Item = u32> + '_ {
+        self.names.iter().copied()
+    }
+
+    #[cfg(feature = "std")]
     pub(super) fn blases(&self) -> impl Iterator<Item = u32> + '_ {
         self.instances.iter().map(|own| own.blas)
     }

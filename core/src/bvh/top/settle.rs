@@ -4,7 +4,7 @@
 //! the highest of those that have `n` instances, at most [`MOST`], and `n / OFTEN` edits below them, is built anew. So an edit
 //! costs [`OFTEN`] instances' share of a build on each of the levels below [`MOST`], on average, and one build of [`MOST`] at
 //! most, whatever the number of instances is, a move one where it was and one where it is. The levels above keep their nodes:
-//! insertion alone keeps them as good as new (measured: `docs/dynamics.md`). Nodes over a few subtrees taken as they are, in
+//! insertion alone keeps them as good as new (measured: `docs/dynamics-design.md`). Nodes over a few subtrees taken as they are, in
 //! place of instances, were worse than no building at all.
 
 use alloc::vec::Vec;

@@ -14,6 +14,7 @@ use crate::summary::Summary;
 use crate::{Edit, EmissiveTriangle, InstanceId, LightBvh, MeshId, MomentNode, ShadingPoint, Transform};
 
 mod batches;
+mod blinks;
 mod dark;
 mod elsewhere;
 mod fades;

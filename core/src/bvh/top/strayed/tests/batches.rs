@@ -3,7 +3,7 @@
 use super::*;
 
 /// `count` lamps 7 m or so apart, and their mesh.
-fn lamps(count: u32, random: &mut Random) -> (LightBvh, MeshId, Vec<InstanceId>, f32) {
+pub(super) fn lamps(count: u32, random: &mut Random) -> (LightBvh, MeshId, Vec<InstanceId>, f32) {
     let side = 50.0 * (f64::from(count) / 2000.0).cbrt() as f32;
     let mut bvh = LightBvh::default();
     let lamp = bvh.add_mesh(cloud(1, [0.0; 3], 0)).expect("a lamp");
@@ -141,72 +141,6 @@ fn what_blinks_in_its_place_stays_there() {
     }
     // 5000 toggles; each was put in anew in every second, before.
     assert!(put < 100, "{put}");
-}
-
-/// A mesh of more instances than are noted that goes off and on by its lights: all were put in elsewhere each time, for what is
-/// off has no centre. One that comes on elsewhere is put there.
-#[test]
-fn a_mesh_that_blinks_in_its_place_stays_there() {
-    for count in [200, 600] {
-        let random = &mut Random(75);
-        let (mut bvh, _, _, side) = lamps(2500, random);
-        let mesh = bvh.add_mesh(eight([0.0; 3], 1.0)).expect("a mesh");
-        let ids = put_in(&mut bvh, mesh, &somewhere(count, side, random));
-        let own = &mut rebuilder();
-        let mut turn = |bvh: &mut LightBvh, triangles: Vec<EmissiveTriangle>| {
-            own.begin_frame(bvh).expect("no panic");
-            let stamp = bvh.epoch;
-            bvh.set_triangles(mesh, triangles).expect("as many");
-            let put = put_since(bvh, stamp);
-            bvh.refit();
-            own.end_frame(bvh);
-            put
-        };
-        let mut put = 0;
-        for number in 0..120_u16 {
-            let found = turn(&mut bvh, eight([0.0; 3], f32::from(number % 2)));
-            put += if number >= 60 { found } else { 0 };
-        }
-        assert_eq!(put, 0, "{count}");
-        turn(&mut bvh, eight([0.0; 3], 0.0));
-        assert!(turn(&mut bvh, eight([0.7 * side; 3], 1.0)) > 64, "{count}");
-        bvh.validate().expect("valid");
-        assert!(bvh.lights_of(ids[0]).is_some());
-    }
-}
-
-/// Lamps that move beside meshes of which half are off in every frame get trees all the same: 20 come in where none blinks, 16
-/// where they do. There were 7, of the first frames, and the variance grew with each frame.
-#[test]
-fn what_blinks_keeps_no_tree_from_what_moves() {
-    let random = &mut Random(76);
-    let (mut bvh, _, ids, side) = lamps(2000, random);
-    let mut meshes = Vec::new();
-    for at in somewhere(200, side, random) {
-        let mesh = bvh.add_mesh(cloud(1, [0.0; 3], 0)).expect("a lamp");
-        put_in(&mut bvh, mesh, &[at]);
-        meshes.push(mesh);
-    }
-    let own = &mut rebuilder();
-    let mut places = somewhere(ids.len(), side, random);
-    let steps: Vec<_> = ids.iter().map(|_| random.vector() * 0.5).collect();
-    let mut came = 0;
-    for turn in 0..200_u32 {
-        came += u32::from(own.begin_frame(&mut bvh).expect("no panic").swapped);
-        for (k, &mesh) in (0..).zip(&meshes) {
-            let mut lamp = cloud(1, [0.0; 3], 0);
-            lamp[0].radiance = [(crate::exact::hash(k + 1000 * turn) % 2) as f32; 3];
-            bvh.set_triangles(mesh, lamp).expect("as many");
-        }
-        for (at, &step) in places.iter_mut().zip(&steps) {
-            *at = (glam::Vec3::from(*at) + step).to_array();
-        }
-        let moves = ids.iter().zip(&places).map(|(&id, &at)| place(id, at));
-        bvh.apply(moves.collect()).expect("there");
-        bvh.refit();
-        own.end_frame(&bvh);
-    }
-    assert!(came > 11, "{came}");
 }
 
 /// What was dark as a part was built has a place anywhere in it: 3 to 12 times once it shines. By its triangles, and by its
