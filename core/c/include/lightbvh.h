@@ -3,7 +3,7 @@
  *
  * Lengths are metres, radiance is W/(m^2 sr) in linear RGB. A function that may fail returns a lightbvh_status;
  * lightbvh_last_error() then says in words what was wrong and what to do. A function that fails has changed nothing and
- * written nothing to its results. No function ends the program or lets a Rust panic out.
+ * written nothing to its results. No function lets a Rust panic out, or ends the program but where memory does.
  *
  * One light BVH may be read by several threads at once (functions that take a const lightbvh *), or changed by one.
  */
@@ -27,7 +27,7 @@ typedef enum lightbvh_status {
     LIGHTBVH_BAD_POINTER = 1,
     /* An edit is refused: an id that is not in use, a number out of its range, a mesh in use, ... */
     LIGHTBVH_REFUSED = 2,
-    /* A point is not within 2^40 m, or its normal is neither zero nor of length 1. */
+    /* A point is not within 2^40 m, its normal is neither zero nor of length 1, or a number is not in [0, 1). */
     LIGHTBVH_BAD_POINT = 3,
     /* There is no light of that number in that instance. */
     LIGHTBVH_NO_LIGHT = 4,
@@ -37,12 +37,14 @@ typedef enum lightbvh_status {
     LIGHTBVH_NO_REBUILD = 6
 } lightbvh_status;
 
-/* A mesh. All zero is no mesh; an id of a removed mesh, or of another light BVH, is refused. */
+/* A mesh. All zero is no mesh; an id of a removed mesh, or of another light BVH, is refused: an id that is kept is never
+ * another's. `generation` tells it from earlier ones of the same `index`, `kind` tells meshes from instances. */
 typedef struct lightbvh_mesh {
     uint32_t tree, index, generation, kind;
 } lightbvh_mesh;
 
-/* An instance, as lightbvh_mesh. */
+/* An instance, as lightbvh_mesh. lightbvh_sample.instance is the `index` of one; which id that is, the caller knows, who was
+ * given it. */
 typedef struct lightbvh_instance {
     uint32_t tree, index, generation, kind;
 } lightbvh_instance;
@@ -118,7 +120,7 @@ void lightbvh_free(lightbvh *bvh);
 
 /* Edits. Samples see them after the next lightbvh_refit. */
 
-/* A new mesh of `count` triangles, at least one, in the mesh's own space. It is not in the world yet. */
+/* A new mesh of `count` triangles, at least one and at most 2^30, in the mesh's own space. It is not in the world yet. */
 lightbvh_status lightbvh_add_mesh(lightbvh *bvh, const lightbvh_triangle *triangles, size_t count, lightbvh_mesh *mesh);
 /* Puts a mesh into the world. `radiance` is a factor on that of the mesh: 0, or from 2^-60 to 2^60. */
 lightbvh_status lightbvh_add_instance(lightbvh *bvh, lightbvh_mesh mesh, const lightbvh_transform *transform,
@@ -162,11 +164,12 @@ lightbvh_status lightbvh_end_frame(lightbvh_rebuilder *rebuilder, const lightbvh
 
 /* What keeps numbers of lights from frame to frame, as reservoirs do, asks in each frame after its edits which numbers are no
  * more, replaces what it keeps of them, and has them forgotten: until then no new light gets such a number. The exception keeps
- * memory bounded where they never are: once more than 65536 numbers wait, and more than there are lights or than half of what
- * is left of 2^30, all of them are free, and the first range is that of every number there was. */
+ * memory bounded where they never are: once more than 65536 numbers wait, and more than (there are lights, or half of what
+ * is left of 2^30), all of them are free, and the first range is that of every number there was, lights that are there among
+ * them: all that was kept by number is then to be given up. */
 
 /* Ranges of numbers of lights that are no more, since they were forgotten last: `count` of them, of which the first `capacity`
- * are written. */
+ * are written. Where `count` is greater, ask again with room for all before they are forgotten. */
 lightbvh_status lightbvh_removed_lights(const lightbvh *bvh, lightbvh_range *ranges, size_t capacity, size_t *count);
 /* New lights may get those numbers from now on. */
 lightbvh_status lightbvh_forget_removed_lights(lightbvh *bvh);
@@ -187,7 +190,7 @@ lightbvh_status lightbvh_triangle_of(const lightbvh *bvh, uint32_t light, uint32
                                      lightbvh_triangle *triangle);
 /* The numbers of an instance's lights: `count` from `first`, triangle by triangle of its mesh. */
 lightbvh_status lightbvh_lights_of(const lightbvh *bvh, lightbvh_instance instance, uint32_t *first, uint32_t *count);
-/* A point on a light, uniform over its area where the numbers u and v are over [0, 1). */
+/* A point on a light, uniform over its area where u and v are; numbers in [0, 1), others are a LIGHTBVH_BAD_POINT. */
 lightbvh_status lightbvh_point_of(const lightbvh *bvh, uint32_t light, uint32_t instance, float u, float v,
                                   lightbvh_light_point *point);
 /* How many lights there are: the triangles of all instances. */

@@ -15,7 +15,7 @@ pub enum Status {
     BadPointer = 1,
     /// An edit is refused.
     Refused = 2,
-    /// A point is outside the domain.
+    /// A point is outside the domain, or a number outside [0, 1).
     BadPoint = 3,
     /// There is no such light.
     NoLight = 4,

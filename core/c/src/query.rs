@@ -191,6 +191,10 @@ pub unsafe extern "C" fn lightbvh_point_of(
     unsafe {
         Handle::ask(bvh, |bvh| {
             let place = raw::place(point, "point")?;
+            if ![u, v].iter().all(|number| (0.0..1.0).contains(number)) {
+                let message = format!("u and v are {u} and {v}, expected numbers in [0, 1)");
+                return Err(Fault::new(Status::BadPoint, message));
+            }
             place.write(triangle(bvh, light, instance)?.point([u, v]));
             Ok(())
         })

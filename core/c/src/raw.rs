@@ -2,6 +2,8 @@
 
 use std::mem::MaybeUninit;
 
+use lightbvh::error::MAX_LIGHTS;
+
 use crate::error::{Fault, Status};
 
 fn bad(what: &str) -> Fault {
@@ -54,6 +56,20 @@ pub(crate) unsafe fn array<'a, T>(pointer: *const T, count: usize, what: &str) -
     unsafe { shared(pointer, what) }?;
     // SAFETY: not null, aligned, not longer than memory; the rest is the caller's promise.
     Ok(unsafe { std::slice::from_raw_parts(pointer, count) })
+}
+
+/// An array to be copied, of no more elements than a light BVH may have lights: memory that is not there ends a program.
+///
+/// # Safety
+/// As [`array`].
+pub(crate) unsafe fn copied<T: Clone>(pointer: *const T, count: usize, what: &str) -> Result<Vec<T>, Fault> {
+    fits::<T>(count, what)?;
+    if count > MAX_LIGHTS {
+        let message = format!("{count} {what}, a light BVH may have {MAX_LIGHTS} lights");
+        return Err(Fault::new(Status::Refused, message));
+    }
+    // SAFETY: the caller's promise.
+    Ok(unsafe { array(pointer, count, what) }?.to_vec())
 }
 
 /// An array of plain words to be written; null where it has no elements.

@@ -99,6 +99,35 @@ fn null_and_unaligned_pointers_are_refused() {
     }
 }
 
+#[test]
+fn counts_and_numbers_out_of_range_are_refused() {
+    let bvh = lightbvh_create();
+    let mut mesh: CMesh = words([0; 4]);
+    let mut instance: CInstance = words([0; 4]);
+    let mut point = None;
+    // SAFETY: counts that no memory holds are refused before it is read; else all pointers are good.
+    unsafe {
+        let many = (1 << 30) + 1;
+        assert_eq!(lightbvh_add_mesh(bvh, &LAMP, many, &mut mesh), Status::Refused);
+        assert!(last().contains("1073741825 triangles"), "{}", last());
+        assert_eq!(lightbvh_set_triangles(bvh, mesh, &LAMP, 1 << 40), Status::Refused);
+        assert_eq!(lightbvh_add_mesh(bvh, &LAMP, 1, &mut mesh), Status::Ok);
+        assert_eq!(
+            lightbvh_add_instance(bvh, mesh, &identity(), 1.0, &mut instance),
+            Status::Ok
+        );
+        assert_eq!(lightbvh_refit(bvh), Status::Ok);
+        for [u, v] in [[f32::NAN, 0.5], [0.5, 1.0], [-5.0, 3.0], [0.5, f32::INFINITY]] {
+            let asked = lightbvh_point_of(bvh, 0, 0, u, v, point.insert(std::mem::zeroed()));
+            assert_eq!(asked, Status::BadPoint, "{u}, {v}");
+            assert!(last().contains("expected numbers in [0, 1)"), "{}", last());
+        }
+        let asked = lightbvh_point_of(bvh, 0, 0, 0.0, 0.999, point.insert(std::mem::zeroed()));
+        assert_eq!(asked, Status::Ok);
+        lightbvh_free(bvh);
+    }
+}
+
 /// As many lights of one mesh as there are places.
 unsafe fn add(bvh: *mut Handle, places: &[CTransform]) -> Vec<CInstance> {
     let mut mesh: CMesh = words([0; 4]);
