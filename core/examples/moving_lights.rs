@@ -1,5 +1,5 @@
-//! Lamps that come, move and go. A rebuilder works beside the frames wherever the top level gets worse, which edits of so few
-//! do not make it.
+//! Lamps that come, move and go. A rebuilder works beside the frames wherever the top level gets worse; how soon its tree comes
+//! in depends on the machine, unless [`Swap::Deterministic`](lightbvh::rebuilder::Swap) is chosen.
 //!
 //! `cargo run -p lightbvh --example moving_lights` (seconds)
 
