@@ -165,8 +165,8 @@ lightbvh_status lightbvh_end_frame(lightbvh_rebuilder *rebuilder, const lightbvh
 /* What keeps numbers of lights from frame to frame, as reservoirs do, asks in each frame after its edits which numbers are no
  * more, replaces what it keeps of them, and has them forgotten: until then no new light gets such a number. The exception keeps
  * memory bounded where they never are: once more than 65536 numbers wait, and more than (there are lights, or half of what
- * is left of 2^30), all of them are free, and the first range is that of every number there was, lights that are there among
- * them: all that was kept by number is then to be given up. */
+ * is left of 2^30), all of them are free. The first range then covers every number there was, those of lights that are still
+ * there too: what is kept by number is dropped as a whole. */
 
 /* Ranges of numbers of lights that are no more, since they were forgotten last: `count` of them, of which the first `capacity`
  * are written. Where `count` is greater, ask again with room for all before they are forgotten. */

@@ -44,9 +44,9 @@ pub unsafe extern "C" fn lightbvh_add_mesh(
     // SAFETY: the caller's promise, here and below.
     unsafe {
         Handle::change(bvh, |bvh| {
-            let triangles = raw::copied(triangles, count, "triangles")?;
+            let triangles = raw::at_most_lights(triangles, count, "triangles")?;
             let mesh = raw::place(mesh, "mesh")?;
-            mesh.write(bvh.add_mesh(triangles).map_err(refused)?.into());
+            mesh.write(bvh.add_mesh(triangles.to_vec()).map_err(refused)?.into());
             Ok(())
         })
     }
@@ -97,7 +97,7 @@ pub unsafe extern "C" fn lightbvh_add_instances(
     // SAFETY: the caller's promise, here and below.
     unsafe {
         Handle::change(bvh, |bvh| {
-            let transforms = raw::copied(transforms, count, "transforms")?;
+            let transforms = raw::at_most_lights(transforms, count, "transforms")?;
             let instances = raw::places(instances, count, "instances")?;
             let mesh = mesh.id()?;
             let add = |&transform: &CTransform| Edit::AddInstance {
@@ -169,8 +169,8 @@ pub unsafe extern "C" fn lightbvh_set_triangles(
     // SAFETY: the caller's promise, here and below.
     unsafe {
         Handle::change(bvh, |bvh| {
-            let triangles = raw::copied(triangles, count, "triangles")?;
-            bvh.set_triangles(mesh.id()?, triangles).map_err(refused)
+            let triangles = raw::at_most_lights(triangles, count, "triangles")?;
+            bvh.set_triangles(mesh.id()?, triangles.to_vec()).map_err(refused)
         })
     }
 }
@@ -190,8 +190,8 @@ pub unsafe extern "C" fn lightbvh_set_triangle_range(
     // SAFETY: the caller's promise, here and below.
     unsafe {
         Handle::change(bvh, |bvh| {
-            let triangles = raw::copied(triangles, count, "triangles")?;
-            bvh.set_triangle_range(mesh.id()?, first, triangles)
+            let triangles = raw::at_most_lights(triangles, count, "triangles")?;
+            bvh.set_triangle_range(mesh.id()?, first, triangles.to_vec())
                 .map_err(refused)
         })
     }

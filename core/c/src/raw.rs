@@ -58,18 +58,22 @@ pub(crate) unsafe fn array<'a, T>(pointer: *const T, count: usize, what: &str) -
     Ok(unsafe { std::slice::from_raw_parts(pointer, count) })
 }
 
-/// An array to be copied, of no more elements than a light BVH may have lights: memory that is not there ends a program.
+/// An array of no more elements than a light BVH may have lights. To copy more would end the program: there is no memory.
 ///
 /// # Safety
 /// As [`array`].
-pub(crate) unsafe fn copied<T: Clone>(pointer: *const T, count: usize, what: &str) -> Result<Vec<T>, Fault> {
+pub(crate) unsafe fn at_most_lights<'a, T>(
+    pointer: *const T,
+    count: usize,
+    what: &str,
+) -> Result<&'a [T], Fault> {
     fits::<T>(count, what)?;
     if count > MAX_LIGHTS {
         let message = format!("{count} {what}, a light BVH may have {MAX_LIGHTS} lights");
         return Err(Fault::new(Status::Refused, message));
     }
     // SAFETY: the caller's promise.
-    Ok(unsafe { array(pointer, count, what) }?.to_vec())
+    unsafe { array(pointer, count, what) }
 }
 
 /// An array of plain words to be written; null where it has no elements.

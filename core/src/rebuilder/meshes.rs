@@ -212,10 +212,6 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
         while begun < free && looked_at < LOOKED_AT {
             let Some(blas) = self.waiting.pop() else { break };
             looked_at += 1;
-            // A new tree may be worn before it comes in, and is then asked for twice: as it is, and as it has come in.
-            if self.is_under_way(blas, false) {
-                continue;
-            }
             if self.is_under_way(blas, true) {
                 // The part comes first.
                 self.waiting.push(blas);
@@ -253,18 +249,19 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
         let mut flights = core::mem::take(&mut self.under_way);
         for flight in &mut flights {
             let mut stepped = flight.step(&mut self.threads, scene, params, &mut bytes, start);
-            if matches!(flight.at, At::Over) {
-                if !scene.has(flight.id) && stepped.is_ok() {
-                    stepped = Err(RebuildError::Foreign);
-                }
-                self.note_over(flight, scene, params, start);
+            if matches!(flight.at, At::Over) && !scene.has(flight.id) && stepped.is_ok() {
+                stepped = Err(RebuildError::Foreign);
             }
             if let Err(error) = stepped {
                 result = Err(error);
             }
         }
-        flights.retain(|flight| !matches!(flight.at, At::Over));
         self.under_way = flights;
+        let is_over = |flight: &Flight<N, W>| matches!(flight.at, At::Over);
+        while let Some(at) = self.under_way.iter().position(is_over) {
+            let flight = self.under_way.remove(at);
+            self.note_over(&flight, scene, params, start);
+        }
         scene.hand_over_some(HANDED);
         start.copied = (all - bytes) as u32;
         let waiting = self.waiting.len() + self.small.len();
@@ -294,7 +291,10 @@ impl<N: Node<W>, const W: usize> Meshes<N, W> {
             (true, false) => self.strained.push(flight.blas),
             (false, true) => {
                 let new = scene.follower_of(flight.blas);
-                if let Some(blas) = new.filter(|&blas| scene.is_worn(blas, &params.rebuild)) {
+                // It may have been asked for, and begun, since it was put in place.
+                let is_due =
+                    |&blas: &u32| scene.is_worn(blas, &params.rebuild) && !self.is_under_way(blas, false);
+                if let Some(blas) = new.filter(is_due) {
                     self.waiting.push(blas);
                 }
             }

@@ -47,7 +47,7 @@ pub(crate) struct Search {
     next: u32,
     /// How many are to be looked at before all have been since the last change.
     left: u32,
-    /// Searches before a node above parts has its turn, while parts are worn.
+    /// Searches before a node above parts has its turn, while parts are worn; of a small top level, before little counts again.
     waits: u32,
     /// The epochs at which the last frames ended, the oldest at `oldest`.
     ended: [u64; REST],
@@ -201,7 +201,7 @@ impl<N: Node<W>, I, const W: usize, T: Trails> Bvh<N, I, W, T> {
                 .filter(|&blas| self.is_blinking(blas, asked.rests_since))
                 .count();
             if off * BLINKS > copy.len() {
-                copy.pays = pays.min(PAYS_BESIDE);
+                copy.pays = PAYS_BESIDE;
             }
         }
         copy
