@@ -115,7 +115,7 @@ int main(void)
 
     must(lightbvh_light_count(bvh, &count));
     must(lightbvh_lights_of(bvh, lamps[40], &first, &lights));
-    printf("lights %u to %u are of lamp 40\n", (unsigned)first, (unsigned)(first + lights));
+    printf("lamp 40 has lights from %u on, %u of them\n", (unsigned)first, (unsigned)lights);
     printf("%u lights\n", (unsigned)count);
 
     /* Samples of a row of points on the ground, as words. */

@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         p: [42.3, 0.0, 0.5],
         n: [0.0, 1.0, 0.0],
     };
-    // Numbers in order give lights in order: eight strata, eight lamps.
+    // Numbers in order give lights in order: eight strata, as many lamps or fewer.
     for stratum in 0..8_u32 {
         let sampled = bvh.sample(&point, Random64::from((stratum << 29) + (1 << 28)));
         let triangle = bvh

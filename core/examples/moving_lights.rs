@@ -52,7 +52,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let gone = bvh.take_removed_lights();
         if frame % 20 == 19 {
             println!(
-                "frame {frame}: {} lamps, rebuilt {rebuilds} times, {} gone, light {} with probability {:.3}, the last lamp's {:.4}",
+                "frame {frame}: {} lamps, rebuilt {rebuilds} times, {} gone in it, light {} with probability {:.3}, the last lamp's {:.4}",
                 bvh.light_count(),
                 gone.len(),
                 sampled.light,

@@ -51,7 +51,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     // Four times what the fastest takes here: a slow machine has a larger budget.
     let fastest = measured.iter().map(|of| of.time_ns).fold(f64::INFINITY, f64::min);
-    let time = Budget::Time { ns: 4.0 * fastest };
+    let time = Budget::Time {
+        ns: (4.0 * fastest).round(),
+    };
     for budget in [time, Budget::Error { relative: 0.1 }] {
         let pick = budget.pick(&measured)?;
         println!(

@@ -25,7 +25,7 @@ typedef enum lightbvh_status {
     LIGHTBVH_OK = 0,
     /* A pointer is null or not aligned, or a length is beyond all memory. */
     LIGHTBVH_BAD_POINTER = 1,
-    /* An edit is refused: an id that is not in use, a number out of its range, a mesh in use, ... */
+    /* An edit, or an id, is refused: it is not in use, a number is out of its range, a mesh in use, ... */
     LIGHTBVH_REFUSED = 2,
     /* A point is not within 2^40 m, its normal is neither zero nor of length 1, or a number is not in [0, 1). */
     LIGHTBVH_BAD_POINT = 3,
@@ -105,8 +105,8 @@ typedef struct lightbvh_frame_start {
     uint32_t adopted;   /* large meshes whose new trees took their places since the last frame began */
     uint32_t parts;     /* parts of large meshes that did */
     uint32_t dropped;   /* new trees of large meshes, and of parts of them, that came to nothing since then */
-    uint32_t under_way; /* large meshes that are under way or wait for it */
-    uint32_t copied;    /* bytes that this call copied for large meshes */
+    uint32_t under_way; /* trees of large meshes, and of parts, that are under way or wait: one mesh may have two */
+    uint32_t copied;    /* bytes that this call copied or wrote for large meshes, and what takes as long */
 } lightbvh_frame_start;
 
 /* What the last function that failed on this thread had to say, in UTF-8; "" before any did. It stays until the next one
@@ -118,7 +118,8 @@ lightbvh *lightbvh_create(void);
 /* Frees it. Null does nothing. */
 void lightbvh_free(lightbvh *bvh);
 
-/* Edits. Samples see them after the next lightbvh_refit. */
+/* Edits. Samples see them after the next lightbvh_refit. A count of more than 2^30 is refused; with one of 0 a pointer may be
+ * null. */
 
 /* A new mesh of `count` triangles, at least one and at most 2^30, in the mesh's own space. It is not in the world yet. */
 lightbvh_status lightbvh_add_mesh(lightbvh *bvh, const lightbvh_triangle *triangles, size_t count, lightbvh_mesh *mesh);
@@ -148,8 +149,8 @@ lightbvh_status lightbvh_refit(lightbvh *bvh);
 lightbvh_status lightbvh_rebuild(lightbvh *bvh);
 
 /* Frames: lightbvh_begin_frame, edits, lightbvh_refit, lightbvh_end_frame. Refits alone make samples of moving lights worse
- * from frame to frame; the rebuilder builds what lost quality on its threads, and begin and end of a frame take 0.3 ms at most
- * on most machines (docs/dynamics.md), whatever it builds. */
+ * from frame to frame; the rebuilder builds what lost quality on its threads. The work of begin and end of a frame is bounded,
+ * whatever it builds: 0.3 ms on most machines, more where cores are slow or shared (docs/dynamics.md). */
 
 /* A rebuilder, to be freed by lightbvh_rebuilder_free; null only where memory or the library fails. With `after` 0 trees come
  * in once they are ready, and no frame waits. With another they come in as that many frames have passed, and that frame waits
@@ -164,9 +165,9 @@ lightbvh_status lightbvh_end_frame(lightbvh_rebuilder *rebuilder, const lightbvh
 
 /* What keeps numbers of lights from frame to frame, as reservoirs do, asks in each frame after its edits which numbers are no
  * more, replaces what it keeps of them, and has them forgotten: until then no new light gets such a number. The exception keeps
- * memory bounded where they never are: once more than 65536 numbers wait, and more than (there are lights, or half of what
- * is left of 2^30), all of them are free. The first range then covers every number there was, those of lights that are still
- * there too: what is kept by number is dropped as a whole. */
+ * memory bounded where they never are: once more of them wait than 65536 and than there are lights (or than half of what is
+ * left of 2^30, where that is less), all of them are free. The first range then covers every number there was, those of lights
+ * that are still there too: what is kept by number is dropped as a whole. */
 
 /* Ranges of numbers of lights that are no more, since they were forgotten last: `count` of them, of which the first `capacity`
  * are written. Where `count` is greater, ask again with room for all before they are forgotten. */
@@ -188,7 +189,8 @@ lightbvh_status lightbvh_pmf(const lightbvh *bvh, const lightbvh_point *point, u
 /* The triangle, in the world, that a sample names. */
 lightbvh_status lightbvh_triangle_of(const lightbvh *bvh, uint32_t light, uint32_t instance,
                                      lightbvh_triangle *triangle);
-/* The numbers of an instance's lights: `count` from `first`, triangle by triangle of its mesh. */
+/* The numbers of an instance's lights: `count` from `first`, triangle by triangle of its mesh. LIGHTBVH_REFUSED where the
+ * instance was removed: what keeps ids from frame to frame asks so. */
 lightbvh_status lightbvh_lights_of(const lightbvh *bvh, lightbvh_instance instance, uint32_t *first, uint32_t *count);
 /* A point on a light, uniform over its area where u and v are; numbers in [0, 1), others are a LIGHTBVH_BAD_POINT. */
 lightbvh_status lightbvh_point_of(const lightbvh *bvh, uint32_t light, uint32_t instance, float u, float v,

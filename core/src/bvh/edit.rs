@@ -83,8 +83,9 @@ impl InstanceId {
     }
 
     /// Index of the instance among [`Bvh::instances`](super::Bvh::instances), and of the mesh light that its triangles belong
-    /// to. Free for another one as soon as the instance is removed, so lights are told apart over frames by their numbers;
-    /// indices of instances added one by one have gaps, where parts of opened meshes have theirs.
+    /// to. Free for another one as soon as the instance is removed: over frames lights are told apart by ids, as this one, or
+    /// by their numbers (see [`Bvh::removed_lights`](super::Bvh::removed_lights)). Indices of instances added one by one have
+    /// gaps, where parts of opened meshes have theirs.
     #[must_use]
     pub fn index(self) -> u32 {
         self.index

@@ -23,12 +23,13 @@ pub struct FrameStart {
     pub parts: u32,
     /// Number of large meshes, and of parts of them, whose new trees came to nothing since then: the mesh is gone or was built
     /// by other means, building failed, or a part found no tree of as many nodes. Deformation drops none: what changes
-    /// meanwhile is computed in the new tree.
+    /// meanwhile is computed in the new tree. Each is told as its thread is done.
     pub dropped: u32,
     /// Whether large meshes wait because another [`Rebuilder`](crate::Rebuilder) has some of the same light BVH under way. One
     /// for each light BVH is enough: a second one begins no large mesh as long as the first has one under way.
     pub is_second: bool,
-    /// Number of large meshes that are under way or wait for it.
+    /// Number of trees of large meshes, and of parts of them, that are under way, wait for it, or have instances that are still
+    /// to follow: one mesh may have two.
     pub under_way: u32,
     /// What of [`RebuilderParams::bytes`](super::RebuilderParams::bytes) went into them in this call: bytes copied, written for
     /// the first time, and nodes computed at bytes that take as long. What changes meanwhile is computed in the new trees
